@@ -64,8 +64,13 @@ def measure_collisions(pairs: int, repeats: int) -> None:
         "velocity2": rng.normal(size=(pairs, 3)),
         "spin2": rng.normal(size=(pairs, 3)) / ball.radius,
     }
-    walton = carom.WaltonLaw(friction=0.2, tangential_restitution=0.4)
-    laws = {"exact": None, "smooth": carom.SmoothLaw(), "rough": carom.RoughLaw(), "Walton": walton}
+    walton = carom.laws.WaltonLaw(friction=0.2, tangential_restitution=0.4)
+    laws = {
+        "exact": None,
+        "smooth": carom.laws.SmoothLaw(),
+        "rough": carom.laws.RoughLaw(),
+        "Walton": walton,
+    }
 
     sides = cycle((normal, -normal))  # after a collision in place the next is on the other side
 
@@ -92,8 +97,8 @@ def measure_collisions(pairs: int, repeats: int) -> None:
 def measure_laws(repeats: int) -> None:
     """Print the time to build a law and its size."""
     for chi in CHIS:
-        (each,) = alternately([lambda chi=chi: carom.ReboundLaw(chi)], repeats)
-        size = carom.ReboundLaw(chi).nbytes
+        (each,) = alternately([lambda chi=chi: carom.laws.ReboundLaw(chi)], repeats)
+        size = carom.laws.ReboundLaw(chi).nbytes
         print(f"ReboundLaw({chi:<4g})                      {each * 1e3:6.1f} ms, {size} bytes")
 
 

@@ -16,7 +16,7 @@ from urllib.parse import urlencode, urlsplit
 import numpy as np
 
 from carom.explorer import explorer
-from carom.verify import CATALOGUE
+from carom.verify.entries import CATALOGUE
 
 SEED = 20261122
 LAWS = ("mindlin", "YADE Mindlin", "Walton & Braun")
@@ -67,6 +67,10 @@ class Page:
         status, found = self._ask("GET", path)
         assert status == 200, found
         return found
+
+    def close(self) -> None:
+        """Let the connection go."""
+        self._line.close()
 
     def _ask(self, method: str, path: str, body: str | None = None) -> tuple[int, bytes]:
         """Ask, and ask again as the page does, if the connection was refused or closed."""

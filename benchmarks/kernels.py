@@ -27,7 +27,7 @@ def works(count: int) -> dict[str, Callable[[], object]]:
     normal = rng.normal(size=velocity.shape)
     normal /= np.linalg.norm(normal, axis=1)[:, np.newaxis]
     few, lossy = slice(0, max(1, count // 20)), carom.KelvinVoigt(restitution=0.9)
-    law, one = carom.LammpsMindlin(), {"velocity1": velocity[:1], "normal": normal[:1]}
+    law, one = carom.dem.LammpsMindlin(), {"velocity1": velocity[:1], "normal": normal[:1]}
     return {
         "impacts": lambda: carom.rebound(psi, chi, threads=1),
         "impacts with losses": lambda: carom.rebound(psi[few], chi[few], losses=lossy, threads=1),

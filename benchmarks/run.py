@@ -12,10 +12,12 @@ from functools import partial
 import numpy as np
 
 import carom
-from carom.dimensionless.twins.marching import march
+from carom.dimensionless.lossy.layout import PSI_OUT
+from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
+from carom.dimensionless.lossy.springs.rebounds import marched
 
 SEED = 20261121
-FINE, COARSE = (500, 2000), (125, 500)
+FINE, COARSE = 500, 125  # springs
 
 
 def seconds(work: Callable[[], object], repeats: int) -> float:
@@ -38,15 +40,15 @@ def measure_impacts(many: int, few: int, repeats: int) -> float:
 
     exact = seconds(lambda: carom.rebound(psi, chi, threads=1), repeats) / many
     print(f"exact, psi in [0, 6], chi in [1.1, 1.8]   {exact * 1e6:8.1f} us per impact")
-    for springs, steps in (FINE, COARSE):
+    for springs in (FINE, COARSE):
 
-        def marched(springs: int = springs, steps: int = steps) -> list[float]:
-            return [march(p, c, springs, steps) for p, c in cases]
+        def by_springs(springs: int = springs) -> list[float]:
+            return [marched(p, Inertia(c), ELASTIC, springs)[PSI_OUT] for p, c in cases]
 
-        each = seconds(marched, repeats) / few
-        error = np.abs(np.array(marched()) - truth)
+        each = seconds(by_springs, repeats) / few
+        error = np.abs(np.array(by_springs()) - truth)
         print(
-            f"marching, {springs} springs, {steps:4d} steps       {each * 1e6:8.1f} us per impact,"
+            f"marching, {springs} springs                   {each * 1e6:8.1f} us per impact,"
             f" {each / exact:5.1f} times the exact; error {np.median(error):.0e},"
             f" at most {error.max():.0e}"
         )
@@ -69,12 +71,12 @@ def measure_paths(pair: carom.Pair, many: int, repeats: int) -> None:
     tangential = pair.friction * normal * rng.uniform(-1.0, 1.0, many)
     few = many // 100
 
-    def followed(n: int) -> carom.LoadPath:
+    def followed(n: int) -> carom.results.LoadPath:
         return carom.load_path(pair, normal_force=normal[:n], tangential_force=tangential[:n])
 
     whole = followed(many)
 
-    def moved(n: int) -> carom.LoadPath:
+    def moved(n: int) -> carom.results.LoadPath:
         path = {"penetration": whole.penetration[:n], "displacement": whole.displacement[:n]}
         return carom.load_path(pair, **path)
 
@@ -87,7 +89,7 @@ def measure_paths(pair: carom.Pair, many: int, repeats: int) -> None:
         )
 
 
-def measure_fields(hit: carom.Impact, exact: float, repeats: int) -> None:
+def measure_fields(hit: carom.results.Impact, exact: float, repeats: int) -> None:
     """Print the time of the fields and stresses of one instant on their own grids."""
     time = 0.6 * hit.duration
     for name, work in (("fields, 101 x 101", hit.fields), ("stress, 101 x 61", hit.stress)):

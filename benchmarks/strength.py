@@ -40,7 +40,7 @@ def seconds_of_points(pair: carom.Pair, drawn: Sequence[tuple[float, float]]) ->
     times = []
     for angle, friction in drawn:
         start = time.perf_counter()
-        carom.strength(pair, angle=[angle], friction=[friction], workers=1, progress=False)
+        carom.bearable_speeds(pair, angle=[angle], friction=[friction], workers=1, progress=False)
         times.append(time.perf_counter() - start)
     return times
 
@@ -51,7 +51,7 @@ def measure_map(pair: carom.Pair, side: int) -> None:
     times = []
     for workers in (1, available_cores()):
         start = time.perf_counter()
-        carom.strength(pair, **axes, workers=workers, progress=False)
+        carom.bearable_speeds(pair, **axes, workers=workers, progress=False)
         times.append((time.perf_counter() - start) / side**2)
     print(
         f"a map of {side} by {side}: {1e3 * times[0]:.1f} ms a point on one core, "

@@ -20,24 +20,22 @@ extensions = [
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
+    "sphinx_external_toc",
     "sphinx_gallery.gen_gallery",
-    "commands",
     "contents",
-    "diagrams",
     "explore_links",
-    "explorer_copy",
     "formulas",
     "names",
     "schema",
 ]
 templates_path = ["_templates"]
+suppress_warnings = ["etoc.toctree"]  # reference and gallery have their own tables of contents
 exclude_patterns = ["_ext", "gallery/*.ipynb", "gallery/*.py"]
 default_role = "code"
 smartquotes = False  # "--json" is not a dash
 toc_object_entries_show_parents = "hide"
 
 myst_enable_extensions = ["amsmath", "colon_fence", "dollarmath"]
-myst_fence_as_directive = ["mermaid"]
 myst_heading_anchors = 3
 
 # MathJax as one file that comes with the pages: they ask no other host for anything.

@@ -39,7 +39,7 @@ def main(folder: str | Path = ".") -> str:
 
     bead = carom.Sphere(radius="1 mm", material="soda-lime-glass")
     pair = carom.Pair(bead, bead, friction=0.1)
-    springs = carom.LinearSpring()
+    springs = carom.dem.LinearSpring()
     (advice,) = carom.verify.tune([springs], chi=pair.chi, kappa=pair.kappa).advice
     assert 0.8 * pair.kappa < advice.value < pair.kappa, "a little softer than elastic bodies"
     assert advice.max_error < 0.6 * advice.before

@@ -15,18 +15,44 @@ Barber (1979), ZAMP 30:468, section 6 and equations (26), (34).
 from pathlib import Path
 
 import numpy as np
+from scipy.optimize import brentq
+from scipy.special import hyp2f1
 
 import carom
-from carom.dimensionless.twins.stick import Stick, transition_speed
 from carom.plots.legends import legend_above
 from carom.plots.style import BLACK, DASHES, LINES, new_figure, save_figure, styled
 
 CHIS = (0.8, 1.44, 2.5)
 
 
+def transition_speed(psi, chi):
+    """The speed at which gross slip ends, (34)."""
+    return (psi - 2 * chi) / (1 - 2 * chi)
+
+
+def pair(x, chi):
+    """Return h_1 and h_2 of (20) and (22), and their derivatives."""
+    root = np.sqrt(240 * chi + 1)
+    a, b = (11 + root) / 20, (11 - root) / 20
+    h = np.array([hyp2f1(a, b, 0.6, x), x**0.4 * hyp2f1(a + 0.4, b + 0.4, 1.4, x)])
+    slope = [
+        a * b / 0.6 * hyp2f1(a + 1, b + 1, 1.6, x),
+        0.4 * x**-0.6 * hyp2f1(a + 0.4, b + 0.4, 0.4, x),
+    ]
+    return h, np.array(slope)
+
+
 def stick_phase(psi, chi):
-    """Return the closed form of the stick phase."""
-    return Stick.from_touch(psi, chi) if psi < 1 else Stick.after_gross_slip(psi, chi)
+    """Return the speeds at which stick begins and ends, in closed form."""
+    start, shares = 1.0, np.array([psi, 0])
+    if psi > 1:  # g = 1 where gross slip ends, with the slope that keeps the force continuous
+        start = transition_speed(psi, chi)
+        conditions = [1, 0.5 * (1 - 2 * chi) / start**2]
+        shares = np.linalg.solve(np.array(pair(1 - start**2, chi)), conditions)
+    end = brentq(
+        lambda v: shares @ pair(1 - v**2, chi)[0] + 1, 1e-6, start * (1 - 1e-9), xtol=1e-14
+    )
+    return start, end
 
 
 @styled
@@ -36,8 +62,7 @@ def main(folder: str | Path = ".") -> str:
     worst = 0.0
     for chi, color, dash in zip(CHIS, LINES, DASHES, strict=False):
         psi = np.concatenate([np.linspace(0.01, 0.999, 17), np.linspace(1.001, 1.999 * chi, 17)])
-        sticks = [stick_phase(at, chi) for at in psi]
-        starts, ends = np.array([[stick.start, stick.end] for stick in sticks]).T
+        starts, ends = np.array([stick_phase(at, chi) for at in psi]).T
         assert np.all((ends > 0) & (ends < starts)), "stick ends before maximum penetration"
         axis.plot(psi, ends, color=color, ls=dash, label=rf"end, $\chi = {chi:g}$")
         axis.plot(psi, starts, color=color, ls=dash, lw=0.6)

@@ -14,9 +14,9 @@ Barber (1979), ZAMP 30:468, equations (10) to (15).
 from pathlib import Path
 
 import numpy as np
+from scipy.special import hyp2f1
 
 import carom
-from carom.dimensionless.twins.stick import Stick
 from carom.plots.legends import legend_above
 from carom.plots.style import BLACK, BLUE, DASHES, VERMILION, new_figure, save_figure, styled
 
@@ -47,13 +47,14 @@ def main(folder: str | Path = ".") -> str:
     velocity = PSI * MU * SPEED / PAIR.kappa
     hit = carom.impact(PAIR, normal_speed=SPEED, tangential_speed=velocity)
     assert abs(hit.psi_in - PSI) < 1e-12
-    stick, chi = Stick.from_touch(PSI, PAIR.chi), PAIR.chi
+    chi, root = PAIR.chi, np.sqrt(240 * PAIR.chi + 1)
     state = hit.solution.at(np.linspace(0.002, hit.solution.phases[0].end, 120))
     b = state.contact_radius * hit.scales.radius
     force = state.force * hit.scales.tangential_force
 
     def memory(b):
-        return stick.g(x=C * np.asarray(b) ** 5)
+        """The memory g, (27)."""
+        return PSI * hyp2f1((11 + root) / 20, (11 - root) / 20, 0.6, C * b**5)
 
     step = 1e-4 * b[-1] * np.minimum(1, 4 * (1 - C * b**5))
     slope, curvature = (

@@ -42,7 +42,7 @@ def on_glass(friction=MU):
 
 def spent(pair, angle):
     """Return the work of friction over the energy before, for angles in rad."""
-    worn = carom.wear(pair, speed=SPEED, angle=angle, area=1.0)
+    worn = carom.wear_of_many(pair, speed=SPEED, angle=angle, area=1.0)
     return worn.dissipated_energy.values / (0.5 * pair.first.mass * SPEED**2)
 
 

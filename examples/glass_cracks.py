@@ -77,7 +77,9 @@ def main(folder: str | Path = ".") -> str:
     head_on = {
         flaw: np.array(
             [
-                float(carom.strength(on_glass(d, flaw), angle=0.0).crack_speed_second.squeeze())
+                float(
+                    carom.bearable_speeds(on_glass(d, flaw), angle=0.0).crack_speed_second.squeeze()
+                )
                 for d in DIAMETERS
             ]
         )
@@ -90,7 +92,7 @@ def main(folder: str | Path = ".") -> str:
     assert np.all(head_on[1.0] > head_on[5.0] * 0.999), "shallow flaws alone need more speed"
     measured = deep * (MEASURED / 2492.0) ** (5 / 6)  # P ~ V^(6/5)
 
-    found = carom.strength(on_glass(5.0, 20.0), angle=np.radians(ANGLES), friction=FRICTIONS)
+    found = carom.bearable_speeds(on_glass(5.0, 20.0), angle=np.radians(ANGLES), friction=FRICTIONS)
     oblique = found.crack_speed_second.values
     worst = ANGLES[oblique.argmin(axis=1)]
     np.testing.assert_array_equal(worst, [0.0, 18.0, 30.0, 39.0, 44.0])

@@ -46,7 +46,11 @@ Q = BALL.gyration_ratio
 NODES, WEIGHTS = (0.5 * each for each in np.polynomial.legendre.leggauss(120))
 
 WALTON = "Walton, fitted"
-LAWS = {"exact": None, WALTON: carom.fit_walton(PAIR).law, "perfectly rough": carom.RoughLaw()}
+LAWS = {
+    "exact": None,
+    WALTON: carom.laws.fit_walton(PAIR).law,
+    "perfectly rough": carom.laws.RoughLaw(),
+}
 LOOKS = {
     "exact": {"color": BLUE},
     WALTON: {"color": VERMILION, "ls": DASHES[1]},
@@ -206,11 +210,11 @@ def haff(restitution):
 
 def check_smooth(spheres):
     """Check energy and the rate of collisions with e = 1, Haff's law with e = 0.9."""
-    elastic = cool(carom.SmoothLaw(), spheres, 3, name="smooth")
+    elastic = cool(carom.laws.SmoothLaw(), spheres, 3, name="smooth")
     np.testing.assert_allclose(elastic.translational, 1, rtol=1e-12, err_msg="energy")
     often = elastic.collisions[-1] / elastic.time[-1]
     assert abs(often - 1) < 4 * np.sqrt(2 / (3 * spheres)), f"{often:.4f} collisions, not 1"
-    rate = cool(carom.SmoothLaw(restitution=0.9), spheres, 15, name="e = 0.9").slope(3, 15)
+    rate = cool(carom.laws.SmoothLaw(restitution=0.9), spheres, 15, name="e = 0.9").slope(3, 15)
     error = rate / haff(0.9) - 1
     assert abs(error) < 2 / np.sqrt(spheres), f"cools {error:+.2%} faster than by Haff's law"
     return error
@@ -262,7 +266,7 @@ def draw(gases, ends):
     pairs = [carom.Pair(BALL, BALL, friction) for friction in np.geomspace(0.02, 4, 40)]
     for name, law in {
         "exact": lambda pair: None,
-        WALTON: lambda pair: carom.fit_walton(pair).law,
+        WALTON: lambda pair: carom.laws.fit_walton(pair).law,
     }.items():
         curve = [lasting(law(pair), pair) for pair in pairs]
         axes[2].semilogx([pair.friction for pair in pairs], curve, **LOOKS[name])
@@ -277,7 +281,7 @@ def draw(gases, ends):
 
 def cool_with_losses(spheres, restitution):
     """Cool viscoelastic spheres; return T_rot/T_tr at the end and that of Maxwellian ones."""
-    law = carom.ReboundLaw(PAIR.chi, losses=carom.KelvinVoigt(restitution=restitution))
+    law = carom.laws.ReboundLaw(PAIR.chi, losses=carom.KelvinVoigt(restitution=restitution))
     gas = cool(law, spheres, UNTIL + 0.1, name=f"e = {restitution:g}")
     assert gas.drift.max() < 1e-12, "momentum is kept"
     assert np.all(np.diff(gas.translational + gas.rotational) < 0), "energy only falls"

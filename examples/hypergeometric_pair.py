@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from scipy.special import hyp2f1, poch
 
-from carom.dimensionless.twins.stick import Stick
+import carom
 from carom.plots.style import (
     BLACK,
     BLUE,
@@ -70,15 +70,16 @@ def main(folder: str | Path = ".") -> str:
     enough = np.abs(cut(np.array([0.95]), 80, ALPHA, BETA, GAMMA) / h_1(0.95) - 1)[0]
     assert enough < 1e-2, f"80 terms of (21) leave {enough:.1e} at x = 0.95"
 
-    stick = Stick.after_gross_slip(PSI, CHI)
-    start = 1 - stick.start**2
+    start = 1 - ((PSI - 2 * CHI) / (1 - 2 * CHI)) ** 2  # (34)
     slope = 0.5 * (1 - 2 * CHI) / (1 - start)  # dg/dx, from b g' = (5/2)(1 - 2 chi) x/(1 - x)
     at_start = np.array([start])
     pair = np.array([[h(at_start)[0], derivative(h, at_start)[0]] for h in (h_1, h_2)])
     shares = np.linalg.solve(pair.T, [1.0, slope])
-    after = np.linspace(start, 0.98, 200)
+    impact = carom.solve(PSI, CHI)
+    state = impact.at(np.linspace(impact.phases[1].start, impact.phases[1].end, 200))
+    after = 1 - state.speed**2
     mixed = shares[0] * h_1(after) + shares[1] * h_2(after)
-    error = np.abs((mixed / stick.g(x=after) - 1) * np.abs(stick.g(x=after))).max()
+    error = np.abs(mixed - state.psi / state.speed).max()
     assert error < 1e-8, f"g after gross slip is not the mixture: {error:.1e}"
 
     figure, (axes,) = new_figure(1, 2, width=DOUBLE, height=62, sharex=True)

@@ -33,11 +33,11 @@ OWN = "Carom's fit"
 SPEED, RADIUS = 3.9, 2.5e-3  # m/s, m
 SPHERE = 2.0 / 7.0  # m_t/m_n of a solid sphere on a fixed body
 LAWS = {
-    "linear spring": (carom.LinearSpring(), BLUE),
-    "mindlin": (carom.LammpsMindlin("mindlin"), VERMILION),
-    "mindlin_rescale/force": (carom.LammpsMindlin("mindlin_rescale/force"), GREEN),
-    "Thornton": (carom.ThorntonLaw(), PURPLE),
-    "rigid Coulomb": (carom.HardSphere(), "0.5"),
+    "linear spring": (carom.dem.LinearSpring(), BLUE),
+    "mindlin": (carom.dem.LammpsMindlin("mindlin"), VERMILION),
+    "mindlin_rescale/force": (carom.dem.LammpsMindlin("mindlin_rescale/force"), GREEN),
+    "Thornton": (carom.dem.ThorntonLaw(), PURPLE),
+    "rigid Coulomb": (carom.dem.HardSphere(), "0.5"),
 }
 
 

@@ -17,7 +17,8 @@ from pathlib import Path
 import numpy as np
 
 import carom
-from carom.dimensionless.twins.marching import extrapolated
+from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
+from carom.dimensionless.lossy.springs.rebounds import march_rebound
 from carom.plots.legends import legend_above
 from carom.plots.style import BLACK, DASHES, LINES, label, new_figure, save_figure, styled
 
@@ -36,7 +37,7 @@ def main(folder: str | Path = ".") -> str:
         assert np.all(np.abs(out) <= psi * (1 + 1e-12)), "friction cannot add energy"
         axis.plot(chi, out, color=color, ls=dash, label=rf"$\psi_1 = {psi:g}$")
         for at in (0.3, 0.8, 1.44, 2.5, 5.0):
-            marched = extrapolated(psi, at, 500, 2000)
+            marched = march_rebound(psi, Inertia(at), ELASTIC)[0]
             worst = max(worst, abs(marched - carom.rebound(psi, at)))
             axis.plot(at, marched, "x", color=BLACK, ms=4, mew=0.8, zorder=4)
     assert worst < 2e-5, f"annuli differ by {worst:.1e}"

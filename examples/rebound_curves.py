@@ -16,7 +16,8 @@ from pathlib import Path
 import numpy as np
 
 import carom
-from carom.dimensionless.twins.marching import extrapolated
+from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
+from carom.dimensionless.lossy.springs.rebounds import march_rebound
 from carom.plots import plot_curve, save_figure
 from carom.plots.legends import legend_above
 from carom.plots.style import BLACK, styled
@@ -39,7 +40,7 @@ def main(folder: str | Path = ".") -> str:
         np.testing.assert_allclose(out[slides], straight, atol=1e-12, err_msg="psi_1 - 4 chi")
         assert np.all(np.abs(out) <= psi + 1e-12), "friction cannot add energy"
         for at in (0.6, 1.5 * chi, 3.4 * chi):
-            marched = extrapolated(at, chi, 500, 2000)
+            marched = march_rebound(at, Inertia(chi), ELASTIC)[0]
             worst = max(worst, abs(marched - carom.rebound(at, chi)))
             axis.plot(at, marched, "x", color=BLACK, ms=4, mew=0.8, zorder=4)
     stuck = carom.rebound(np.linspace(0, 1, 11), 0.5)

@@ -13,7 +13,9 @@ from matplotlib.axes import Axes
 from small_pictures import store_small
 
 import carom
-from carom.dimensionless.twins.marching import extrapolated, march
+from carom.dimensionless.lossy.layout import PSI_OUT
+from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
+from carom.dimensionless.lossy.springs.rebounds import march_rebound, marched
 from carom.plots import style
 
 ROOT = Path(__file__).parents[1]
@@ -69,7 +71,7 @@ def draw_laws(axis: Axes) -> str:
     psi = np.linspace(0.0, 14.0, 20_001)
     worst = []
     for chi, color in zip(CHIS, style.LINES, strict=False):
-        error = carom.ReboundLaw(chi)(psi) - carom.rebound(psi, chi)
+        error = carom.laws.ReboundLaw(chi)(psi) - carom.rebound(psi, chi)
         crest = shown(error)[:-1].reshape(100, -1).max(axis=1)
         axis.semilogy(psi[100:-1:200], crest, color=color, label=rf"$\chi$ = {chi:g}")
         worst.append(np.max(np.abs(error)))
@@ -85,11 +87,11 @@ def draw_twin(axis: Axes) -> str:
     psi, chi = rng.uniform(0.0, 6.0, 60), rng.uniform(1.1, 1.8, 60)
     exact, worst = carom.rebound(psi, chi), []
     kinds = (
-        ("500 annuli, 2000 steps", "s", style.GREEN, lambda p, c: march(p, c, 500, 2000)),
-        ("extrapolated", "^", style.VERMILION, extrapolated),
+        ("500 annuli", "s", style.GREEN, lambda *of: marched(*of, ELASTIC, 500)[PSI_OUT]),
+        ("extrapolated", "^", style.VERMILION, lambda *of: march_rebound(*of, ELASTIC)[0]),
     )
     for name, mark, color, solve in kinds:
-        error = np.array([solve(p, c) for p, c in zip(psi, chi, strict=True)]) - exact
+        error = np.array([solve(p, Inertia(c)) for p, c in zip(psi, chi, strict=True)]) - exact
         axis.semilogy(psi, shown(error), mark, color=color, mfc="none", label=name)
         worst.append(f"{np.max(np.abs(error)):.1e} ({name})")
     axis.set(xlabel=r"$\psi_1$", ylim=(5e-17, 1e-3), xlim=(0.0, 6.0))

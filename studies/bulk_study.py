@@ -4,7 +4,6 @@ The table is bulk.csv.
 
 python studies/bulk_study.py              what the table lacks, two hours on two cores
 python studies/bulk_study.py --only drum  of one experiment
-python studies/bulk_study.py --check      the shear moduli of seed 1 again, against the table
 
 Every simulation is stored as soon as it is done; a run that was broken off goes on where it
 stopped. It needs `pair_style carom`: pip install 'carom[verify]', then carom lammps build.
@@ -18,8 +17,8 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory, gettempdir
 
-from bulk import decay, drum, gas, modulus, shear, table
-from bulk.experiment import Found, Run
+from bulk import decay, drum, gas, modulus, shear, simulations
+from bulk.simulations import Found, Run
 from rich.progress import track
 
 PACKINGS = Path(gettempdir(), "carom_packings")  # kept for the next run
@@ -39,26 +38,11 @@ def computed(packings: Path, asked: Run) -> tuple[Run, list[Found] | str]:
 
 def complete(plan: list[Run], workers: int) -> None:
     """Compute what the table lacks and store it."""
-    stored = table.read()
+    stored = simulations.read()
     missing = [asked for asked in plan if asked not in stored]
     for asked, found in simulated(missing, workers):
         stored[asked] = found
-        table.write(stored, everything())
-
-
-def check(workers: int) -> None:
-    """Compute again what does not depend on chance: packings that are hardly sheared."""
-    stored = table.read()
-    again = [
-        asked for asked in modulus.runs() if asked.at == modulus.STRAINS[0] and asked.seed == 1
-    ]
-    off = 0.0
-    for asked, found in simulated(again, workers):
-        before = {each.quantity: each.value for each in stored[asked]}
-        here = {each.quantity: each.value for each in found}
-        off = max(off, abs(here["modulus"] / before["modulus"] - 1.0))
-    print(f"{len(again)} moduli are off by {off:.1e} at most")
-    raise SystemExit(0 if off < 1e-3 else 1)
+        simulations.write(stored, everything())
 
 
 def simulated(runs: list[Run], workers: int) -> Iterator[tuple[Run, list[Found]]]:
@@ -83,10 +67,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", nargs="+", choices=EXPERIMENTS, default=list(EXPERIMENTS))
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--check", action="store_true", help="compute a few again")
     asked = parser.parse_args()
-    if asked.check:
-        check(asked.workers)
     complete([run for run in everything() if run.experiment in asked.only], asked.workers)
 
 

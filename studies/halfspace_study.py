@@ -4,8 +4,6 @@ The table is halfspace_study.csv.
 
 python studies/halfspace_study.py              what the table lacks, hours on one core
 python studies/halfspace_study.py --workers 2  the same on two
-python studies/halfspace_study.py --check      a few rows again, compared with the table
-python studies/halfspace_study.py --smoke      three coarse impacts, nothing is stored
 
 Every impact is stored as soon as it is done; a run that was broken off goes on where it stopped.
 """
@@ -17,11 +15,10 @@ import os
 import sys
 import time
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 import numpy as np
-from halfspace_plan import Impact, drawn, judge, plan
+from halfspace_plan import Impact, plan
 from rich.progress import track
 
 from carom.halfspace.compliance import Materials
@@ -159,47 +156,7 @@ def fill(table: Path, wanted: list[Impact], workers: int) -> int:
     return failed
 
 
-def check(table: Path) -> int:
-    """Compute a coarse impact of each kind again, that of the strongest coupling.
-
-    Return how many differ in psi_2 by 1e-5.
-    """
-    stored = load(table)
-    chosen: dict[str, Impact] = {}
-    for impact in sorted(stored, key=lambda one: (one.elements, -abs(one.beta) / one.friction)):
-        chosen.setdefault(impact.label, impact)
-    differ = 0
-    for impact in chosen.values():
-        change = compute(impact).psi_2 - stored[impact].psi_2
-        differ += abs(change) > 1e-5
-        print(f"{impact.label}, {impact.case}, psi_1 {impact.psi_1:g}: psi_2 off by {change:.1e}")
-    return differ
-
-
-def smoke() -> int:
-    """Compute three coarse impacts into a temporary table, then again: nothing is left to do."""
-    ball = [*judge("nu 0", 8)][:1] + [*judge("unlike", 8)][:1] + [*drawn("like", 8)][:1]
-    with TemporaryDirectory() as folder:
-        table = Path(folder) / TABLE.name
-        failed = fill(table, ball, 1)
-        first = table.read_text(encoding="utf-8")
-        failed += fill(table, ball, 1)
-        return failed + (table.read_text(encoding="utf-8") != first) + (len(load(table)) != 3)
-
-
-def main() -> int:
-    """Fill the table, or check it, or try it out."""
+if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--workers", type=int, default=1, help="processes")
-    parser.add_argument("--check", action="store_true", help="compare a few rows")
-    parser.add_argument("--smoke", action="store_true", help="three impacts, not stored")
-    asked = parser.parse_args()
-    if asked.smoke:
-        return int(smoke() > 0)
-    if asked.check:
-        return int(check(TABLE) > 0)
-    return int(fill(TABLE, plan(), asked.workers) > 0)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(fill(TABLE, plan(), parser.parse_args().workers) > 0)

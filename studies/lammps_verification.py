@@ -22,17 +22,17 @@ from tempfile import TemporaryDirectory
 from unittest.mock import patch
 
 import numpy as np
+from lammps_dem_tests import SEGMENTS, dem_test_yaml
 from page_blocks import blocks, page_with, table
 
 import carom
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import ContactLaw
+from carom.dem.base import ContactLaw
 from carom.verify.engines import arrangement, lammps_twin
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import Lammps, coefficients
 from carom.verify.engines.lammps_twin import Contact, State, outcomes_of, trajectory
 from carom.verify.engines.lammps_unittest import unit_test_yaml
-from carom.verify.engines.lammps_unittest_dem import SEGMENTS, dem_test_yaml
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "examples" / "lammps" / "verification"
@@ -60,11 +60,11 @@ BODIES = {
     "unequal": carom.Pair(BEAD, BALL, friction=0.3),
 }
 LAWS: dict[str, ContactLaw] = {
-    "linear_history": carom.LinearSpring(),
-    "mindlin": carom.LammpsMindlin("mindlin"),
-    "mindlin/force": carom.LammpsMindlin("mindlin/force"),
-    "mindlin_rescale": carom.LammpsMindlin("mindlin_rescale"),
-    "mindlin_rescale/force": carom.LammpsMindlin("mindlin_rescale/force"),
+    "linear_history": carom.dem.LinearSpring(),
+    "mindlin": carom.dem.LammpsMindlin("mindlin"),
+    "mindlin/force": carom.dem.LammpsMindlin("mindlin/force"),
+    "mindlin_rescale": carom.dem.LammpsMindlin("mindlin_rescale"),
+    "mindlin_rescale/force": carom.dem.LammpsMindlin("mindlin_rescale/force"),
 }
 LENGTHS = [round(share * STEPS) for share in SEGMENTS]
 BROKEN = "mindlin_rescale"  # the law that is broken on purpose

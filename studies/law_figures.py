@@ -21,23 +21,25 @@ if TYPE_CHECKING:
 
 CHI = 1.4412
 MAPS = {  # of errors, on one colour scale
-    "spring": carom.LinearSpring(),
-    "thornton": carom.ThorntonLaw(),
-    "mindlin": carom.LammpsMindlin("mindlin"),
-    "softer": carom.LammpsMindlin("mindlin_rescale/force", stiffness=0.78),
+    "spring": carom.dem.LinearSpring(),
+    "thornton": carom.dem.ThorntonLaw(),
+    "mindlin": carom.dem.LammpsMindlin("mindlin"),
+    "softer": carom.dem.LammpsMindlin("mindlin_rescale/force", stiffness=0.78),
 }
 SCALE = 0.7
 SHOWN = {
-    "linear spring, $k_t/k_n=\\kappa$": carom.LinearSpring(),
-    "Thornton": carom.ThorntonLaw(),
-    "mindlin": carom.LammpsMindlin("mindlin"),
-    "mindlin_rescale/force, 0.78": carom.LammpsMindlin("mindlin_rescale/force", stiffness=0.78),
+    "linear spring, $k_t/k_n=\\kappa$": carom.dem.LinearSpring(),
+    "Thornton": carom.dem.ThorntonLaw(),
+    "mindlin": carom.dem.LammpsMindlin("mindlin"),
+    "mindlin_rescale/force, 0.78": carom.dem.LammpsMindlin("mindlin_rescale/force", stiffness=0.78),
 }
 FREE = {
-    "linear spring": carom.LinearSpring,
-    "Hertz, linear history": carom.HertzLinearHistory,
-    "mindlin": lambda x: carom.LammpsMindlin("mindlin", stiffness=x),
-    "mindlin_rescale/force": lambda x: carom.LammpsMindlin("mindlin_rescale/force", stiffness=x),
+    "linear spring": carom.dem.LinearSpring,
+    "Hertz, linear history": carom.dem.HertzLinearHistory,
+    "mindlin": lambda x: carom.dem.LammpsMindlin("mindlin", stiffness=x),
+    "mindlin_rescale/force": lambda x: carom.dem.LammpsMindlin(
+        "mindlin_rescale/force", stiffness=x
+    ),
 }
 KAPPA = 4.0 * CHI / 7.0
 COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE)
@@ -50,7 +52,7 @@ def plot_stiffness() -> Figure:
     axis, stiffness = axes[0, 0], np.geomspace(0.1, 3.0, 121)
     exact = carom.rebound(INCIDENCES, CHI)
     for (name, law), color, dash in zip(FREE.items(), COLORS, style.DASHES, strict=False):
-        unit = KAPPA if law is carom.LinearSpring else 1.0
+        unit = KAPPA if law is carom.dem.LinearSpring else 1.0
         laws = [law(float(unit * x)) for x in stiffness]
         errors = [np.max(np.abs(one.rebound(INCIDENCES, CHI) - exact)) for one in laws]
         axis.plot(stiffness, errors, color=color, ls=dash, label=name)

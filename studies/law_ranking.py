@@ -20,13 +20,14 @@ from page_blocks import as_maths, blocks, page_with, table
 from rich.progress import track
 
 import carom
-from carom.verify import CATALOGUE, Entry, Ranking, Tuning, rank, step_error, tune
+from carom.verify import Entry, Ranking, Tuning, rank, step_error, tune
 from carom.verify.benchmark import Bench, bench, steel_on_steel
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import Lammps
 from carom.verify.engines.liggghts import Liggghts
 from carom.verify.engines.running import Engine, run
 from carom.verify.engines.yade import Yade
+from carom.verify.entries import CATALOGUE
 from carom.verify.errors import INCIDENCES
 from carom.verify.tuning import FREE, TUNED, called
 
@@ -39,15 +40,15 @@ RESTITUTIONS = (0.9, 0.7, 0.5)
 DOUBLED = (1000, 2000, 4000, 8000, 16000, 32000)
 LOSSES = (0.9, 0.5, 0.1)
 SLOWLY, FAST = 1e-4, 0.1  # m/s
-MINDLIN = carom.LammpsMindlin()
-SOFTER = carom.LammpsMindlin("mindlin_rescale/force", stiffness=0.78)
+MINDLIN = carom.dem.LammpsMindlin()
+SOFTER = carom.dem.LammpsMindlin("mindlin_rescale/force", stiffness=0.78)
 ANGLES = (10, 30)  # degrees
 SHOWN = (
     ("mindlin_rescale/force, 0.78 k_t", SOFTER),
-    ("linear spring, k_t/k_n = kappa", carom.LinearSpring()),
-    ("mindlin_rescale/force", carom.LammpsMindlin("mindlin_rescale/force")),
+    ("linear spring, k_t/k_n = kappa", carom.dem.LinearSpring()),
+    ("mindlin_rescale/force", carom.dem.LammpsMindlin("mindlin_rescale/force")),
     ("mindlin", MINDLIN),
-    ("linear spring, k_t/k_n = 2/7", carom.LinearSpring(2.0 / 7.0)),
+    ("linear spring, k_t/k_n = 2/7", carom.dem.LinearSpring(2.0 / 7.0)),
 )
 
 
@@ -65,8 +66,10 @@ def steel_ball() -> str:
             for angle, hit in zip(ANGLES, hits, strict=True):
                 known = {"speed": 1.0, "angle": np.radians(angle), "normal_restitution": 1.0}
                 known["psi_out"] = law.rebound(hit.psi_in, pair.chi, kappa=pair.kappa)
-                left = carom.convert(pair, known=known, wanted="rebound_angle")
-                spin = carom.convert(pair, known=known, wanted="spin_out") / hit.spin_out
+                left = carom.convert_observables(pair, known=known, wanted="rebound_angle")
+                spin = (
+                    carom.convert_observables(pair, known=known, wanted="spin_out") / hit.spin_out
+                )
                 cells.append(f"{np.degrees(left):.1f}° | {spin:.2f}")
             yield f"{name} | {' | '.join(cells)}"
 
@@ -110,18 +113,18 @@ def ranked_with_losses() -> str:
         Entry("mindlin_rescale/force, 0.78 k_t", SOFTER, "LAMMPS"),
         Entry(
             "mindlin_rescale/force, 0.78 k_t, xgammat 1",
-            carom.LammpsMindlin(
+            carom.dem.LammpsMindlin(
                 "mindlin_rescale/force", stiffness=SOFTER.stiffness, tangential_damping=1.0
             ),
             "LAMMPS",
         ),
         Entry(
             "mindlin_rescale/force, xgammat 1",
-            carom.LammpsMindlin("mindlin_rescale/force", tangential_damping=1.0),
+            carom.dem.LammpsMindlin("mindlin_rescale/force", tangential_damping=1.0),
             "LAMMPS",
         ),
-        Entry("mindlin, xgammat 1", carom.LammpsMindlin(tangential_damping=1.0), "LAMMPS"),
-        Entry("mindlin, tsuji", carom.LammpsMindlin(damping="tsuji"), "LAMMPS"),
+        Entry("mindlin, xgammat 1", carom.dem.LammpsMindlin(tangential_damping=1.0), "LAMMPS"),
+        Entry("mindlin, tsuji", carom.dem.LammpsMindlin(damping="tsuji"), "LAMMPS"),
     ]
     entries = [entry for entry in (*CATALOGUE, *extra) if hasattr(entry.law, "restitution")]
     worst = [
@@ -175,17 +178,19 @@ def tuned() -> str:
     return table(f"law | parameter | {best} | max with the usual one, nu = 0.3 | {left}", rows())
 
 
-def damped() -> Iterator[tuple[str, Callable[[float], carom.LinearSpring]]]:
+def damped() -> Iterator[tuple[str, Callable[[float], carom.dem.LinearSpring]]]:
     """Yield laws with tangential damping, as functions of e."""
-    yield "linear spring, c_t = c_n", lambda e: carom.LinearSpring(None, e, 1.0)
+    yield "linear spring, c_t = c_n", lambda e: carom.dem.LinearSpring(None, e, 1.0)
     for name in ("mindlin", "mindlin_rescale", "mindlin/force", "mindlin_rescale/force"):
         yield (
             f"{name}, x_gamma = 1",
-            lambda e, name=name: carom.LammpsMindlin(name, restitution=e, tangential_damping=1.0),
+            lambda e, name=name: carom.dem.LammpsMindlin(
+                name, restitution=e, tangential_damping=1.0
+            ),
         )
-    yield "EDEM Hertz-Mindlin (no slip)", carom.EdemHertzMindlin
-    yield "LIGGGHTS hertz, history", carom.LiggghtsHertz
-    yield "YADE Mindlin", carom.YadeMindlin
+    yield "EDEM Hertz-Mindlin (no slip)", carom.dem.EdemHertzMindlin
+    yield "LIGGGHTS hertz, history", carom.dem.LiggghtsHertz
+    yield "YADE Mindlin", carom.dem.YadeMindlin
 
 
 def limits() -> str:
@@ -207,7 +212,7 @@ def limits() -> str:
 
 def tsuji() -> str:
     """Return what LAMMPS's damping tsuji leaves where 0.7 is asked for."""
-    law = carom.LammpsMindlin(restitution=0.7, damping="tsuji")
+    law = carom.dem.LammpsMindlin(restitution=0.7, damping="tsuji")
     return f"{-law.history(0.5, CHI, steps=20000)['normal_velocity'][-1]:.3f}"
 
 

@@ -19,7 +19,9 @@ from accuracy import impacts
 from page_blocks import as_maths, page_with, table
 
 import carom
-from carom.dimensionless.twins.marching import march
+from carom.dimensionless.lossy.layout import PSI_OUT
+from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
+from carom.dimensionless.lossy.springs.rebounds import marched
 from carom.plots import style
 from carom.verify.engines.experiments import psi_out
 
@@ -43,9 +45,7 @@ BESIDE = {  # where a label goes that would cover another, in points, and how it
     "boundary elements, 16 across": (-4, 2, "right"),
     "boundary elements, 32 across": (-4, -8, "right"),
 }
-FOUND = {
-    "rebound, e = 0.9": 9e-8
-}  # by annuli and small steps, tests/convergence/test_lossy_twin.py
+FOUND = {"rebound, e = 0.9": 9e-8}  # by annuli and small steps
 SEED, RUNS = 20261121, 5
 FINE, COARSE = 5000, 1000  # steps of LAMMPS, whose difference leaves out its start
 DEM_STEPS = 50  # per contact: enough for mindlin
@@ -87,13 +87,13 @@ def each(solve: Callable[[float], float]) -> Callable[[Any], Any]:
 def methods() -> list[Method]:
     """Return all methods but LAMMPS and the boundary elements."""
     chi, kappa = PAIR.chi, PAIR.kappa
-    law, mixture = carom.ReboundLaw(chi), carom.ReboundLaw((1.1, 1.8))
+    law, mixture = carom.laws.ReboundLaw(chi), carom.laws.MixtureLaw(1.1, 1.8)
     weak = carom.KelvinVoigt(restitution=0.9)
-    softer = carom.LammpsMindlin("mindlin_rescale/force", stiffness=0.78)
+    softer = carom.dem.LammpsMindlin("mindlin_rescale/force", stiffness=0.78)
     dem = {
-        "mindlin": (carom.LammpsMindlin("mindlin"), DEM_STEPS),
+        "mindlin": (carom.dem.LammpsMindlin("mindlin"), DEM_STEPS),
         "mindlin_rescale/force with 0.78 k_t": (softer, 640),
-        "linear spring": (carom.LinearSpring(), DEM_STEPS),
+        "linear spring": (carom.dem.LinearSpring(), DEM_STEPS),
     }
     some, many, most = cases(300), cases(3000), cases(300_000)
     return [
@@ -106,7 +106,7 @@ def methods() -> list[Method]:
         Method("ReboundLaw", "tables", most, law),
         Method("MixtureLaw", "tables", most, lambda psi: mixture(psi, chi)),
         *(
-            Method(f"annuli and steps, {n} springs", "numerical", some, marched(chi, n))
+            Method(f"annuli and steps, {n} springs", "numerical", some, by_springs(chi, n))
             for n in (500, 125)
         ),
         *(
@@ -116,9 +116,9 @@ def methods() -> list[Method]:
     ]
 
 
-def marched(chi: float, springs: int) -> Callable[[Any], Any]:
+def by_springs(chi: float, springs: int) -> Callable[[Any], Any]:
     """Return the method of 1976, with four steps a spring."""
-    return each(lambda psi: march(psi, chi, springs, 4 * springs))
+    return each(lambda psi: marched(psi, Inertia(chi), ELASTIC, springs)[PSI_OUT])
 
 
 def stepped(law: Any, chi: float, kappa: float, steps: int) -> Callable[[Any], Any]:
@@ -128,7 +128,7 @@ def stepped(law: Any, chi: float, kappa: float, steps: int) -> Callable[[Any], A
 
 def walton() -> Any:
     """Return Walton's law as close to the exact one as it comes."""
-    return carom.fit_walton(PAIR).law
+    return carom.laws.fit_walton(PAIR).law
 
 
 def one_impact(psi: float) -> float:
@@ -203,7 +203,9 @@ def lammps(unit: float) -> list[Row]:
     seconds = {}
     for steps in (COARSE, FINE, DEM_STEPS):
         start = clock()
-        bench = carom.verify.bench(engine, [carom.LammpsMindlin("mindlin")], psi=psi, steps=steps)
+        bench = carom.verify.bench(
+            engine, [carom.dem.LammpsMindlin("mindlin")], psi=psi, steps=steps
+        )
         seconds[steps] = clock() - start
     per_step = (seconds[FINE] - seconds[COARSE]) / ((FINE - COARSE) * psi.size)
     found = psi_out(*next(iter(bench.outcomes.values())))

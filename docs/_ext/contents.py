@@ -1,7 +1,7 @@
-"""Who follows whom in the manual, and links that lead out of it.
+"""Links that lead out of the manual, and the index of equations.
 
-The pages are also read where the sources are kept, as they stand: so they hold no tables of
-contents and no roles, only links. What the manual needs besides is added here while it is read.
+The pages are also read where the sources are kept, as they stand, so they hold no roles, only
+links. What the manual needs besides is added here while it is read.
 """
 
 import re
@@ -10,38 +10,16 @@ from pathlib import Path
 from typing import Any
 
 from docutils import nodes
-from sections import SECTIONS, entries
 from sphinx import addnodes
 from sphinx.application import Sphinx
 
-HIDDEN_RST = """
 
-.. toctree::
-   :hidden:
-
-   {}
-"""
-HIDDEN = f"""
-
-```{{{{eval-rst}}}}{HIDDEN_RST}```
-"""
-
-
-def add_contents(app: Sphinx, page: str, source: list[str]) -> None:
-    """Give the page that opens a section its table of contents."""
+def add_equations(app: Sphinx, page: str, source: list[str]) -> None:
+    """Give the page of the scripts the part of their index that leads from equations to them."""
     if page == "scripts":
         index = app.srcdir.parent / "examples" / "README.md"
         app.env.note_dependency(index)
         source[0] += equations(index)
-    if page in SECTIONS:
-        there = {name: Path(app.env.doc2path(name)) for name in app.env.found_docs}
-        form = HIDDEN if there[page].suffix == ".md" else HIDDEN_RST
-        source[0] += form.format("\n   ".join(entries(page, there)))
-
-
-def outdated(app: Sphinx, env: Any, added: set[str], changed: set[str], gone: set[str]) -> set[str]:
-    """Return the pages that open sections if pages have come or gone."""
-    return set(SECTIONS) & env.found_docs if added or gone else set()
 
 
 def equations(index: Path) -> str:
@@ -92,7 +70,6 @@ def page_of(target: str) -> str | None:
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
-    app.connect("source-read", add_contents)
-    app.connect("env-get-outdated", outdated)
+    app.connect("source-read", add_equations)
     app.connect("doctree-read", lead_to_gallery, priority=100)  # before downloads are collected
     return {"parallel_read_safe": True}

@@ -1,10 +1,11 @@
-"""Links that open a state of the page: {explore}`10° from the normal <angle=10>`.
+"""Links that open a state of the page, {explore}`10° from the normal <angle=10>`, and its copy.
 
 They go to the copy of the page in the manual, and to the live page on the reader's own machine if
 they ask for contact laws or data, which only that has. `example=ID` stands for an example.
 """
 
 import re
+from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, quote
 
@@ -12,6 +13,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxRole
 
+from carom.explorer.export import export
 from carom.explorer.presets import PRESETS
 
 LIVE = "http://127.0.0.1:8050/"
@@ -50,6 +52,14 @@ class Explore(SphinxRole):
         return [link], []
 
 
+def add_copy(app: Sphinx, error: Exception | None) -> None:
+    """Add the page as a static copy to the manual."""
+    folder = (Path(app.outdir) / COPY).parent
+    if error is None and app.builder.format == "html" and not folder.exists():
+        export(folder)
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
+    app.connect("build-finished", add_copy)
     app.add_role("explore", Explore())
     return {"parallel_read_safe": True}

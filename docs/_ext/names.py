@@ -6,6 +6,7 @@
 import re
 from dataclasses import fields, is_dataclass
 from importlib import import_module
+from inspect import ismodule
 from typing import Any
 
 from docutils import nodes
@@ -21,9 +22,10 @@ from carom.quantities.glossary import GLOSSARY
 
 NAME = re.compile(r"(carom(?:\.\w+)+)(\(.*\))?")
 COMMAND = re.compile(r"carom(?: verify)? [a-z]+")
+PACKAGES = (carom, *filter(ismodule, (getattr(carom, name) for name in carom.__all__)))
 HOMES = {  # where public names are defined, and where they are offered
     f"{thing.__module__}.{thing.__qualname__}": f"{package.__name__}.{name}"
-    for package in (carom, carom.verify, carom.plots, carom.classical, carom.datasets)
+    for package in PACKAGES
     for name in package.__all__
     if hasattr(thing := getattr(package, name), "__qualname__")
 }
@@ -64,8 +66,8 @@ def to_page(code: nodes.literal, name: str, page: str) -> None:
 def offered(name: str) -> str:
     """Return a full name as it is offered to users, if it is.
 
-    >>> offered("carom.bodies.pairs.Pair.chi"), offered("carom.dimensionless.twins.stick")
-    ('carom.Pair.chi', 'carom.dimensionless.twins.stick')
+    >>> offered("carom.bodies.pairs.Pair.chi"), offered("carom.dimensionless.rebounds")
+    ('carom.Pair.chi', 'carom.dimensionless.rebounds')
     """
     parts = name.split(".")
     for end in range(len(parts), 1, -1):
@@ -78,7 +80,7 @@ def offered(name: str) -> str:
 def exists(name: str) -> bool:
     """Return whether a dotted name leads to something.
 
-    >>> exists("carom.dimensionless.twins.stick"), exists("carom.dimensionless.stuck")
+    >>> exists("carom.dimensionless.rebounds"), exists("carom.dimensionless.stuck")
     (True, False)
     """
     parts = name.split(".")

@@ -38,9 +38,9 @@ DATASETS = {
     "Fields along the radius": "hit.radial(0.6 * hit.duration)",
     "Stress below the surface": "hit.stress(0.6 * hit.duration)",
     "Largest stresses of an impact": "hit.peaks()",
-    "Speeds that bodies bear": "carom.strength(pair, angle=[0.3, 0.8])",
+    "Speeds that bodies bear": "carom.bearable_speeds(pair, angle=[0.3, 0.8])",
     "Wear by one impact": 'hit.wear(coefficient="1e-13 m^2/N")',
-    "Wear by many impacts": "carom.wear(pair, speed=2.0, angle=[0.3, 0.8], coefficient=1e-13)",
+    "Wear by many impacts": "carom.wear_of_many(pair, speed=2.0, angle=[0.3, 0.8])",
     "Load path": "path.to_dataset()",
     "Curve": "carom.curve([1.0, 1.44], [0.5, 1.0, 2.0, 6.0])",
     "Map of regimes": "carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44])",
@@ -49,7 +49,7 @@ DATASETS = {
     "Fit": 'carom.fit(carom.datasets.load("kharaz2001")).to_dataset()',
     "Score": "carom.verify.score(results, chi=1.44).to_dataset()",
     "Ranking of contact laws": "carom.verify.rank().to_dataset()",
-    "Error of a contact law": "carom.verify.error_map(carom.LinearSpring(), [1.0, 6.0], [1.44])",
+    "Error of a contact law": "carom.verify.error_map(carom.dem.LinearSpring(), [1, 6], [1.44])",
 }
 FILES = {"results.csv": "psi_1,psi_2\n0.5,0.05\n1.0,-0.06\n2.0,-0.84\n4.0,-1.51\n"}
 COMMANDS = (

@@ -1,10 +1,10 @@
-"""Directives that say what results hold: read from the glossary and from results made now."""
+"""Directives that say what results hold and what commands answer, from those of now."""
 
 import json
 from typing import Any
 
 from docutils import nodes
-from samples import COMMANDS, DATASETS, SETUP, datasets, printed
+from samples import COMMANDS, DATASETS, SETUP, commands, datasets, help_of, printed
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
@@ -48,6 +48,20 @@ class Printed(SphinxDirective):
                 nodes.literal_block(text=json.dumps(printed(command), indent=1), language="json"),
             )
             for command in COMMANDS
+        ]
+
+
+class Commands(SphinxDirective):
+    """A section for every command: what it says of itself with `--help`."""
+
+    def run(self) -> list[nodes.Node]:
+        return [
+            part(
+                nodes.literal(text=" ".join(("carom", *words))),
+                self.state.document,
+                nodes.literal_block(text=help_of(words), language="text"),
+            )
+            for words in commands()
         ]
 
 
@@ -131,4 +145,5 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("quantities", Glossary)
     app.add_directive("datasets", Datasets)
     app.add_directive("printed", Printed)
+    app.add_directive("commands", Commands)
     return {"parallel_read_safe": True}

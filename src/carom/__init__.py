@@ -6,5 +6,8 @@ first used, so that `import carom` is fast.
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+from carom.old_names import with_old_names
+
+_load, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 __all__.remove("__version__")
+__getattr__ = with_old_names(__name__, _load)

@@ -6,9 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from bulk.contact_laws import FINER, LAWS, Setting, duration, named, overlap, pairs, secant
-from bulk.experiment import Found, Run
 from bulk.packings import BEGIN, packing
-from bulk.program import run
+from bulk.simulations import Found, Run, run
 
 PRESSURE, TEMPERATURE = 1e-4, 1e-7
 SPEED = (2 * np.pi * TEMPERATURE) ** 0.5  # at which spheres meet: 1.4 times the mean in a gas

@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bulk.contact_laws import LAWS, Setting, named, pairs, secant
-from bulk.experiment import Found, Run
-from bulk.program import run
+from bulk.simulations import Found, Run, run
 
 GRAVITY, STEP, DEPTH = 3e-5, 0.2, 3e-3  # at the bottom of the bed spheres overlap by some DEPTH
 RADIUS, WIDTH, FILLED = 8.0, 4, 0.4

@@ -11,8 +11,7 @@ import numpy as np
 
 from bulk.contact_laws import LAWS, Setting, duration, named, overlap, pairs, secant
 from bulk.events import cool
-from bulk.experiment import Found, Run
-from bulk.program import run
+from bulk.simulations import Found, Run, run
 
 FRACTION, TEMPERATURE, SIZE = 0.05, 4e-8, 1000
 SPEED = sqrt(pi * TEMPERATURE)  # mean normal speed at which spheres meet

@@ -6,9 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from bulk.contact_laws import FINER, LAWS, Setting, named, pairs, secant
-from bulk.experiment import Found, Run
 from bulk.packings import BEGIN, packing
-from bulk.program import run
+from bulk.simulations import Found, Run, run
 
 PRESSURE = 1e-4
 DEPTH = 2.8e-3  # mean overlap at this pressure

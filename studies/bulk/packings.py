@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from bulk.contact_laws import MODULUS
-from bulk.program import run
+from bulk.simulations import run
 
 COMPRESS = """\
 boundary p p p

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bulk import table
+from bulk import simulations
 from bulk.contact_laws import EXACT, LAWS, named
 
 Sample = dict[int, float]  # by seed
@@ -50,7 +50,7 @@ class Cell(NamedTuple):
 
 def _read() -> dict[Cell, Sample]:
     cells: dict[Cell, Sample] = {}
-    for run, numbers in table.read().items():
+    for run, numbers in simulations.read().items():
         for found in numbers:
             key = (*run[:5], found.quantity, found.where, run.size, run.step)
             cells.setdefault(Cell(*key), {})[run.seed] = found.value

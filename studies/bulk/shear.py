@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from bulk.contact_laws import LAWS, Setting, named, pairs, secant
-from bulk.experiment import Found, Run
 from bulk.packings import BEGIN, packing
-from bulk.program import run
+from bulk.simulations import Found, Run, run
 
 PRESSURE, DEPTH, STEP = 1e-3, 1.3e-2, 0.2
 LENGTHS = {1e-1: (4.0, 16.0), 1e-2: (2.0, 6.0), 1e-3: (0.5, 1.5), 1e-4: (0.07, 0.4)}  # strains

@@ -23,13 +23,15 @@ PATIENCE = 30.0  # s, on a machine that does other things too
 PREPARED = 300.0  # s; without its library Carom compiles first
 READY = "document.querySelector('#results table') && window.Carom && Carom.page.answers()[0]"
 BETWEEN = "?angle=1.5&friction=0.05"  # no test begins here
-TRAVEL = """query => {
+CHART = "document.querySelector('#rebounds .js-plotly-plot')?._fullData"
+TRAVEL = f"""query => {{
   document.activeElement.blur();
   scrollTo(0, 0);
   window.left = Carom.page.answers()[0];
-  history.pushState({}, "", query);
+  window.drawn = {CHART};
+  history.pushState({{}}, "", query);
   dispatchEvent(new Event("popstate"));
-}"""
+}}"""
 
 
 class Visit:
@@ -51,9 +53,13 @@ class Visit:
             self.until(self._drawn)
 
     def travel(self, query):
-        """Go to a link within the page, by way of another, and wait for its charts."""
+        """Go to a link within the page, and wait for its charts.
+
+        From a tab without charts it goes by way of another link, as there is no chart to change.
+        """
         self.page.bring_to_front()  # pages behind others draw seldom
-        for where in (BETWEEN, query or "?"):
+        charts = self.page.evaluate("Carom.tabs.chosen()") == "Charts"
+        for where in (query or "?",) if charts else (BETWEEN, query or "?"):
             self.page.evaluate(TRAVEL, where)
             self.until(lambda: self.page.evaluate("Carom.page.answers()[0] !== window.left"))
         self.until(self._drawn)
@@ -62,6 +68,8 @@ class Visit:
         """Tell whether the chart shows the impact, if it is to be seen."""
         if self.page.evaluate("Carom.tabs.chosen()") != "Charts":
             return True
+        if not self.page.evaluate(f"{CHART} !== window.drawn"):
+            return False
         at = self.page.evaluate("Carom.page.answers()[0].curve.at")
         traces = self.traces("rebounds")
         return traces if at is None else traces["this impact", "markers"]["x"] == at[:1]
@@ -188,18 +196,18 @@ def tabs():
 
 @pytest.fixture
 def visit(address, contexts, tabs):
-    """Open a link; loading the page, or even fresh, in a browser that was never here."""
+    """Open a link; loading the page, alone in a tab, or fresh in a browser that was never here."""
     over, left = [], []
 
-    def open_page(query="", *, width=1280, loading=False, fresh=False, ready=True):
-        if tabs[width] and ready and not (loading or fresh):
+    def open_page(query="", *, width=1280, loading=False, alone=False, fresh=False, ready=True):
+        if tabs[width] and ready and not (loading or alone or fresh):
             seen = tabs[width].pop()
             seen.travel(query)
         else:
             seen = Visit(contexts(width, fresh), address)
             seen.load(query, ready)
         over.append(seen)
-        if not fresh:
+        if not (alone or fresh):
             left.append((width, seen))
         return seen
 

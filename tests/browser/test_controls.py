@@ -66,7 +66,7 @@ def test_losses_are_shown_wherever_the_impact_is(visit):
     expected = carom.rebound(exact["x"], hit.pair.chi, losses=losses)
     assert exact["y"] == pytest.approx(list(expected), abs=2e-5)
     drawn = seen.laid_over(law)[law, "lines"]
-    damped = carom.LammpsMindlin("mindlin", restitution=0.8)
+    damped = carom.dem.LammpsMindlin("mindlin", restitution=0.8)
     expected = damped.rebound(drawn["x"], hit.pair.chi, kappa=hit.pair.kappa)
     assert drawn["y"] == pytest.approx(list(expected), abs=2e-5)
     told = seen.page.locator("#laws").inner_text()

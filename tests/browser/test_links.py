@@ -5,7 +5,7 @@ from urllib.parse import parse_qsl, urlencode, urlsplit
 import pytest
 
 import carom
-from carom.verify.catalogue import named
+from carom.verify.entries import named
 
 pytestmark = pytest.mark.browser
 AFTER, BEFORE = "psi_out", "psi_in"

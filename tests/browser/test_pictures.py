@@ -1,6 +1,7 @@
 """The film's pictures and sentences: words that fit, zones in their colours, what is told is so."""
 
 import re
+from base64 import b64decode
 
 import numpy as np
 import pytest
@@ -44,7 +45,8 @@ PICTURE = """([part, share, width, height, colors]) => {
   const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
   const size = [canvas.height, canvas.width];
   canvas.remove();
-  return { size, data: Array.from(data), colors: colors.map(name => Carom.theme.color(name)) };
+  const text = Array.from(data, byte => String.fromCharCode(byte)).join("");
+  return { size, data: btoa(text), colors: colors.map(name => Carom.theme.color(name)) };
 }"""
 TOLD = """async ([query, shares]) => {
   const { scene } = await Carom.source.answer(query);
@@ -102,11 +104,13 @@ def test_the_key_stays_in_the_smallest_box(visit):
 def picture(page, part, share, colors, width=420, height=360):
     """Return where each colour is drawn, as masks of pixels."""
     found = page.evaluate(PICTURE, [part, share, width, height, colors])
-    pixels = np.array(found["data"]).reshape(*found["size"], 4)
+    pixels = np.frombuffer(b64decode(found["data"]), np.uint8).reshape(*found["size"], 4)
     masks = {}
     for name, color in zip(colors, found["colors"], strict=True):
         rgb = [int(pair, 16) for pair in re.findall("..", color.lstrip("#"))]
-        masks[name] = (np.abs(pixels[..., :3] - rgb).max(axis=-1) < 8) & (pixels[..., 3] > 200)
+        masks[name] = (np.abs(pixels[..., :3] - np.array(rgb)).max(axis=-1) < 8) & (
+            pixels[..., 3] > 200
+        )
     return masks
 
 

@@ -104,7 +104,7 @@ def walton(friction, beta, restitution):
 def largest_error(pair, law, tangential, restitution, given, count):
     """Return the largest difference over the speeds that enter each collision."""
     after = carom.collide(pair, law=law, **given)
-    assert np.all(after.status == carom.CollisionStatus.COLLIDED)
+    assert np.all(after.status == carom.status.CollisionStatus.COLLIDED)
     radii = (1.0, inertia(pair.first)[0], 1.0, inertia(pair.second)[0])
     worst = 0.0
     for i in range(count):
@@ -131,10 +131,10 @@ def test_rigid_laws_are_newton_euler_to_rounding(name, restitution):
     """Smooth, rough and Walton's, for every restitution, to 1e-13 of the speeds that enter."""
     pair = PAIRS[name]
     given = random_collisions(pair, 40, 2)
-    laws = [(carom.SmoothLaw(restitution=restitution), walton(0.0, 0.0, restitution))]
-    laws += [(carom.RoughLaw(restitution=restitution), walton(np.inf, 1.0, restitution))]
+    laws = [(carom.laws.SmoothLaw(restitution=restitution), walton(0.0, 0.0, restitution))]
+    laws += [(carom.laws.RoughLaw(restitution=restitution), walton(np.inf, 1.0, restitution))]
     for friction, beta in product((0.0, 0.1, 5.0), (-1.0, -0.3, 0.5, 1.0)):
-        law = carom.WaltonLaw(
+        law = carom.laws.WaltonLaw(
             friction=friction, restitution=restitution, tangential_restitution=beta
         )
         laws.append((law, walton(friction, beta, restitution)))
@@ -185,7 +185,10 @@ def test_limits_of_the_rigid_laws(name):
         motion = carom.collide(pair, law=law, **given)
         return [getattr(motion, name) for name in NAMES]
 
-    smooth, rough = after(carom.SmoothLaw(restitution=0.8)), after(carom.RoughLaw(restitution=0.8))
+    smooth, rough = (
+        after(carom.laws.SmoothLaw(restitution=0.8)),
+        after(carom.laws.RoughLaw(restitution=0.8)),
+    )
     assert np.array_equal(smooth[1], before["spin1"])
     assert np.array_equal(smooth[3], before["spin2"])
     reversed_, apart = contact_velocity(pair, given["normal"], *rough)
@@ -193,10 +196,10 @@ def test_limits_of_the_rigid_laws(name):
     assert np.all(np.abs(reversed_ + sliding) <= 1e-14 * size)
     assert np.all(np.abs(apart + 0.8 * closing) <= 1e-14 * size)
     for friction, beta, limit in ((1e9, 1.0, rough), (0.0, 1.0, smooth), (1.0, -1.0, smooth)):
-        law = carom.WaltonLaw(friction=friction, restitution=0.8, tangential_restitution=beta)
+        law = carom.laws.WaltonLaw(friction=friction, restitution=0.8, tangential_restitution=beta)
         for one, other in zip(after(law), limit, strict=True):
             assert np.allclose(one, other, rtol=1e-13, atol=1e-13)
-    law = carom.WaltonLaw(friction=0.01, restitution=0.8, tangential_restitution=0.4)
+    law = carom.laws.WaltonLaw(friction=0.01, restitution=0.8, tangential_restitution=0.4)
     J = pair.first.mass * (given["velocity1"] - after(law)[0])
     along = np.sum(J * given["normal"], axis=1)
     across = np.linalg.norm(J - along[:, np.newaxis] * given["normal"], axis=1)
@@ -211,7 +214,7 @@ def test_without_friction_is_smooth():
     given = random_collisions(pair, 500, 6)
     exact, smooth = (
         carom.collide(pair, **given),
-        carom.collide(pair, law=carom.SmoothLaw(), **given),
+        carom.collide(pair, law=carom.laws.SmoothLaw(), **given),
     )
     for name in NAMES:
         assert np.array_equal(getattr(exact, name), getattr(smooth, name))

@@ -11,7 +11,13 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom
-from carom.verify import damping, poisson_from_kappa, recipes, restitution, stiffnesses
+from carom.verify import (
+    damping_from_restitution,
+    poisson_from_kappa,
+    recipes,
+    restitution_from_damping,
+    stiffnesses,
+)
 from carom.verify.conversions import CONVENTIONS, MINDLIN
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import INPUT, Lammps
@@ -92,9 +98,11 @@ def test_poisson_from_kappa_is_the_inverse():
 @pytest.mark.parametrize("convention", CONVENTIONS)
 def test_damping_and_restitution_are_inverse(convention):
     wanted = np.concatenate([np.geomspace(0.0101, 0.999, 40), [1.0]])
-    values = [damping(e, convention) for e in wanted]
+    values = [damping_from_restitution(e, convention) for e in wanted]
     assert (np.diff(values) < 0.0).all()
-    assert [restitution(v, convention) for v in values] == pytest.approx(wanted, abs=1e-10)
+    assert [restitution_from_damping(v, convention) for v in values] == pytest.approx(
+        wanted, abs=1e-10
+    )
     assert np.copysign(1.0, values[-1]) == 1.0
 
 
@@ -122,28 +130,28 @@ def test_damping_leaves_what_was_wanted(e):
     critical: c = 2 zeta sqrt(k m), and 2 zeta sqrt(5/6) sqrt(S m) where S is 2 E* a; to the last
     digit. Thornton's is a fit, to 4e-4, of the contact that does not pull.
     """
-    zeta = damping(e)
+    zeta = damping_from_restitution(e)
     assert zeta == pytest.approx(-log(e) / sqrt(pi**2 + log(e) ** 2), rel=1e-14)
     assert rebound(lambda d: 2.0 * zeta, 1.0) == pytest.approx(e, abs=1e-7)
     hertz = rebound(lambda d: 2.0 * zeta * sqrt(5.0 / 6.0 * 1.5 * sqrt(d)), 1.5)
     assert hertz == pytest.approx(e, abs=1e-5)
-    beta = damping(e, "thornton")
+    beta = damping_from_restitution(e, "thornton")
     left = rebound(lambda d: 2.0 * beta * sqrt(1.5 * sqrt(d)), 1.5, pulls=False)
     assert left == pytest.approx(e, abs=4e-4 if e < 0.9 else 4e-3)
 
 
 def test_tsuji_leaves_more_than_was_asked_for():
     """c = alpha sqrt(m F_n/d): LAMMPS leaves 0.7777 where 0.7 is asked for, as measured there."""
-    alpha = damping(0.7, "lammps tsuji")
+    alpha = damping_from_restitution(0.7, "lammps tsuji")
     left = rebound(lambda d: alpha * sqrt(sqrt(d)), 1.5)
     assert left == pytest.approx(0.7777, abs=2e-4)
 
 
 LEFT = [
-    (carom.LinearSpring, {}, lambda e: e),
-    (carom.LammpsMindlin, {}, lambda e: e),
-    (carom.YadeMindlin, {}, lambda e: e),
-    (carom.LammpsMindlin, {"damping": "tsuji"}, {0.3: 0.4396, 0.7: 0.7777, 0.9: 0.9284}.get),
+    (carom.dem.LinearSpring, {}, lambda e: e),
+    (carom.dem.LammpsMindlin, {}, lambda e: e),
+    (carom.dem.YadeMindlin, {}, lambda e: e),
+    (carom.dem.LammpsMindlin, {"damping": "tsuji"}, {0.3: 0.4396, 0.7: 0.7777, 0.9: 0.9284}.get),
 ]
 
 
@@ -165,8 +173,8 @@ def test_recipes_hold_the_stiffnesses(name, e):
     pair = PAIRS[name]
     modulus, shear, _, mass = by_hand(name)
     k = stiffnesses(pair, SPEED)
-    dashpot = 2 * damping(e) * sqrt(k.normal * mass)
-    beta, hertz = damping(e, "thornton"), (4 / 3 * modulus, 0.0 if e == 1.0 else e)
+    dashpot = 2 * damping_from_restitution(e) * sqrt(k.normal * mass)
+    beta, hertz = damping_from_restitution(e, "thornton"), (4 / 3 * modulus, 0.0 if e == 1.0 else e)
     kn, kt, mu = k.normal, k.tangential, pair.friction
     expected = {
         "LAMMPS Hertz": [*hertz, 2 * shear, 0.0, mu],
@@ -203,13 +211,16 @@ def test_a_wanted_restitution_is_read_as_any_number(wanted):
         (lambda: stiffnesses(PAIRS["steel on steel"], 0.0), "normal_speed: 0.0 .*positive"),
         (lambda: poisson_from_kappa(2.0), "kappa: 2.0 .*below 2"),
         (lambda: poisson_from_kappa(-0.1), "kappa: -0.1 .*positive"),
-        (lambda: damping(0.0), "restitution: 0.0 .*from 1e-06 to 1"),
-        (lambda: damping(1.01), "restitution: 1.01 .*from 1e-06 to 1"),
-        (lambda: damping("bouncy"), "restitution: 'bouncy'"),
-        (lambda: damping(0.5, "kuwabara"), "convention: 'kuwabara' .*critical, lammps tsuji"),
-        (lambda: restitution(-0.1), "damping: -0.1 .*zero or positive"),
-        (lambda: restitution(1.3, "lammps tsuji"), "damping: 1.3 .*at most 1.273"),
-        (lambda: restitution(1.0), "damping: 1.0 .*at most 0.97"),
+        (lambda: damping_from_restitution(0.0), "restitution: 0.0 .*from 1e-06 to 1"),
+        (lambda: damping_from_restitution(1.01), "restitution: 1.01 .*from 1e-06 to 1"),
+        (lambda: damping_from_restitution("bouncy"), "restitution: 'bouncy'"),
+        (
+            lambda: damping_from_restitution(0.5, "kuwabara"),
+            "convention: 'kuwabara' .*critical, lammps tsuji",
+        ),
+        (lambda: restitution_from_damping(-0.1), "damping: -0.1 .*zero or positive"),
+        (lambda: restitution_from_damping(1.3, "lammps tsuji"), "damping: 1.3 .*at most 1.273"),
+        (lambda: restitution_from_damping(1.0), "damping: 1.0 .*at most 0.97"),
         (lambda: recipes(PAIRS["steel on steel"], 1.0, 1.5), "restitution: 1.5"),
     ],
 )
@@ -237,9 +248,9 @@ class ByRecipe(Lammps):
 @pytest.mark.parametrize(
     ("code", "law"),
     [
-        ("LAMMPS Hertz", carom.LammpsMindlin("mindlin_rescale/force")),
-        ("LAMMPS Hertz", carom.LammpsMindlin("mindlin_rescale/force", tangential_damping=1.0)),
-        ("LAMMPS Hooke", carom.LinearSpring()),
+        ("LAMMPS Hertz", carom.dem.LammpsMindlin("mindlin_rescale/force")),
+        ("LAMMPS Hertz", carom.dem.LammpsMindlin("mindlin_rescale/force", tangential_damping=1.0)),
+        ("LAMMPS Hooke", carom.dem.LinearSpring()),
     ],
 )
 def test_lammps_takes_the_recipe(code, law, e):
@@ -248,7 +259,7 @@ def test_lammps_takes_the_recipe(code, law, e):
     law = replace(law, restitution=e)
     speeds = tuple(psi * pair.scales(slow).tangential_speed)
     wanted = Experiment(pair=pair, law=law, normal_speed=slow, tangential_speed=speeds, steps=2000)
-    mindlin = law if isinstance(law, carom.LammpsMindlin) else MINDLIN
+    mindlin = law if isinstance(law, carom.dem.LammpsMindlin) else MINDLIN
     found = run(ByRecipe(line=recipes(pair, slow, e, mindlin=mindlin)[code]), wanted).outcomes
     expected = law.rebound(psi, pair.chi, kappa=pair.kappa, steps=2000)
     assert psi_out(wanted, found) == pytest.approx(expected, abs=2e-4)

@@ -112,21 +112,21 @@ def rebound(code, psi, steps, duration=DURATION):
 
 VARIANTS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
 OF_HERTZ = [
-    *((carom.LammpsMindlin(name), lambda name=name: Lammps(name)) for name in VARIANTS),
+    *((carom.dem.LammpsMindlin(name), lambda name=name: Lammps(name)) for name in VARIANTS),
     *(
         (
-            carom.LammpsMindlin(name, restitution=E, tangential_damping=0.6),
+            carom.dem.LammpsMindlin(name, restitution=E, tangential_damping=0.6),
             lambda name=name: Lammps(name, 0.6, damped=True),
         )
         for name in VARIANTS
     ),
-    (carom.LiggghtsHertz(E), lambda: Liggghts(limits_sum=False)),
-    (carom.EdemHertzMindlin(E), lambda: Liggghts(limits_sum=True)),
+    (carom.dem.LiggghtsHertz(E), lambda: Liggghts(limits_sum=False)),
+    (carom.dem.EdemHertzMindlin(E), lambda: Liggghts(limits_sum=True)),
 ]
 OF_SPRINGS = [
-    (carom.LinearSpring(0.4), lambda: Springs(0.4)),
-    (carom.LinearSpring(0.4, E, 0.5), lambda: Springs(0.4, 0.5, damped=True)),
-    (carom.StrongeLaw(0.9, E), lambda: Springs(0.9, bilinear=True)),
+    (carom.dem.LinearSpring(0.4), lambda: Springs(0.4)),
+    (carom.dem.LinearSpring(0.4, E, 0.5), lambda: Springs(0.4, 0.5, damped=True)),
+    (carom.dem.StrongeLaw(0.9, E), lambda: Springs(0.9, bilinear=True)),
 ]
 PSI = (0.2, 0.7, 1.1, 2.5, 4.5)
 

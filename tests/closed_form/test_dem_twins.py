@@ -172,10 +172,10 @@ CODES = {
 ALL = (0.3, 0.8, 1.3, 3.0, 4.6)
 
 CASES = [
-    *((carom.LammpsMindlin(name), code, ALL) for name, code in CODES.items()),
+    *((carom.dem.LammpsMindlin(name), code, ALL) for name, code in CODES.items()),
     *(
         (
-            carom.LammpsMindlin(name, restitution=E),
+            carom.dem.LammpsMindlin(name, restitution=E),
             replace(code, normal_dashpot=normal_dashpot),
             (0.3, 3.0),
         )
@@ -183,7 +183,7 @@ CASES = [
     ),
     *(
         (
-            carom.LammpsMindlin(name, stiffness=2 / 3, **HALF),
+            carom.dem.LammpsMindlin(name, stiffness=2 / 3, **HALF),
             replace(
                 code,
                 stiffness=lambda d: 2 / 3 * mindlin(d),
@@ -195,12 +195,12 @@ CASES = [
         for name, code in CODES.items()
     ),
     (
-        carom.LammpsMindlin("mindlin", restitution=E, damping="tsuji"),
+        carom.dem.LammpsMindlin("mindlin", restitution=E, damping="tsuji"),
         Code(normal_dashpot=tsuji_dashpot),
         (0.8, 3.0),
     ),
     (
-        carom.HertzLinearHistory(1.2, **HALF),
+        carom.dem.HertzLinearHistory(1.2, **HALF),
         replace(
             DAMPED,
             stiffness=lambda d: 1.2 * mindlin(DEEPEST),
@@ -209,7 +209,7 @@ CASES = [
         ALL,
     ),
     (
-        carom.LinearSpring(0.5, **HALF),
+        carom.dem.LinearSpring(0.5, **HALF),
         Code(
             stiffness=lambda d: 0.5 * LINEAR,
             elastic=lambda d: LINEAR * d,
@@ -218,8 +218,12 @@ CASES = [
         ),
         ALL,
     ),
-    (carom.LiggghtsHertz(E), replace(DAMPED, dashpot=tangential_dashpot, limits_sum=False), ALL),
-    (carom.EdemHertzMindlin(E), replace(DAMPED, dashpot=tangential_dashpot), ALL),
+    (
+        carom.dem.LiggghtsHertz(E),
+        replace(DAMPED, dashpot=tangential_dashpot, limits_sum=False),
+        ALL,
+    ),
+    (carom.dem.EdemHertzMindlin(E), replace(DAMPED, dashpot=tangential_dashpot), ALL),
 ]
 
 

@@ -166,12 +166,12 @@ def rebound(law, psi, ratio):
 
 
 CASES = [
-    (carom.ThorntonLaw(), Thornton(), SOLID, (0.3, 0.8, 1.3, 3.0, 4.6)),
-    (carom.ThorntonLaw(), Thornton(), LIGHT, (0.3, 0.8, 1.5, 3.5)),
-    (carom.WaltonBraunLaw(), Walton(1.0, KAPPA * K_1), SOLID, (0.3, 0.8, 1.3, 3.0)),
-    (carom.WaltonBraunLaw(), Walton(1.0, KAPPA * K_1), LIGHT, (0.3, 1.5, 3.5)),
-    (carom.WaltonBraunLaw(restitution=0.7), Walton(0.7, KAPPA * K_1), SOLID, (0.3, 1.3, 3.0)),
-    (carom.WaltonBraunLaw(0.5, 0.7), Walton(0.7, 0.5 * K_1), LIGHT, (0.3, 1.5)),
+    (carom.dem.ThorntonLaw(), Thornton(), SOLID, (0.3, 0.8, 1.3, 3.0, 4.6)),
+    (carom.dem.ThorntonLaw(), Thornton(), LIGHT, (0.3, 0.8, 1.5, 3.5)),
+    (carom.dem.WaltonBraunLaw(), Walton(1.0, KAPPA * K_1), SOLID, (0.3, 0.8, 1.3, 3.0)),
+    (carom.dem.WaltonBraunLaw(), Walton(1.0, KAPPA * K_1), LIGHT, (0.3, 1.5, 3.5)),
+    (carom.dem.WaltonBraunLaw(restitution=0.7), Walton(0.7, KAPPA * K_1), SOLID, (0.3, 1.3, 3.0)),
+    (carom.dem.WaltonBraunLaw(0.5, 0.7), Walton(0.7, 0.5 * K_1), LIGHT, (0.3, 1.5)),
 ]
 
 
@@ -189,5 +189,5 @@ def test_walton_braun_all_but_slides(restitution):
     """While N grows T keeps up with it: K_0 theta V_x = mu dN/dt, 1 - T/(mu N) = (cos t/psi)^3."""
     psi, chi = 20.0, 1.4
     missing = quad(lambda c: 2 * chi * (c / (psi - 2 * chi * (1 - c))) ** 3, 0, 1)[0]
-    out = carom.WaltonBraunLaw(restitution=restitution).rebound(psi, chi)
+    out = carom.dem.WaltonBraunLaw(restitution=restitution).rebound(psi, chi)
     assert out - (psi - 2 * chi * (1 + restitution)) == pytest.approx(missing, rel=0.01)

@@ -282,7 +282,7 @@ def test_catalogue():
     catalogue = carom.materials()
     assert len(catalogue) >= 15
     for name, stuff in catalogue.items():
-        sources = carom.material_sources(name)
+        sources = carom.material(name).sources
         assert stuff.density is not None
         for key in ("young", "poisson", "density", "yield_strength"):
             assert (getattr(stuff, key) is not None) == (key in sources), (name, key)

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 
 import carom
+from carom.dem import lattice
+from carom.dem.coefficients import ELASTIC_PULL
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.laws.dem import lattice
-from carom.laws.dem.coefficients import ELASTIC_PULL
 
 PSI, CHIS = np.linspace(0.0, 6.0, 64), (1.0, 1.2, 1.4412, 1.75)
 
 
 def worst(springs, steps, e=1.0):
     """Return the largest |psi_2 - exact|."""
-    law = carom.MemoryLaw(springs, restitution=e)
+    law = carom.dem.ExactContactLaw(springs, restitution=e)
     losses = None if e == 1.0 else carom.KelvinVoigt(e)
     return max(
         np.abs(law.rebound(PSI, chi, steps=steps) - carom.rebound(PSI, chi, losses=losses)).max()
@@ -43,7 +43,7 @@ def test_rebounds_are_as_near_as_promised(springs, steps, e, bound):
 def test_errors_are_within_the_range_of_chi_that_is_stated(springs, chis, promised):
     """1/N^2 up to chi = 2.5, 8/N^2 up to 10, at the ends of the range and at random in between."""
     rng = np.random.default_rng(springs)
-    law, largest = carom.MemoryLaw(springs), 0.0
+    law, largest = carom.dem.ExactContactLaw(springs), 0.0
     for chi in (*chis, *np.exp(rng.uniform(*np.log(chis), 10))):
         psi = np.linspace(0.0, 4.0 * chi + 0.5, 101)
         largest = max(largest, np.abs(law.rebound(psi, chi) - carom.rebound(psi, chi)).max())
@@ -100,14 +100,14 @@ def test_the_order_is_the_second_where_the_direction_turns():
 
 
 def test_without_steps_only_the_springs_are_left():
-    law = carom.MemoryLaw(256)
+    law = carom.dem.ExactContactLaw(256)
     off = np.abs(law.rebound(PSI, 1.4412) - carom.rebound(PSI, 1.4412)).max()
     assert off < 2e-5
 
 
 def test_sliding_throughout_is_exact_but_for_the_steps():
     """psi_2 = psi_1 - 2 chi (1 + e) (Barber 1979, (33)); e of the steps themselves."""
-    history = carom.MemoryLaw(16).history(9.0, 1.2, steps=100)
+    history = carom.dem.ExactContactLaw(16).history(9.0, 1.2, steps=100)
     e = -history["normal_velocity"][-1]
     assert history["psi"][-1] == pytest.approx(9.0 - 2.4 * (1.0 + e), abs=2e-3)
     np.testing.assert_allclose(
@@ -117,14 +117,18 @@ def test_sliding_throughout_is_exact_but_for_the_steps():
 
 @pytest.mark.parametrize("e", [0.9, 0.5])
 def test_it_leaves_the_restitution_it_is_made_for(e):
-    speed = carom.MemoryLaw(32, restitution=e).history(0.0, 1.2, steps=400)["normal_velocity"]
+    speed = carom.dem.ExactContactLaw(32, restitution=e).history(0.0, 1.2, steps=400)[
+        "normal_velocity"
+    ]
     assert -speed[-1] == pytest.approx(e, abs=2e-4)
 
 
 def test_losses_in_compression_alone_leave_shear_elastic():
     """Less springs back at the same e where shear is viscous, too."""
     both, one = (
-        carom.MemoryLaw(64, restitution=0.7, viscous_shear=shear).rebound(0.9, 1.4412, steps=200)
+        carom.dem.ExactContactLaw(64, restitution=0.7, viscous_shear=shear).rebound(
+            0.9, 1.4412, steps=200
+        )
         for shear in (True, False)
     )
     exact = carom.rebound(0.9, 1.4412, losses=carom.KelvinVoigt(0.7))
@@ -134,7 +138,7 @@ def test_losses_in_compression_alone_leave_shear_elastic():
 
 def test_it_is_first_in_the_ranking():
     ranking = carom.verify.rank()
-    assert ranking.standings[0].entry.law == carom.MemoryLaw(32)
+    assert ranking.standings[0].entry.law == carom.dem.ExactContactLaw(32)
     assert ranking.standings[0].max_error < 1e-3
     assert ranking.standings[0].force_error < 5e-3
 
@@ -142,7 +146,7 @@ def test_it_is_first_in_the_ranking():
 @pytest.mark.parametrize("springs", [4, 4100, 33, 32.5, "many", None])
 def test_numbers_of_springs_that_cannot_be_are_refused(springs):
     with pytest.raises(carom.InputError, match=r"^springs: ") as error:
-        carom.MemoryLaw(springs)
+        carom.dem.ExactContactLaw(springs)
     assert "\n" not in str(error.value)
 
 
@@ -150,12 +154,12 @@ def test_numbers_of_springs_that_cannot_be_are_refused(springs):
 @pytest.mark.parametrize("e", [1.0, 0.9, 0.5, 0.1, 0.01])
 def test_steps_that_are_too_long_are_not_solved(e, chi):
     """What is solved has gained no energy, from the slowest on: |psi_2| <= |psi_1|."""
-    psi, law = 10.0 ** np.linspace(-30.0, 1.0, 63), carom.MemoryLaw(32, restitution=e)
+    psi, law = 10.0 ** np.linspace(-30.0, 1.0, 63), carom.dem.ExactContactLaw(32, restitution=e)
     solved = []
     for steps in (4, 8, 16, 32, 64, 128, 256, 512):
         out, status = law.rebound(psi, chi, steps=steps, return_status=True)
         assert np.all(status == status[0])
-        solved.append(status[0] == carom.laws.dem.LawStatus.SOLVED)
+        solved.append(status[0] == carom.status.LawStatus.SOLVED)
         assert not solved[-1] or np.all(np.abs(out) <= 1.01 * psi)
     assert solved == sorted(solved)
     assert solved[-1]

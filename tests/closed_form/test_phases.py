@@ -7,8 +7,8 @@ import pytest
 
 import carom
 from carom.dimensionless.elastic.phases import TRANSITIONS, Kind
-from carom.dimensionless.solution import CAUSE_NAMES
 from carom.dimensionless.states import KIND_NAMES
+from carom.quantities.causes import Cause
 
 STICK, PLUS, MINUS = ("stick", 0), ("slip", 1), ("slip", -1)
 GROSS_PLUS, GROSS_MINUS = ("gross slip", 1), ("gross slip", -1)
@@ -88,7 +88,7 @@ def test_transition_to_stick_and_start_of_slip(psi):
 
 def test_phases_follow_each_other_without_gaps_and_by_the_table():
     kinds = {name: kind for kind, name in KIND_NAMES.items()}
-    causes = {name: cause for cause, name in CAUSE_NAMES.items()}
+    causes = {cause.message: cause for cause in Cause}
     rng = np.random.default_rng(3)
     for psi, chi in zip(rng.uniform(-8, 8, 200), 10 ** rng.uniform(-1, 1.7, 200), strict=True):
         solution = carom.solve(psi, chi)

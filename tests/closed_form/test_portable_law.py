@@ -12,7 +12,7 @@ FRINGE = [0.0, -0.0, 5e-324, 1e-320, -1e-310, 1e-7, 1e15, -1e300, LARGEST, np.in
 
 @pytest.fixture(scope="module")
 def law():
-    return carom.ReboundLaw(CHI)
+    return carom.laws.ReboundLaw(CHI)
 
 
 @pytest.fixture(params=["numpy", "array_api_strict", "torch", "jax"])
@@ -70,7 +70,7 @@ def test_every_number_is_answered_without_a_warning(law, make):
 @pytest.mark.parametrize("chi", [0.05, 0.2, 0.5, 0.7, 6.0])
 def test_at_any_chi(chi):
     """To 1e-9 in each arrangement of the regimes, and energy never grows."""
-    law = carom.ReboundLaw(chi)
+    law = carom.laws.ReboundLaw(chi)
     beside = law.edges[-1] * (1.0 - np.geomspace(1e-12, 0.5, 1000))  # where all slides
     psi = np.concatenate([law.edges, beside, np.linspace(0.0, 1.2 * law.edges[-1], 500)])
     assert np.max(np.abs(law(psi) - carom.rebound(psi, chi))) <= 1e-9

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from tests.oracles.stick import Stick
 
 import carom
-from carom.dimensionless.twins.stick import Stick
 
 RNG = np.random.default_rng(4)
 TOUCH = [

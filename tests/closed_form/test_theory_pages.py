@@ -14,6 +14,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import beta, gamma, hyp2f1, rgamma
+from tests.oracles.stick import Stick
 
 import carom
 from carom.dimensionless.fields import surface
@@ -21,11 +22,10 @@ from carom.dimensionless.fields.profile import flat, stacked
 from carom.dimensionless.fields.subsurface import stresses
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.lossy.panels.stages import viscous_loss
-from carom.dimensionless.lossy.springs.stretch import step_of, stretched
-from carom.dimensionless.lossy.springs.thornton import press
-from carom.dimensionless.lossy.springs.work import NEXT, SPRINGS, S
+from carom.dimensionless.lossy.springs import motion as at
+from carom.dimensionless.lossy.springs.springs import COLUMNS, NEXT, S, step_of, stretched
+from carom.dimensionless.lossy.springs.thornton import bear
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.twins.stick import Stick
 from carom.halfspace.compliance import Materials
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -41,7 +41,7 @@ SPHERES = carom.Pair(
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_everything_that_a_page_names_exists(page):
     text = page.read_text(encoding="utf-8")
-    for name in re.findall(r"`(carom(?:\.\w+)+)`", text):
+    for name in re.findall(r"`((?:carom|tests\.oracles)(?:\.\w+)+)`", text):
         pkgutil.resolve_name(name)
     for target in re.findall(r"\]\(([^)#:]+)\)", text):
         assert (page.parent / target).is_file(), target
@@ -267,10 +267,10 @@ def test_11_losses():
     assert hit.normal_restitution == pytest.approx(e, rel=1e-10)
     assert e == pytest.approx(1.185 * 1e-3**0.25, rel=1e-3)
     y, d = 0.6, 0.9  # the springs that yield bear the load (11.12)
-    springs = np.zeros((SPRINGS, 2001))
+    springs, motion = np.zeros((COLUMNS, 2001)), np.zeros(at.MOTION)
     springs[S] = np.linspace(0.0, np.sqrt(d), 2001) ** 2
-    motion = np.array([[0.0] * 5, [1.0, d, 0.5, np.sqrt(d), 0.0]])
-    press(y, motion[0], motion[1], 0.0, springs, 2001)
+    motion[at.DEPTH] = d
+    bear(y, motion, motion, 0.0, springs, 2001)
     load = 1.5 * np.trapezoid(springs[NEXT], np.sqrt(springs[S]))
     assert load == pytest.approx(y**3 + 1.5 * y * (d - y * y), abs=1e-6)  # (11.15)
 

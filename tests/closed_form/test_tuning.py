@@ -15,15 +15,15 @@ KAPPA = 4 * CHI / 7
 PSI = np.linspace(0.0, 4 * CHI, 61)[1:]  # as by default
 SOME, FEW = PSI[3::4], PSI[3::6]
 ONE_EACH = (
-    carom.LinearSpring(),
-    carom.HertzLinearHistory(),
-    carom.LammpsMindlin("mindlin"),
-    carom.LammpsMindlin("mindlin/force"),
-    carom.LammpsMindlin("mindlin_rescale"),
-    carom.LammpsMindlin("mindlin_rescale/force"),
-    carom.HardSphere(0.4),
+    carom.dem.LinearSpring(),
+    carom.dem.HertzLinearHistory(),
+    carom.dem.LammpsMindlin("mindlin"),
+    carom.dem.LammpsMindlin("mindlin/force"),
+    carom.dem.LammpsMindlin("mindlin_rescale"),
+    carom.dem.LammpsMindlin("mindlin_rescale/force"),
+    carom.dem.HardSphere(0.4),
 )
-FIXED = (carom.ThorntonLaw(), carom.LiggghtsHertz(), carom.EdemHertzMindlin())
+FIXED = (carom.dem.ThorntonLaw(), carom.dem.LiggghtsHertz(), carom.dem.EdemHertzMindlin())
 
 
 def error_of(law, psi=SOME, chi=CHI):
@@ -69,7 +69,7 @@ def test_linear_spring_against_an_own_scan():
     best = fine[worst[1].argmin()]
     assert best == pytest.approx(0.777, abs=2e-3)
     assert worst[1].min() == pytest.approx(0.070, abs=1e-3)
-    (found,) = tune([carom.LinearSpring()], chi=CHI).advice
+    (found,) = tune([carom.dem.LinearSpring()], chi=CHI).advice
     assert found.parameter == "stiffness_ratio"
     assert found.value == pytest.approx(best, abs=2e-3)
     assert found.max_error == pytest.approx(worst[1].min(), abs=1e-3)
@@ -125,7 +125,7 @@ def test_each_measure_is_best_at_its_own():
 def test_walton_and_braun():
     """Few impacts, as this law is stiff: neighbours are worse, and as given it is, too."""
     psi = np.array([1.0, 2.0, 3.0])
-    (one,) = tune([carom.WaltonBraunLaw()], chi=CHI, psi=psi).advice
+    (one,) = tune([carom.dem.WaltonBraunLaw()], chi=CHI, psi=psi).advice
     least = np.abs(error_of(one.law, psi)).max()
     for factor in (0.98, 1.02):
         other = replace(one.law, stiffness_ratio=factor * one.value)
@@ -146,7 +146,7 @@ def test_hard_spheres_by_hand():
     psi = np.linspace(0.5, 2.5, 9)
     exact = carom.rebound(psi, CHI)
     beta = -np.sum(psi * exact) / np.sum(psi**2)
-    (one,) = tune([carom.HardSphere()], chi=CHI, psi=psi, measure="rms").advice
+    (one,) = tune([carom.dem.HardSphere()], chi=CHI, psi=psi, measure="rms").advice
     assert one.value == pytest.approx(beta, abs=1e-4)
     assert one.before == pytest.approx(np.abs(exact).max(), rel=1e-12)
     assert one.step is None
@@ -154,7 +154,7 @@ def test_hard_spheres_by_hand():
 
 def test_other_parameters_are_kept():
     """A damping, a variant: only the tuned one moves, and its error is that of the damped law."""
-    law = carom.LammpsMindlin("mindlin/force", restitution=0.9, damping="tsuji")
+    law = carom.dem.LammpsMindlin("mindlin/force", restitution=0.9, damping="tsuji")
     (one,) = tune([law], chi=CHI, psi=FEW).advice
     assert replace(one.law, stiffness=1.0) == law
     assert one.value != 1.0
@@ -163,12 +163,12 @@ def test_other_parameters_are_kept():
 def test_kappa_and_chi_reach_the_laws():
     """At twice kappa a spring of the same k_t/k_n is half as stiff for psi: the best is twice."""
     one, two = (
-        tune([carom.LinearSpring()], chi=CHI, kappa=k, psi=FEW).advice[0]
+        tune([carom.dem.LinearSpring()], chi=CHI, kappa=k, psi=FEW).advice[0]
         for k in (KAPPA, 2 * KAPPA)
     )
     assert two.value == pytest.approx(2 * one.value, rel=1e-3)
     assert two.max_error == pytest.approx(one.max_error, abs=1e-4)
-    other = tune([carom.LinearSpring()], chi=1.2, psi=FEW)
+    other = tune([carom.dem.LinearSpring()], chi=1.2, psi=FEW)
     assert (other.chi, other.kappa) == (1.2, pytest.approx(4.8 / 7))
     assert other.advice[0].max_error == pytest.approx(
         np.abs(error_of(other.advice[0].law, FEW, 1.2)).max()
@@ -185,7 +185,7 @@ def test_steps_cost_a_tenth_of_what_is_left(tuned):
 
 
 def test_record_and_table_hold_the_advice():
-    tuning = tune([carom.LinearSpring(), carom.ThorntonLaw()], chi=CHI, psi=FEW)
+    tuning = tune([carom.dem.LinearSpring(), carom.dem.ThorntonLaw()], chi=CHI, psi=FEW)
     record = tuning.as_record()
     assert record["psi_in"] == [FEW.min(), FEW.max()]
     for row, one in zip(record["laws"], tuning.advice, strict=True):
@@ -200,7 +200,7 @@ def test_record_and_table_hold_the_advice():
 
 def test_progress_is_told():
     told = []
-    laws = [carom.HardSphere(), carom.HardSphere(0.2), carom.HardSphere(0.4)]
+    laws = [carom.dem.HardSphere(), carom.dem.HardSphere(0.2), carom.dem.HardSphere(0.4)]
     tune(laws, chi=CHI, psi=[1.0], progress=lambda done, whole: told.append((done, whole)))
     assert told == [(1, 3), (2, 3), (3, 3)]
 
@@ -216,7 +216,7 @@ def test_progress_is_told():
     ],
 )
 def test_refused(options, message):
-    given = {"laws": [carom.HardSphere()], "chi": CHI} | options
+    given = {"laws": [carom.dem.HardSphere()], "chi": CHI} | options
     with pytest.raises(carom.InputError, match=message):
         tune(**given)
 
@@ -225,10 +225,10 @@ def test_refused(options, message):
 def test_tuning_never_makes_a_law_worse(chi):
     """At any chi: k_t/k_n is sought around that of the bodies, 4 chi/7."""
     laws = [
-        carom.LinearSpring(),
-        carom.StrongeLaw(),
-        carom.HertzLinearHistory(),
-        carom.HardSphere(),
+        carom.dem.LinearSpring(),
+        carom.dem.StrongeLaw(),
+        carom.dem.HertzLinearHistory(),
+        carom.dem.HardSphere(),
     ]
     for one in tune(laws, chi=chi).advice:
         assert one.max_error <= one.before

@@ -23,7 +23,7 @@ def walton(psi, chi, one_plus_beta, ratio):
 @pytest.mark.parametrize("span", [None, 2.5])
 def test_no_other_parameters_on_a_grid_come_closer(poisson, span):
     pair = pair_with(poisson)
-    fit = carom.fit_walton(pair, span)
+    fit = carom.laws.fit_walton(pair, span)
     psi = PSI * fit.span
     exact = carom.rebound(psi, pair.chi)
 
@@ -46,7 +46,7 @@ def test_no_other_parameters_on_a_grid_come_closer(poisson, span):
 def test_fitted_law_collides_as_its_error_says():
     """In three dimensions the contact point leaves within the largest error of the fit."""
     pair = pair_with(0.3)
-    fit = carom.fit_walton(pair)
+    fit = carom.laws.fit_walton(pair)
     slope = PSI * fit.span * pair.friction / pair.kappa
     velocity = np.stack([slope, np.zeros_like(slope), np.ones_like(slope)], axis=1)
     leave = [
@@ -59,7 +59,7 @@ def test_fitted_law_collides_as_its_error_says():
 
 
 def test_friction_stays_where_the_span_does_not_reach_sliding():
-    fit = carom.fit_walton(pair_with(0.3), 1.0)
+    fit = carom.laws.fit_walton(pair_with(0.3), 1.0)
     assert fit.law.friction == pytest.approx(0.3)
     assert fit.rms_error < 0.05
 
@@ -67,4 +67,4 @@ def test_friction_stays_where_the_span_does_not_reach_sliding():
 @pytest.mark.parametrize(("friction", "span"), [(0.0, None), (0.3, 0.0), (0.3, np.nan)])
 def test_what_cannot_be_fitted_is_refused(friction, span):
     with pytest.raises(carom.InputError):
-        carom.fit_walton(pair_with(0.3, friction), span)
+        carom.laws.fit_walton(pair_with(0.3, friction), span)

@@ -188,7 +188,9 @@ def test_a_viscous_ball_near_the_normal_does_not_wear_less_than_nothing():
     assert volume > 0.0
     assert float(worn.worn_volume) == pytest.approx(volume, rel=1e-4)
     assert float(worn.work_error) > 0.0  # which says that energies differ
-    many = carom.wear(pair, speed=1.0, angle=np.radians([0.01, 0.02, 0.1]), losses=law, area=1.0)
+    many = carom.wear_of_many(
+        pair, speed=1.0, angle=np.radians([0.01, 0.02, 0.1]), losses=law, area=1.0
+    )
     assert (many.dissipated_energy.values >= 0.0).all()
 
 
@@ -207,7 +209,9 @@ def test_many_impacts_are_the_sum_of_each():
     """With counts, on one spot and over an area; the first slips throughout."""
     angles, counts, speeds = [1.2, 0.5, -0.1], [2.0, 0.5, 10.0], [1.0, 2.0, 0.5]
     hits = [carom.impact(PAIR, speed=v, angle=a) for v, a in zip(speeds, angles, strict=True)]
-    spot = carom.wear(PAIR, speed=speeds, angle=angles, counts=counts, coefficient=1e-13, n=5)
+    spot = carom.wear_of_many(
+        PAIR, speed=speeds, angle=angles, counts=counts, coefficient=1e-13, n=5
+    )
     work = sum(n * hit.dissipated_energy for n, hit in zip(counts, hits, strict=True))
     assert float(spot.total_friction_work) == pytest.approx(work, rel=1e-8, abs=0.0)
     assert float(spot.total_worn_volume) == pytest.approx(5e-13 * work, rel=1e-8, abs=0.0)
@@ -219,11 +223,11 @@ def test_many_impacts_are_the_sum_of_each():
     assert float(spot.mean_friction_work[0]) == pytest.approx(inmost, rel=1e-12, abs=0.0)
     assert float(spot.max_friction_work) >= inmost * (1.0 - 1e-12)
     coarse, fine = (
-        carom.wear(PAIR, speed=speeds, angle=angles, counts=counts, n=n).max_friction_work
+        carom.wear_of_many(PAIR, speed=speeds, angle=angles, counts=counts, n=n).max_friction_work
         for n in (2, 2001)
     )
     assert float(coarse) == pytest.approx(float(fine), rel=1e-5)
-    over = carom.wear(
+    over = carom.wear_of_many(
         PAIR, speed=speeds, angle=angles, counts=counts, coefficient=1e-13, area="2 cm^2"
     )
     assert float(over.spread_wear_depth) == pytest.approx(5e-13 * work / 2e-4, rel=1e-8, abs=0.0)

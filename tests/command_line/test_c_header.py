@@ -84,7 +84,7 @@ def test_is_the_law_and_the_exact_rebound(run, chi):
     code, out, err = run("--chi", str(chi), "--export", "c", "--output", "rebound.h")
     assert (code, out) == (0, "")
     assert err.endswith("Carom has stored rebound.h.\n")
-    function, law = compiled(), carom.ReboundLaw(chi)
+    function, law = compiled(), carom.laws.ReboundLaw(chi)
     psi = slopes(law)
     assert psi.size > 20000
     got = function(psi)
@@ -108,7 +108,7 @@ def test_several_laws_in_one_header_and_in_cpp(run):
     Path("rebound.h").write_text(text)
     psi = np.linspace(-9.0, 9.0, 101)
     for name, chi in (("carom_rebound_1_44", 1.44), ("carom_rebound_2", 2.0)):
-        want = carom.ReboundLaw(chi)(psi)
+        want = carom.laws.ReboundLaw(chi)(psi)
         np.testing.assert_allclose(compiled(name)(psi), want, rtol=0, atol=1e-14)
         got = compiled(name, "c++", "c++11")(psi)
         np.testing.assert_allclose(got, want, rtol=0, atol=1e-14)

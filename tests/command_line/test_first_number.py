@@ -28,9 +28,9 @@ FIRST = {
     "stress": "hit.stress(0.5 * hit.duration)",
     "load path": "carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.0, -1.0])",
     "collide": "carom.collide(pair, velocity1=[[1.0, 0.0, -2.0]], normal=[0.0, 0.0, -1.0])",
-    "law": "carom.ReboundLaw(1.44)(0.5)",
-    "mixture": "carom.MixtureLaw(1.4, 1.5)(0.5, 1.45)",
-    "contact law": "carom.LammpsMindlin().rebound([0.5], 1.44, steps=100)",
+    "law": "carom.laws.ReboundLaw(1.44)(0.5)",
+    "mixture": "carom.laws.MixtureLaw(1.4, 1.5)(0.5, 1.45)",
+    "contact law": "carom.dem.LammpsMindlin().rebound([0.5], 1.44, steps=100)",
     "sweep": "carom.sweep({'first': {'radius': 0.005, 'material': 'steel'}, 'speed': 1.0, "
     "'friction': 0.2}, carom.Grid({'angle': [0.1, 0.2]}), progress=False, workers=1)",
     "fit": "str(carom.fit(carom.datasets.path('kharaz2001')))",
@@ -99,3 +99,36 @@ def test_who_waits_for_compilers_is_told_once_and_why(kept, tmp_path):
     assert "no compiler" in ran.stderr
     assert ("at every start" in ran.stderr) == ("set NUMBA_CACHE_DIR" in ran.stderr) == (not kept)
     assert [float(text) for text in ran.stdout.split()] == [1.0, 0.0]
+
+
+HIDDEN = "import sys; sys.modules['numba'] = None\n"  # as if it were not installed
+NO_LIBRARY = """
+from pathlib import Path
+from carom.dimensionless.numerics import shared_library
+shared_library.FOLDER = Path("/nowhere")
+"""
+INSTALL = 'pip install "carom[jit]"'
+
+
+def test_without_library_and_numba_plain_python_runs_and_one_line_says_how_to_be_fast():
+    ran = python(f"{HIDDEN}{NO_LIBRARY}import carom; print(*carom.rebound([0.5, 1.5], 1.44))")
+    expected = carom.rebound([0.5, 1.5], 1.44)
+    assert [float(text) for text in ran.stdout.split()] == pytest.approx(expected, abs=1e-14)
+    assert ran.stderr.count("\n") == 1
+    assert ran.stderr.startswith("Carom runs its solver as plain Python")
+    assert "there is no compiled library; install carom again, with a C compiler" in ran.stderr
+    assert INSTALL in ran.stderr
+
+
+@pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
+def test_the_library_needs_no_numba():
+    """Nor does a kernel that is not in it, which is so small that Python may run it."""
+    hertz = "from carom.dimensionless.numerics import hertz as h\n"
+    ran = python(f"{HIDDEN}{hertz}print(*h.penetration_and_speed(h.HALF))\n{BODIES}{FIRST['fit']}")
+    assert ([float(text) for text in ran.stdout.split()], ran.stderr) == ([1.0, 0.0], "")
+
+
+def test_numba_is_refused_where_it_is_not_installed():
+    ask = "import carom\ntry: carom.rebound(0.5, 1.44)\nexcept carom.InputError as e: print(e)"
+    ran = python(HIDDEN + ask, CAROM_KERNELS="numba")
+    assert ran.stdout == f"CAROM_KERNELS: numba is not installed; {INSTALL}\n"

@@ -69,13 +69,13 @@ def test_shipped_data(capsys):
 
 
 def test_files_are_stored(capsys, tmp_path):
-    files = ("--plot", "fit.png", "--output", "fit.nc", "--posterior", "samples.csv")
+    files = ("--plot", "fit.png", "--output", "fit.nc", "--posterior", "samples.nc")
     given = ("data.csv", "--case", "ball.toml", "--fix", "restitution=1", "--steps", "100")
     code, _, err = run(capsys, *given, *files)
     assert code == 0
-    assert {"fit.png", "fit.nc", "samples.csv"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"fit.png", "fit.nc", "samples.nc"} <= {path.name for path in tmp_path.iterdir()}
     assert "The chain is short" in err
-    samples = carom.read("samples.csv")
+    samples = carom.read("samples.nc")
     assert samples.sizes["sample"] == 75 * 16  # steps kept, walkers
     code, _, _ = run(capsys, *given, "--posterior", "corner.png")
     assert code == 0

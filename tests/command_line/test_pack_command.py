@@ -216,7 +216,7 @@ def test_from_a_pack_to_a_verdict_on_lammps(copy):
     assert done.returncode == 1, done.stderr[-1000:]
     assert "FAIL: max |error in psi_2| = 0.579" in done.stdout
     result = score(script.with_name("results.csv"), case=copy / "wall" / "case.toml")
-    law = carom.LammpsMindlin().rebound(result.points.psi_in, result.points.chi)
+    law = carom.dem.LammpsMindlin().rebound(result.points.psi_in, result.points.chi)
     assert np.max(np.abs(result.points.psi_out - law)) < 1e-3
 
 

@@ -74,7 +74,7 @@ def test_quantities_of_a_sweep(run):
     low = found["ranges"]["yield_speed_second"]["min"]
     ball = carom.Sphere(radius="5 mm", material="bearing-steel")
     pair = carom.Pair(ball, carom.HalfSpace(material="bearing-steel"), friction=0.3)
-    speeds = carom.strength(pair, angle=[0.0], friction=[0.05]).yield_speed_second
+    speeds = carom.bearable_speeds(pair, angle=[0.0], friction=[0.05]).yield_speed_second
     assert low <= float(speeds[0, 0]) * (1.0 + 1e-9)
     for wrong, words in (("foo", "is not a result"), ("crack_speed_second", "missing for the")):
         code, _, error = run(*small, "--quantities", wrong)

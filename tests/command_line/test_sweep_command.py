@@ -2,6 +2,7 @@
 
 import errno
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -113,10 +114,10 @@ def test_hypercube_of_the_axes(run):
     drawn = Path("case.toml").read_text().replace(", points = 9", "")
     radius = '"first.radius" = {from = "1 mm", to = "9 mm", spacing = "log"}'
     Path("case.toml").write_text(drawn.replace("friction = [0.1, 0.3]", radius))
-    code, out, _ = run("case.toml", "--json", "--output", "sweep.csv")
+    code, out, _ = run("case.toml", "--json", "--output", "sweep.nc")
     assert code == 0
     assert json.loads(out)["points"] == 7
-    radii = np.sort(carom.read("sweep.csv").first_radius)
+    radii = np.sort(carom.read("sweep.nc").first_radius)
     strata = np.geomspace(1e-3, 9e-3, 8)
     assert np.all((strata[:-1] <= radii) & (radii <= strata[1:]))
 
@@ -220,18 +221,17 @@ def test_case_without_a_sweep_is_refused(run):
 
 
 def test_full_disk_says_what_is_safe_and_resume_goes_on(run, monkeypatch):
-    write, written = Path.write_bytes, []
+    replace, written = os.replace, []
 
-    def onto_a_full_disk(file, content):
-        written.append(file.parent.parent.parent.name)
-        if written.count("status") == 2:
-            write(file, content[: len(content) // 2])
+    def onto_a_full_disk(partial, target):
+        written.append(Path(target).parts[1:3])
+        if written.count(("status", "c")) == 2:
             raise OSError(errno.ENOSPC, "No space left on device")
-        return write(file, content)
+        return replace(partial, target)
 
     with monkeypatch.context() as full:
         full.setattr("carom.sweeps.blocks.FEWEST", 4)
-        full.setattr(Path, "write_bytes", onto_a_full_disk)
+        full.setattr("os.replace", onto_a_full_disk)
         code, out, err = run("case.toml", "--store", "sweep.zarr")
     assert (code, out, err.count("\n")) == (1, "", 1)
     assert "No space left on device; free some space; 1 of 5 blocks are safe" in err
@@ -247,7 +247,7 @@ def test_interrupted_it_says_what_is_safe_and_how_to_go_on(run, monkeypatch):
         raise KeyboardInterrupt
 
     with monkeypatch.context() as pressed:
-        pressed.setattr("carom.sweeps.stores.write_chunk", interrupted)
+        pressed.setattr("carom.sweeps.stores.StoreRecord.write", interrupted)
         code, out, err = run("case.toml", "--store", "sweep.zarr")
     assert (code, out) == (130, "")
     assert err == (

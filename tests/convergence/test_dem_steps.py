@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import RK45
 
 import carom
-from carom.laws.dem.adaptive import ERROR, NODES
+from carom.dem.adaptive import ERROR, NODES
 
 CHI = 1.4412
 PSI = np.array([0.3, 0.55, 0.8, 1.2, 1.6, 2.2, 3.0, 3.7])
@@ -34,10 +34,10 @@ def order(law, psi=PSI):
 @pytest.mark.parametrize(
     "law",
     [
-        carom.LinearSpring(),
-        carom.HertzLinearHistory(),
-        carom.LammpsMindlin("mindlin"),
-        carom.StrongeLaw(restitution=0.7),
+        carom.dem.LinearSpring(),
+        carom.dem.HertzLinearHistory(),
+        carom.dem.LammpsMindlin("mindlin"),
+        carom.dem.StrongeLaw(restitution=0.7),
     ],
     ids=str,
 )
@@ -48,12 +48,12 @@ def test_stored_displacements_converge_in_second_order(law):
 @pytest.mark.parametrize(
     "law",
     [
-        carom.LammpsMindlin(FORCE),
-        carom.LammpsMindlin(RESCALED),
-        carom.LammpsMindlin("mindlin_rescale"),
-        carom.ThorntonLaw(),
-        carom.WaltonBraunLaw(),
-        carom.WaltonBraunLaw(restitution=0.7),
+        carom.dem.LammpsMindlin(FORCE),
+        carom.dem.LammpsMindlin(RESCALED),
+        carom.dem.LammpsMindlin("mindlin_rescale"),
+        carom.dem.ThorntonLaw(),
+        carom.dem.WaltonBraunLaw(),
+        carom.dem.WaltonBraunLaw(restitution=0.7),
     ],
     ids=str,
 )
@@ -64,14 +64,14 @@ def test_what_is_accumulated_or_rescaled_converges_in_first_order(law):
 @pytest.mark.parametrize(
     "law",
     [
-        carom.LammpsMindlin("mindlin", restitution=0.8),
-        carom.LammpsMindlin("mindlin", restitution=0.8, damping="tsuji"),
-        carom.LammpsMindlin("mindlin_rescale", restitution=0.8),
-        carom.LammpsMindlin(FORCE, restitution=0.8, tangential_damping=0.5),
-        carom.LammpsMindlin(RESCALED, restitution=0.8, tangential_damping=0.5),
-        carom.HertzLinearHistory(1.2, 0.8, 0.5),
-        carom.LinearSpring(0.6, 0.8, 0.5),
-        carom.LiggghtsHertz(0.8),
+        carom.dem.LammpsMindlin("mindlin", restitution=0.8),
+        carom.dem.LammpsMindlin("mindlin", restitution=0.8, damping="tsuji"),
+        carom.dem.LammpsMindlin("mindlin_rescale", restitution=0.8),
+        carom.dem.LammpsMindlin(FORCE, restitution=0.8, tangential_damping=0.5),
+        carom.dem.LammpsMindlin(RESCALED, restitution=0.8, tangential_damping=0.5),
+        carom.dem.HertzLinearHistory(1.2, 0.8, 0.5),
+        carom.dem.LinearSpring(0.6, 0.8, 0.5),
+        carom.dem.LiggghtsHertz(0.8),
     ],
     ids=str,
 )
@@ -85,9 +85,9 @@ def test_velocities_of_the_half_step_make_damping_first_order(law):
 @pytest.mark.parametrize(
     "law",
     [
-        carom.EdemHertzMindlin(0.9),
-        carom.LammpsMindlin("mindlin", restitution=0.9, tangential_damping=1.0),
-        carom.LammpsMindlin("mindlin_rescale", restitution=0.9, tangential_damping=1.0),
+        carom.dem.EdemHertzMindlin(0.9),
+        carom.dem.LammpsMindlin("mindlin", restitution=0.9, tangential_damping=1.0),
+        carom.dem.LammpsMindlin("mindlin_rescale", restitution=0.9, tangential_damping=1.0),
     ],
     ids=str,
 )

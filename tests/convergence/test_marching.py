@@ -1,194 +1,195 @@
-"""The marching method converges to the exact solution: rebounds, and sequences of phases."""
+"""The march of springs converges to the exact solution, and so does the plain march of the oracle.
 
-from functools import cache
+Rebounds and sequences of phases of elastic bodies; plates; bodies that are struck off their centre.
+"""
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.special import beta
+from tests.oracles import march as oracle
 
-from carom.dimensionless.rebounds import rebound
-from carom.dimensionless.solution import solve
-from carom.dimensionless.twins.marching import (
-    Phase,
-    extrapolated,
-    march,
-    march_on,
-    march_phases,
-    resolution,
-    resolved,
-)
-from carom.dimensionless.twins.marching_motion import elastic
+import carom
+from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.layout import PSI_OUT, RESTITUTION, TIME
+from carom.dimensionless.lossy.solving import solve_with_losses
+from carom.dimensionless.lossy.springs.march import LAGGING, PULLED, new_work
+from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia, Solid
+from carom.dimensionless.lossy.springs.rebounds import march_rebound, marched, run, trace
+from carom.dimensionless.lossy.springs.springs import WEIGHT
 
 Array = NDArray[np.float64]
 
 SPRINGS = (125, 250, 500, 1000)
 CASES = [(0.5, 1.44), (1.5, 1.44), (3.5, 1.44), (0.5, 1.75), (0.9, 0.8), (5.5, 3.3), (0.2, 4.8)]
+ROD = Inertia(chi=0.507527, eps=0.329802, zeta=1.086368)  # at 40 degrees, mu = 0.5, kappa = 0.8235
 
 
 def random_impacts(seed: int, count: int) -> tuple[Array, Array]:
     rng = np.random.default_rng(seed)
-    return rng.uniform(-6.0, 6.0, count), rng.uniform(0.1, 5.0, count)
+    return rng.uniform(-6.0, 6.0, count), rng.uniform(0.1, 3.0, count)
 
 
 def errors(psi: float, chi: float) -> Array:
-    exact = rebound(psi, chi)
-    return np.array([abs(march(psi, chi, n, 4 * n) - exact) for n in SPRINGS])
+    exact = carom.rebound(psi, chi)
+    found = [marched(psi, Inertia(chi), ELASTIC, n)[PSI_OUT] for n in SPRINGS]
+    return np.abs(np.array(found) - exact)
 
 
-def order(found: Array) -> float:
-    """Return the slope of log(1/error) against log(springs)."""
-    return -float(np.polyfit(np.log(SPRINGS), np.log(found), 1)[0])
+def numbers(psi: float, inertia: Inertia, solid: Solid = ELASTIC) -> Array:
+    """Return what an impact comes to."""
+    found = np.empty(9)
+    assert run(psi, inertia, solid, new_work(), found)[0] == 0
+    return found
 
 
 @pytest.mark.parametrize(("psi", "chi"), CASES)
 def test_error_of_each_impact_is_of_second_order(psi: float, chi: float) -> None:
-    assert order(errors(psi, chi)) == pytest.approx(2.0, abs=0.12)
+    order = -np.polyfit(np.log(SPRINGS), np.log(errors(psi, chi)), 1)[0]
+    assert order == pytest.approx(2.0, abs=0.15)
 
 
-def test_error_of_solid_spheres_is_of_second_order_and_small() -> None:
+def test_error_of_solid_spheres_is_small() -> None:
     rng = np.random.default_rng(1976)
     chi = rng.uniform(1.1, 1.8, 100)
     psi = rng.uniform(0.0, 4.0 * chi - 1.1)  # up to the border of gross slip throughout
     found = np.array([errors(*impact) for impact in zip(psi, chi, strict=True)])
-    orders = [order(row) for row in found]
-    assert np.median(orders) == pytest.approx(2.0, abs=0.02)
-    assert np.quantile(orders, 0.1) > 1.9
-    assert np.quantile(orders, 0.9) < 2.1
     scaled = found * np.square(SPRINGS)
     assert np.median(scaled) < 0.4
     assert np.max(scaled) < 1.0
 
 
-@pytest.mark.slow
-def test_extrapolation_agrees_with_the_exact_rebound() -> None:
-    psi, chi = random_impacts(38, 300)
-    found = [extrapolated(*impact) for impact in zip(psi, chi, strict=True)]
-    difference = np.abs(found - rebound(psi, chi))
-    assert np.max(difference) < 1e-6
-    assert np.median(difference) < 1e-8
+def test_two_grids_give_1e_6_and_say_so() -> None:
+    psi, chi = random_impacts(38, 200)
+    pairs = zip(psi, chi, strict=True)
+    found, told = np.array([march_rebound(p, Inertia(c), ELASTIC) for p, c in pairs]).T
+    wrong = np.abs(found - carom.rebound(psi, chi)) / np.maximum(1.0, np.abs(psi))
+    assert np.quantile(wrong, 0.97) < 1e-6
+    assert np.max(wrong) < 3e-6
+    assert np.median(wrong) < 2e-7
+    assert np.max(wrong * np.maximum(1.0, np.abs(psi)) / told) < 2.0
 
 
-def test_gross_slip_throughout_is_exact() -> None:
-    rng = np.random.default_rng(4)
-    for chi in rng.uniform(0.1, 5.0, 20):
-        psi = max(1.0, 4.0 * chi - 1.0) + rng.uniform(0.01, 3.0)
-        assert march(psi, chi, 100, 400) == pytest.approx(psi - 4.0 * chi, abs=1e-11)
-        assert [phase[:2] for phase in march_phases(psi, chi)] == [("gross slip", 1)]
+def test_the_oracle_agrees() -> None:
+    for psi, chi in zip(*random_impacts(5, 4), strict=True):
+        assert oracle.extrapolated(psi, chi, springs=500) == pytest.approx(
+            carom.rebound(psi, chi), abs=5e-6
+        )
+
+
+@pytest.mark.parametrize("psi", [4.0, 9.0])
+def test_gross_slip_throughout(psi: float) -> None:
+    """psi_1 - 4 chi, as the impulse is exact; so do plates, by 2 chi (1 + e)."""
+    assert march_rebound(psi, Inertia(1.0), ELASTIC)[0] == pytest.approx(psi - 4.0, abs=1e-7)
+    assert oracle.march(psi, 1.0, springs=100) == pytest.approx(psi - 4.0, abs=1e-9)
+    plate = numbers(psi + 4.0, Inertia(1.0), Solid(int(Loss.PLATE), 0.3))
+    slid = psi + 4.0 - 2.0 * (1.0 + plate[RESTITUTION])
+    assert plate[PSI_OUT] == pytest.approx(slid, abs=1e-6 * (psi + 4.0))
 
 
 @pytest.mark.parametrize(
     ("psi", "chi"), [(0.3, 0.5), (0.7, 0.5), (-0.99, 0.5), (1.0, 0.5), (0.1, 4.0), (0.39, 4.0)]
 )
 def test_load_that_retraces_its_path_reverses_the_velocity(psi: float, chi: float) -> None:
-    assert extrapolated(psi, chi) == pytest.approx(-psi, abs=1e-10)
-    if abs(psi) < 1.0:
-        assert [phase[:2] for phase in march_phases(psi, chi)] == [("stick", 0)]
+    assert march_rebound(psi, Inertia(chi), ELASTIC)[0] == pytest.approx(-psi, abs=1e-7)
 
 
 def test_opposite_approach_rebounds_oppositely() -> None:
-    for psi, chi in zip(*random_impacts(101, 30), strict=True):
-        assert march(-psi, chi, 125, 500) == -march(psi, chi, 125, 500)
-    assert march(0.0, 1.44) == 0.0
-
-
-FINE = 1000  # springs, for the sequences of phases
-SPACING = 0.5 * np.pi / FINE  # of the springs, as an angle
-
-
-def ring_width(psi: float, chi: float, start: float, end: float) -> float:
-    """Return how wide the slipping ring of an exact phase grows, as an angle."""
-    state = solve(psi, chi).at(np.linspace(start, end, 101)[1:-1])
-    edge = np.arcsin(np.minimum(state.contact_radius, 1.0))
-    return float(np.max(edge - np.arcsin(np.minimum(state.stick_radius, 1.0))))
-
-
-def exact_phases(psi: float, chi: float, leeway: float) -> list[Phase]:
-    """Return the exact phases that last, and slip that spreads, `leeway` times the resolution."""
-    found = [phase[:4] for phase in solve(psi, chi).phases]
-    seen = [p for p in found if p[1] == 0 or ring_width(psi, chi, *p[2:]) >= leeway * SPACING]
-    return resolved(seen, leeway * resolution(FINE))
-
-
-def same_sequence(first: list[Phase], second: list[Phase]) -> bool:
-    return [phase[:2] for phase in first] == [phase[:2] for phase in second]
-
-
-@cache
-def told_impacts() -> list[tuple[float, float, list[Phase]]]:
-    """Return those of 60 impacts whose exact phases are all clearly told or clearly not."""
-    psi, chi = random_impacts(1882, 60)
-    psi[::2] /= 4.0  # stick from the start, and more reversals
-    result = []
-    for impact in zip(psi, chi, strict=True):
-        narrow, wide = exact_phases(*impact, 0.5), exact_phases(*impact, 2.0)
-        if same_sequence(narrow, wide):
-            result.append((*impact, wide))
-    return result
+    for psi, chi in zip(*random_impacts(101, 10), strict=True):
+        forth, back = (march_rebound(p, Inertia(chi), ELASTIC)[0] for p in (psi, -psi))
+        assert forth == -back
+    assert march_rebound(0.0, Inertia(1.44), ELASTIC)[0] == 0.0
 
 
 def test_sequence_of_phases_is_the_exact_one() -> None:
-    assert len(told_impacts()) >= 50
-    late = []
-    for psi, chi, exact in told_impacts():
-        found = march_phases(psi, chi, FINE, 4 * FINE)
-        assert same_sequence(found, exact), (psi, chi)
-        late += [abs(a[2] - b[2]) for a, b in zip(found[1:], exact[1:], strict=True)]
-    assert np.median(late) < 0.1 * resolution(FINE)
-    assert np.quantile(late, 0.9) < 0.5 * resolution(FINE)
-
-
-def test_wrong_sequences_of_phases_are_told_from_the_exact_one() -> None:
-    """Were any phase missing, of wrong sign, or of wrong kind, the comparison would fail."""
-    kinds = {"stick": "slip", "slip": "gross slip", "gross slip": "stick"}
-    for psi, chi, exact in told_impacts():
-        found = march_phases(psi, chi, FINE, 4 * FINE)
-        assert same_sequence(march_phases(-psi, chi, FINE, 4 * FINE), exact) == (
-            {phase[1] for phase in exact} == {0}
-        )
-        for i, (kind, sign, start, end) in enumerate(exact):
-            without = exact[:i] + exact[i + 1 :]
-            other = [*exact[:i], (kinds[kind], sign, start, end), *exact[i + 1 :]]
-            for wrong in (without, other):
-                assert not same_sequence(found, resolved(wrong, resolution(FINE)))
-
-
-def test_phases_fill_the_contact() -> None:
-    for psi, chi, exact in told_impacts():
-        found = march_phases(psi, chi)
-        assert found[0][2] == 0.0
-        assert found[-1][3] == pytest.approx(solve(psi, chi).duration, abs=1e-12)
-        assert [p[3] for p in found[:-1]] == [p[2] for p in found[1:]]
-        assert all(end > start for _, _, start, end in [*found, *exact])
+    """Where no exact phase is so short, and no ring so thin, that springs cannot show it."""
+    seen = 0
+    for psi, chi in zip(*random_impacts(1882, 40), strict=True):
+        exact = carom.solve(psi, chi).phases
+        if min(p.end - p.start for p in exact) < 0.12:
+            continue
+        found = solve_with_losses(psi, chi, LossNumbers(Loss.PLATE, 0.0)).phases
+        assert [p[:2] for p in found] == [p[:2] for p in exact], (psi, chi)
+        assert [p.start for p in found] == pytest.approx([p.start for p in exact], abs=0.03)
+        seen += 1
+    assert seen > 15
 
 
 @pytest.mark.parametrize(
-    ("arguments", "named"),
+    ("give", "e", "duration", "psi_out"),
     [
-        ((np.nan, 1.0), "psi"),
-        ((1.0, 0.0), "chi"),
-        ((1.0, np.inf), "chi"),
-        ((1.0, 1.0, 0, 4), "springs"),
-        ((1.0, 1.0, 10, 30), "steps"),
+        (0.1, 0.83022, 3.0042, (0.04139, -0.09983, -0.87530, -1.29476, -0.77543)),
+        (0.4, 0.48416, 3.2541, (0.0538, -0.1692, -0.8272, -0.9257, 0.2220)),
+        (1.5, 0.04827, 5.889, (0.197, 0.085, -0.205, -0.022, 1.478)),
     ],
 )
-def test_wrong_arguments_are_named(arguments: tuple[float, float], named: str) -> None:
-    for function in (march, march_phases, extrapolated):
-        with pytest.raises(ValueError, match=named):
-            function(*arguments)
+def test_plates(give: float, e: float, duration: float, psi_out: tuple[float, ...]) -> None:
+    """Zener's plates, against 800 springs in 4000 steps of a march of its own; e for small lambda
+    is exp(-(3/2) B(3/5, 3/2) lambda)."""
+    solid, close = (
+        Solid(int(Loss.PLATE), give),
+        6e-6 if give == 0.1 else 6e-4 if give > 1.0 else 6e-5,
+    )
+    for psi, wanted in zip((0.5, 1.0, 2.0, 3.0, 4.5), psi_out, strict=True):
+        found = numbers(psi, Inertia(1.4412), solid)
+        assert found[PSI_OUT] == pytest.approx(wanted, abs=close)
+        assert found[RESTITUTION] == pytest.approx(e, abs=6e-6)
+        assert found[TIME] == pytest.approx(duration, abs=6e-4)
+    little = numbers(1.0, Inertia(1.44), Solid(int(Loss.PLATE), 1e-4))[RESTITUTION]
+    assert little == pytest.approx(np.exp(-1.5 * beta(0.6, 1.5) * 1e-4), abs=2e-8)
 
 
-def test_odd_springs_cannot_be_halved() -> None:
-    with pytest.raises(ValueError, match="odd"):
-        extrapolated(1.0, 1.0, 5, 20)
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_sliding_throughout_off_the_centre(sign: float) -> None:
+    """psi_1 - 2 (2 chi sigma + zeta)/(1 + sigma eps), elastic along the normal."""
+    chi, eps, zeta = ROD
+    psi = sign * 8.0
+    found = numbers(psi, ROD)
+    slid = psi - 2.0 * (2.0 * chi * sign + zeta) / (1.0 + sign * eps)
+    assert found[PSI_OUT] == pytest.approx(slid, abs=1e-6)
+    assert found[RESTITUTION] == pytest.approx(1.0, abs=1e-6)
 
 
-def test_any_normal_motion_can_be_given() -> None:
-    """Gross slip throughout under limits D = b^2: psi_2 = psi_1 - (5/2) chi integral of b^3 dt."""
-    assert march_on(3.0, 1.44, elastic(2000)) == march(3.0, 1.44, 500, 2000)
-    angle = np.linspace(0.0, np.pi, 2001)
-    b, slow = np.sin(angle), 1.0 - 0.4 * np.cos(angle)
-    b[-1] = 0.0
-    time = 2.0 * (1.0 - np.cos(angle)) - 0.4 * b**2
-    motion = np.array([angle, time, 2.0 * b * slow, b, b**2, np.cos(angle) / slow]).T.copy()
-    chi = 1.2  # the integral of b^3 dt is that of 2 sin^4 (1 - 0.4 cos), 3 pi/4
-    assert march_on(20.0, chi, motion) == pytest.approx(20.0 - 1.875 * np.pi * chi, abs=1e-10)
+def test_a_rod_struck_off_its_centre() -> None:
+    """Without tangential velocity before; the material loses nothing, and yet e is 0.848."""
+    found = numbers(0.0, ROD)
+    assert found[PSI_OUT] == pytest.approx(-1.0565, abs=2.5e-3)  # of chi, eps, zeta in 3 digits
+    assert found[RESTITUTION] == pytest.approx(0.8482, abs=5e-4)
+
+
+@pytest.mark.parametrize(
+    ("psi", "inertia", "solid"),
+    [
+        (1.5, Inertia(1.44), ELASTIC),
+        (0.0, ROD, ELASTIC),
+        (-2.0, ROD, ELASTIC),
+        (1.0, Inertia(1.44), Solid(int(Loss.PLATE), 0.4)),
+    ],
+)
+def test_friction_takes_what_the_motion_loses(psi: float, inertia: Inertia, solid: Solid) -> None:
+    """Work of friction by springs, summed apart, against the kinetic energies.
+
+    w^T diag(1, m) B^-1 w, m zeta = (3/2) eps, of the rates -(5/4) B (P, Q).
+    """
+    kept = new_work(2000, 240)
+    steps = trace(psi, inertia, solid, 200, new_work(), kept)
+    springs, rows = kept.frames[: steps + 1], kept.rows[: steps + 1]
+    weights = kept.springs[WEIGHT, :240]
+    pull = 0.5 * (springs[1:, PULLED] + springs[:-1, PULLED])
+    behind = springs[1:, LAGGING] - springs[:-1, LAGGING]
+    touching = (springs[1:, 0] > 0.0) & (springs[:-1, 0] > 0.0)
+    work = float(np.sum(weights * pull * behind * touching))
+    at = numbers(psi, inertia, solid)
+    assert work > 0.0
+    assert rows[-1, 3] == pytest.approx(at[PSI_OUT], abs=1e-4)
+    if inertia.eps == 0.0:
+        lost = 0.5 * (psi**2 - at[PSI_OUT] ** 2)
+        assert 3.75 * inertia.chi * work == pytest.approx(lost, rel=3e-3)
+        return
+    share = 1.5 * inertia.eps / inertia.zeta
+    rates = np.array([[1.0, 1.5 * inertia.eps], [inertia.zeta, 3.0 * inertia.chi]])
+    metric = np.diag([1.0, share]) @ np.linalg.inv(rates)
+    assert metric[0, 1] == pytest.approx(metric[1, 0])
+    before, after = np.array([1.0, psi]), np.array([-at[RESTITUTION], at[PSI_OUT]])
+    lost = 0.5 * (before @ metric @ before - after @ metric @ after)
+    assert 1.25 * share * work == pytest.approx(lost, rel=3e-3)

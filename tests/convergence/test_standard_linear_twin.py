@@ -8,12 +8,12 @@ normal motion, marched here on even springs and times. Over 8 impacts psi_2 diff
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.oracles import rings
 
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.lossy.springs.march import march
-from carom.dimensionless.lossy.springs.work import new_work
-from carom.dimensionless.twins import rings
+from carom.dimensionless.lossy.springs.motion import Inertia, Solid
+from carom.dimensionless.lossy.springs.rebounds import marched
 
 Array = NDArray[np.float64]
 
@@ -72,12 +72,11 @@ def test_error_is_of_second_order_and_what_is_promised() -> None:
     rng = np.random.default_rng(1966)
     psi, chi = rng.uniform(0, 6, 8), rng.uniform(0.3, 3, 8)
     theta, g = 10.0 ** rng.uniform(-2, 1, 8), 10.0 ** rng.uniform(-0.7, 1, 8)
-    work, numbers, rows = new_work(), np.zeros(9), np.zeros((0, 0))
     found = np.empty((8, 4))
     for i, given in enumerate(zip(theta, g, strict=True)):
         for j, count in enumerate((100, 200, 400, 800)):
-            march(psi[i], chi[i], LossNumbers(Loss.RELAXING, *given), count, work, rows, numbers)
-            found[i, j] = numbers[0]
+            solid = Solid(int(Loss.RELAXING), *given)
+            found[i, j] = marched(psi[i], Inertia(chi[i]), solid, count)[0]
     fine = (4.0 * found[:, 3] - found[:, 2]) / 3.0
     errors = np.abs(found[:, :3] - fine[:, None])
     assert np.median(np.log2(errors[:, 0] / errors[:, 2]) / 2.0) == pytest.approx(2.0, abs=0.15)

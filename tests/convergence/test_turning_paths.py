@@ -7,10 +7,10 @@ has an error of first order in the angle of a step, so that it is extrapolated f
 import numpy as np
 import pytest
 
+from carom.dem import lattice
 from carom.dimensionless.load_paths import paths, turning
 from carom.halfspace.compliance import Materials
 from carom.halfspace.quasistatic import Patch
-from carom.laws.dem import lattice
 
 NU_03 = Materials(kappa=14 / 17)
 CORNERS = np.array([(0.3, 0.5, -0.1), (0.8, 0.9, 0.3), (1.0, 0.4, 0.9), (0.6, -0.2, 0.5)])

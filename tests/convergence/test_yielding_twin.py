@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.special import beta, betainc
+from tests.oracles import rings
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import PSI_OUT
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.lossy.springs.rebounds import trace
-from carom.dimensionless.lossy.springs.work import new_work
-from carom.dimensionless.twins import rings
+from carom.dimensionless.lossy.springs.motion import Inertia, Solid
+from carom.dimensionless.lossy.springs.rebounds import marched
 
 Array = NDArray[np.float64]
 
@@ -190,11 +190,11 @@ def test_error_is_of_second_order_and_what_is_promised() -> None:
     rng = np.random.default_rng(7)
     chi, y = rng.uniform(0.3, 8, 40), 100.0 ** (-0.4 * rng.random(40))
     psi = rng.random(40) * (4.0 * chi + 0.5)
-    work, found = new_work(), np.empty((40, 4))
+    found = np.empty((40, 4))
     for i, (p, c, parameter) in enumerate(zip(psi, chi, y, strict=True)):
         for j, count in enumerate((100, 200, 400, 800)):
-            trace(p, c, int(Loss.PLASTIC), parameter, 0.0, count, work, work.no_rows)
-            found[i, j] = work.coarse[PSI_OUT]
+            solid = Solid(int(Loss.PLASTIC), parameter)
+            found[i, j] = marched(p, Inertia(c), solid, count)[PSI_OUT]
     fine = (4.0 * found[:, 3] - found[:, 2]) / 3.0
     errors = np.abs(found[:, :3] - fine[:, None])
     assert np.median(np.log2(errors[:, 0] / errors[:, 2]) / 2.0) == pytest.approx(2.0, abs=0.1)

@@ -21,7 +21,7 @@ import pytest
 import xarray as xr
 
 import carom
-from carom import classical, verify
+from carom import classical, convert_observables as convert, dem, laws, verify
 from carom.io.tables import read_table
 from carom.sweeps.problem import SweepProblem
 
@@ -88,27 +88,22 @@ def tables():
     LOSSY = carom.KelvinVoigt(restitution=0.9)
     PATH = carom.load_path(PAIR, normal_force="10 N", tangential_force=[0.0, 1.0])
     SOLVED, LOST = carom.solve(0.5, 1.44), carom.solve(1.5, 1.44, losses=LOSSY)
-    LAW, MIXED = carom.ReboundLaw(1.44), carom.MixtureLaw(1.2, 1.3)
+    LAW, MIXED = carom.laws.ReboundLaw(1.44), carom.laws.MixtureLaw(1.2, 1.3)
     SLIDING = {"tangential_damping": 0.5, "restitution": 0.9}
-    OWN = carom.FunctionLaw(lambda contact, state: (-1e-3 * contact.normal_force, state))
-    RULE = carom.FunctionRebound(lambda psi, chi: -0.4 * psi)
+    OWN = dem.FunctionLaw(lambda contact, state: (-1e-3 * contact.normal_force, state))
+    RULE = dem.FunctionRebound(lambda psi, chi: -0.4 * psi)
     LAWS = {
-        carom.LinearSpring: {"stiffness_ratio": 0.3, **SLIDING},
-        carom.MemoryLaw: {"springs": 16, "restitution": 0.9, "viscous_shear": True},
-        carom.HertzLinearHistory: {"stiffness": 0.8, **SLIDING},
-        carom.LammpsMindlin: {
-            "variant": "mindlin",
-            "stiffness": 1.0,
-            "damping": "tsuji",
-            **SLIDING,
-        },
-        carom.LiggghtsHertz: {"restitution": 0.9},
-        carom.EdemHertzMindlin: {"restitution": 0.9},
-        carom.YadeMindlin: {"restitution": 0.9},
-        carom.ThorntonLaw: {},
-        carom.WaltonBraunLaw: {"stiffness_ratio": 0.3, "restitution": 0.9},
-        carom.StrongeLaw: {"stiffness_ratio": 0.3, "restitution": 0.9},
-        carom.HardSphere: {"tangential_restitution": 0.4, "restitution": 0.9},
+        dem.LinearSpring: {"stiffness_ratio": 0.3, **SLIDING},
+        dem.ExactContactLaw: {"springs": 16, "restitution": 0.9, "viscous_shear": True},
+        dem.HertzLinearHistory: {"stiffness": 0.8, **SLIDING},
+        dem.LammpsMindlin: {"variant": "mindlin", "stiffness": 1.0, "damping": "tsuji", **SLIDING},
+        dem.LiggghtsHertz: {"restitution": 0.9},
+        dem.EdemHertzMindlin: {"restitution": 0.9},
+        dem.YadeMindlin: {"restitution": 0.9},
+        dem.ThorntonLaw: {},
+        dem.WaltonBraunLaw: {"stiffness_ratio": 0.3, "restitution": 0.9},
+        dem.StrongeLaw: {"stiffness_ratio": 0.3, "restitution": 0.9},
+        dem.HardSphere: {"tangential_restitution": 0.4, "restitution": 0.9},
     }
     MOTION = {"spin": 3.0, "spin2": 1.0, "losses": None, "method": "exact", "progress": False}
     MOTION["normal_spin"] = 100.0
@@ -160,15 +155,15 @@ def tables():
         "law": (LAW, {"psi": [0.5, 2.0]}),
         "impulse": (LAW.impulse, {"psi": [0.5, 2.0]}),
         "dissipation": (LAW.dissipation, {"psi": [0.5, 2.0]}),
-        "from_dict": (carom.ReboundLaw.from_dict, {"table": LAW.to_dict()}),
-        "from_dict, items": (lambda **table: carom.ReboundLaw.from_dict(table), LAW.to_dict()),
+        "from_dict": (carom.laws.ReboundLaw.from_dict, {"table": LAW.to_dict()}),
+        "from_dict, items": (lambda **table: carom.laws.ReboundLaw.from_dict(table), LAW.to_dict()),
         "from_dict, one item": (_with_one(LAW), {"item": LAW.edges[1]}),
         "outputs": (lambda outputs: SweepProblem(CASE, GRID, outputs), {"outputs": ["psi_out"]}),
         "table": (read_table, {"source": RECORDS, "columns": None}),
         "mixture": (MIXED, {"psi": [0.5, 2.0], "chi": 1.25, "return_status": False}),
-        "SmoothLaw": (carom.SmoothLaw, {"restitution": 0.9}),
-        "RoughLaw": (carom.RoughLaw, {"restitution": 0.9}),
-        "WaltonLaw": (carom.WaltonLaw, {"friction": 0.2, "restitution": 0.9,
+        "SmoothLaw": (carom.laws.SmoothLaw, {"restitution": 0.9}),
+        "RoughLaw": (carom.laws.RoughLaw, {"restitution": 0.9}),
+        "WaltonLaw": (carom.laws.WaltonLaw, {"friction": 0.2, "restitution": 0.9,
                                         "tangential_restitution": 0.4}),
         **{kind.__name__: (kind, given) for kind, given in LAWS.items()},
         **{f"{kind.__name__}.rebound": (kind(**given).rebound, {"psi": [0.5, 2.0], "chi": 1.44,
@@ -176,27 +171,28 @@ def tables():
            for kind, given in LAWS.items()},
         **{f"{kind.__name__}.history": (kind(**given).history, {"psi": 0.5, "chi": 1.44,
                                         "kappa": 0.8, "steps": 50})
-           for kind, given in LAWS.items() if kind is not carom.HardSphere},
-        "FunctionLaw": (carom.FunctionLaw, {"function": OWN.function, "name": "own", "pair": PAIR,
+           for kind, given in LAWS.items() if kind is not dem.HardSphere},
+        "FunctionLaw": (dem.FunctionLaw, {"function": OWN.function, "name": "own", "pair": PAIR,
                                             "normal": "linear", "restitution": 0.9,
                                             "normal_speed": 0.1}),  # a state may be anything
         "FunctionLaw.rebound": (OWN.rebound, {"psi": [0.5, 2.0], "chi": 1.44, "kappa": 0.8,
                                               "steps": 50, "threads": 1}),
         "FunctionLaw.history": (OWN.history, {"psi": 0.5, "chi": 1.44, "kappa": 0.8, "steps": 50}),
-        "FunctionRebound": (carom.FunctionRebound, {"function": RULE.function, "name": "own"}),
+        "FunctionRebound": (dem.FunctionRebound, {"function": RULE.function, "name": "own"}),
         "FunctionRebound.rebound": (RULE.rebound, {"psi": [0.5, 2.0], "chi": 1.44, "kappa": 0.8,
                                                    "return_status": False}),
         "force_error, own": (verify.force_error, {"law": OWN, "psi": 0.5, "chi": 1.44}),
         "collide": (carom.collide, {"pair": PAIR, **VECTORS, "normal": [0.0, 0.0, 1.0], "law": None,
                                     "inplace": False, "threads": 1}),
         "collide, balls": (carom.collide, {"pair": BALLS, **VECTORS, "spin2": [0.0, 0.0, 1.0],
-                                           "normal": [0.0, 0.0, 1.0], "law": carom.RoughLaw()}),
+                                           "normal": [0.0, 0.0, 1.0], "law": laws.RoughLaw()}),
         "collide, judged": (carom.collide, {"pair": PAIR, **VECTORS, "normal": [0.0, 0.0, 1.0],
                                             "judge": True}),
-        "convert": (lambda wanted, **known: carom.convert(PAIR, known=known, wanted=wanted),
+        "convert": (
+                    lambda wanted, **known: convert(PAIR, known=known, wanted=wanted),
                     {"speed": 2.0, "angle": [0.1, 0.5], "contact_beta": 0.3, "spin": 1.0,
                      "normal_restitution": 0.9, "wanted": "rebound_angle"}),
-        "convert, all": (carom.convert, {"pair": PAIR, "known": POLAR, "wanted": "normal_speed"}),
+        "convert, all": (convert, {"pair": PAIR, "known": POLAR, "wanted": "normal_speed"}),
         "load_path": (carom.load_path, {"pair": PAIR, **STEPS}),
         "load_path, moved": (carom.load_path, {"pair": PAIR, "penetration": [1e-6, 2e-6],
                                                "displacement": 1e-7}),
@@ -230,43 +226,43 @@ def tables():
         "damping": (verify.damping, {"restitution": 0.9, "convention": "critical"}),
         "restitution": (verify.restitution, {"value": 0.1, "convention": "thornton"}),
         "recipes": (verify.recipes, {"pair": PAIR, "normal_speed": 1.0, "wanted": 0.9,
-                                     "spring": carom.LinearSpring(),
-                                     "mindlin": carom.LammpsMindlin()}),
-        "Experiment": (verify.Experiment, {"pair": PAIR, "law": carom.LammpsMindlin(), "steps": 99,
+                                     "spring": dem.LinearSpring(),
+                                     "mindlin": dem.LammpsMindlin()}),
+        "Experiment": (verify.Experiment, {"pair": PAIR, "law": dem.LammpsMindlin(), "steps": 99,
                                            "normal_speed": 0.1, "tangential_speed": (0.1, 0.0),
                                            "spin": (0.0, 1.0)}),
-        "force_error": (verify.force_error, {"law": carom.LinearSpring(), "psi": 0.5, "chi": 1.44,
+        "force_error": (verify.force_error, {"law": dem.LinearSpring(), "psi": 0.5, "chi": 1.44,
                                              "kappa": 0.8}),
-        "error_map": (verify.error_map, {"law": carom.HardSphere(0.4), "psi": [0.5, 1.0],
+        "error_map": (verify.error_map, {"law": dem.HardSphere(0.4), "psi": [0.5, 1.0],
                                          "chi": 1.44, "kappa": 0.8, "steps": 50}),
         "bench": (verify.bench, {"engine": verify.Lammps("/nowhere"), "steps": 100, "psi": [0.5]}),
-        "Entry": (verify.Entry, {"label": "one", "law": carom.LinearSpring(), "used_by": ""}),
+        "Entry": (verify.Entry, {"label": "one", "law": dem.LinearSpring(), "used_by": ""}),
         "dataset": (carom.datasets.table, {"name": "kharaz2001"}),
     }  # fmt: skip
     costly = {
-        "ReboundLaw": (carom.ReboundLaw, {"chi": 1.44, "losses": None}),
-        "MixtureLaw": (lambda low: carom.MixtureLaw(low, 1.3), {"low": 1.2}),
-        "fit_walton": (carom.fit_walton, {"pair": PAIR, "span": 5.0}),
+        "ReboundLaw": (carom.laws.ReboundLaw, {"chi": 1.44, "losses": None}),
+        "MixtureLaw": (lambda low: carom.laws.MixtureLaw(low, 1.3), {"low": 1.2}),
+        "fit_walton": (carom.laws.fit_walton, {"pair": PAIR, "span": 5.0}),
         "hit.stress": (HIT.stress, {**INSIDE, **BELOW}),
         "path.stress": (PATH.stress, {"step": 1, **BELOW}),
         "hit.peaks": (HIT.peaks, {"depth": 1e-5}),
         "hit.wear": (HIT.wear, {"n": 3, "coefficient": 1e-13, "x": [0.0, 1e-5], "y": [0.0]}),
         "hit.spectrum": (HIT.spectrum, {"frequencies": [0.0, 1e5]}),
         "hit.spectrum, n": (HIT.spectrum, {"max_frequency": 1e5, "n": 3}),
-        "strength": (carom.strength, {"pair": PAIR, "angle": [0.5], "friction": [0.2],
+        "strength": (carom.bearable_speeds, {"pair": PAIR, "angle": [0.5], "friction": [0.2],
                                       "workers": 1, "progress": False}),
-        "wear": (carom.wear, {"pair": PAIR, **POLAR, "spin": 1.0, "counts": [1.0, 2.0],
+        "wear": (carom.wear_of_many, {"pair": PAIR, **POLAR, "spin": 1.0, "counts": [1.0, 2.0],
                               "coefficient": 1e-13, "area": 1e-4, "n": 3, "losses": None}),
-        "wear, components": (carom.wear, {"pair": BALLS, **CARTESIAN, "spin2": 1.0}),
+        "wear, components": (carom.wear_of_many, {"pair": BALLS, **CARTESIAN, "spin2": 1.0}),
         "sweep": (carom.sweep, {"case": CASE, "design": GRID, "outputs": ["psi_out"], "workers": 1,
                                 "progress": False, "scheduler": None, "resume": False}),
-        "step_error": (verify.step_error, {"law": carom.LinearSpring(), "steps": 50, "psi": [0.5],
+        "step_error": (verify.step_error, {"law": dem.LinearSpring(), "steps": 50, "psi": [0.5],
                                            "chi": 1.44, "kappa": 0.8}),
-        "advised_steps": (verify.advised_steps, {"law": carom.LinearSpring(), "allowed": 0.1,
+        "advised_steps": (verify.advised_steps, {"law": dem.LinearSpring(), "allowed": 0.1,
                                                  "psi": [0.5], "chi": 1.44, "kappa": 0.8}),
-        "rank": (verify.rank, {"entries": [carom.LinearSpring()], "chi": 1.44, "kappa": 0.8,
+        "rank": (verify.rank, {"entries": [dem.LinearSpring()], "chi": 1.44, "kappa": 0.8,
                                "psi": [0.5], "progress": False}),
-        "tune": (verify.tune, {"laws": [carom.HardSphere()], "chi": 1.44, "kappa": 0.8,
+        "tune": (verify.tune, {"laws": [dem.HardSphere()], "chi": 1.44, "kappa": 0.8,
                                "psi": [0.5], "measure": "max", "progress": False}),
         "score": (verify.score, {"results": {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.0, -1.0]},
                                  "case": None, "chi": 1.44, "tolerance": 0.01, "code": "own",
@@ -301,7 +297,7 @@ def _with_one(law):
     def read(item):
         table = law.to_dict()
         table["edges"][1] = item
-        return carom.ReboundLaw.from_dict(table)
+        return carom.laws.ReboundLaw.from_dict(table)
 
     return read
 
@@ -337,7 +333,7 @@ def is_open(value):
     if isinstance(value, list | tuple):
         return any(map(is_open, value))
     if is_dataclass(value) and not isinstance(value, type):
-        status = getattr(value, "status", carom.Status.SOLVED)
+        status = getattr(value, "status", carom.status.Status.SOLVED)
         names = (each.name for each in fields(value) if not each.name.startswith("_"))
         return status == 0 and any(is_open(getattr(value, name)) for name in names)
     return False

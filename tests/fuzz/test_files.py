@@ -13,7 +13,6 @@ import warnings
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import carom
 from carom.io.labels import flags, labelled_dataset
@@ -97,20 +96,6 @@ def replaced(content, rng):
 MUTATIONS = [turned, turned, turned, cut, blanked, lost, doubled, swapped, lengthened, replaced]
 
 
-def digits_changed(content, rng):
-    """What a careless hand does to a text: other digits, signs, lines moved or lost."""
-    lines = content.decode().split("\n")
-    place = rng.randrange(len(lines))
-    line, other = lines[place], rng.choice(lines)
-    digits = [i for i, letter in enumerate(line) if letter.isdecimal()]
-    if digits and rng.random() < 0.5:
-        i = rng.choice(digits)
-        lines[place] = line[:i] + rng.choice("0123456789-e.") + line[i + 1 :]
-    else:
-        lines[place : place + rng.randrange(2)] = rng.choice([[], [other], [line, line]])
-    return "\n".join(lines).encode()
-
-
 class Silence:
     """Whatever a process would show: warnings, what is printed, errors in destructors."""
 
@@ -152,15 +137,13 @@ def read_or_refused(path):
 
 
 @pytest.mark.parametrize("make", [history, table])
-@pytest.mark.parametrize("ending", [".nc", ".csv"])
-def test_a_damaged_file_is_read_as_it_was_or_refused(make, ending, calls, tmp_path, silence):
-    stored, path = make(), tmp_path / f"file{ending}"
+def test_a_damaged_file_is_read_as_it_was_or_refused(make, calls, tmp_path, silence):
+    stored, path = make(), tmp_path / "file.nc"
     content = carom.save(stored, path).read_bytes()
     rng, refused = random.Random(0), 0
-    kinds = [*MUTATIONS, *(4 * [digits_changed] if ending == ".csv" else [])]
     count = calls // 8
     for number in range(count):
-        mutation = rng.choice(kinds)
+        mutation = rng.choice(MUTATIONS)
         damaged = mutation(content, rng)
         if damaged == content:  # zeros where there were zeros
             continue
@@ -169,28 +152,8 @@ def test_a_damaged_file_is_read_as_it_was_or_refused(make, ending, calls, tmp_pa
         refused += found is None
         assert found is None or same(found, stored), (number, mutation.__name__)
     gc.collect()
-    silence.check(ending)
+    silence.check(make.__name__)
     assert refused > 0.8 * count
-
-
-def unsealed(content, ending):
-    """Return a file as it was stored before there were checksums."""
-    if ending == ".nc":
-        return content[: content.rindex(b"\n# carom sha256")]
-    return b"".join(x for x in content.splitlines(keepends=True) if b'{"sha256"' not in x)
-
-
-@pytest.mark.parametrize("make", [history, table])
-def test_a_damaged_table_without_checksum_is_a_dataset_or_refused(make, calls, tmp_path, silence):
-    """What was stored without one may give other numbers, but no other error, and no noise."""
-    path = tmp_path / "file.csv"
-    content = unsealed(carom.save(make(), path).read_bytes(), ".csv")
-    rng = random.Random(1)
-    for number in range(calls // 8):
-        path.write_bytes(rng.choice([*MUTATIONS, digits_changed])(content, rng))
-        found = read_or_refused(path)
-        assert found is None or isinstance(found, xr.Dataset), number
-    silence.check("csv")
 
 
 def test_a_damaged_store_is_read_as_it_was_or_refused(calls, tmp_path, silence):
@@ -215,7 +178,7 @@ def test_a_damaged_store_is_read_as_it_was_or_refused(calls, tmp_path, silence):
         found = read_or_refused(path)
         refused += found is None
         if mutation is None and name.startswith("status/c/"):
-            run = found.status != carom.PointStatus.NOT_RUN
+            run = found.status != carom.status.PointStatus.NOT_RUN
             assert not run.all()
             assert found.where(run).identical(stored.where(run))
         else:

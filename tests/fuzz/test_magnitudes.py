@@ -124,7 +124,7 @@ def test_an_impact_is_right_or_not_solved(calls, name):
     given = list(points(nominal, 1, calls // 10))
     found = swept(given, kind)
     status = found.status.values
-    for place in np.flatnonzero(status == carom.PointStatus.SOLVED):
+    for place in np.flatnonzero(status == carom.status.PointStatus.SOLVED):
         point = given[place]
         changed = {key: value for key, value in point.items() if value != nominal[key]}
         with mp.workdps(40):
@@ -132,7 +132,7 @@ def test_an_impact_is_right_or_not_solved(calls, name):
                 if key in found:
                     value = float(found[key].values[place])
                     assert is_close(value, expected, size, 1e-8), (changed, key, value, expected)
-    solved = (status == carom.PointStatus.SOLVED).sum()
+    solved = (status == carom.status.PointStatus.SOLVED).sum()
     assert 60 < solved < len(given)
 
 
@@ -181,8 +181,8 @@ def test_an_impact_with_losses_is_the_same_in_other_units(calls, loss):
             for point, unit in zip(given, units, strict=True)
         ]
     found, twin = swept(given), swept(other)
-    solved = found.status.values == carom.PointStatus.SOLVED
-    both = solved & (twin.status.values == carom.PointStatus.SOLVED)
+    solved = found.status.values == carom.status.PointStatus.SOLVED
+    both = solved & (twin.status.values == carom.status.PointStatus.SOLVED)
     assert both.sum() > 60
     for name in set(DIMENSIONS) & set(found):
         values, others = found[name].values, twin[name].values
@@ -210,7 +210,7 @@ def test_one_impact_is_that_of_the_sweep_or_refused(calls):
     given = list(points(BALL, 3, calls // 50))
     found = swept(given)
     for place, point in enumerate(given):
-        if found.status.values[place] != carom.PointStatus.SOLVED:
+        if found.status.values[place] != carom.status.PointStatus.SOLVED:
             with pytest.raises(carom.InputError, match=r"^(speed|pair|radius|material): "):
                 struck(point)
             continue
@@ -238,7 +238,7 @@ def test_collisions_scale_with_the_velocities(friction):
     normal, velocity = rng.normal(size=(2, 50, 3))
     normal /= np.linalg.norm(normal, axis=1)[:, np.newaxis]
     spin = 100.0 * rng.normal(size=(50, 3))
-    walton = carom.WaltonLaw(friction=friction, restitution=0.9, tangential_restitution=0.4)
+    walton = carom.laws.WaltonLaw(friction=friction, restitution=0.9, tangential_restitution=0.4)
     for law in (None, walton):
         one = carom.collide(pair, velocity1=velocity, spin1=spin, normal=normal, law=law)
         for power in SCALES:

@@ -17,8 +17,7 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import files, uploads
-from carom.explorer.app import FOR_THE_PAGE, new_app
-from carom.explorer.downloads import WRITTEN
+from carom.explorer.app import FOR_THE_PAGE, WRITTEN, new_app
 from carom.explorer.knobs import CHOICES, KNOBS
 from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
 from carom.explorer.views import LAWS, View
@@ -27,86 +26,15 @@ from carom.explorer.warming import STEPS, Warming
 SOON = 5.0  # s of a core, for the slowest answer
 REFUSED = {400, 403, 404, 405, 411, 413, 414, 415, 503}
 FAST_LAWS = tuple(label for label in LAWS if label != "Walton & Braun")  # up to 5 s at chi = 10
-NUMBERS = [
-    "0",
-    "-0",
-    "1e400",
-    "-1e400",
-    "nan",
-    "inf",
-    "1e-320",
-    "1_0",
-    "٣",
-    "\u2212 3",
-    "1,5",
-    "0x1",
-]
-WORDS = [
-    *(
-        "",
-        " ",
-        "\0",
-        "\n",
-        "%",
-        "%00",
-        "%ff",
-        "é",
-        "\U0001f3b1",
-        "\ud800",
-        "..",
-        "/",
-        "\\",
-        "'",
-        '"',
-    ),
-    *(
-        "null",
-        "true",
-        "[]",
-        "{}",
-        "<script>",
-        "../../etc/passwd",
-        "{0}",
-        "%s",
-        "a" * 5000,
-        ";",
-        "&",
-    ),
-]
-VALUES = [
-    *(
-        None,
-        True,
-        False,
-        0,
-        -1,
-        1.5,
-        10**30,
-        float("nan"),
-        float("inf"),
-        1e308,
-        [],
-        {},
-        [[]],
-        [None],
-    ),
-    *({"a": 1}, [{}], {"id": "x"}, ["x"] * 300, {"": ""}),
-]
-CELLS = [
-    "",
-    " ",
-    "-",
-    "1 m",
-    "1e400",
-    "nan",
-    "inf",
-    '"',
-    '""',
-    "(" * 300,
-    "1,5",
-    "5 parsec",
-    "=1+1",
-]
+NUMBERS = ["0", "-0", "1e400", "-1e400", "nan", "inf", "1e-320", "1_0", "٣"]
+NUMBERS += ["\u2212 3", "1,5", "0x1"]
+WORDS = ["", " ", "\0", "\n", "%", "%00", "%ff", "é", "\U0001f3b1", "\ud800", "..", "/", "\\", "'"]
+WORDS += ['"', "null", "true", "[]", "{}", "<script>", "../../etc/passwd", "{0}", "%s"]
+WORDS += ["a" * 5000, ";", "&"]
+VALUES = [None, True, False, 0, -1, 1.5, 10**30, float("nan"), float("inf"), 1e308, [], {}, [[]]]
+VALUES += [[None], {"a": 1}, [{}], {"id": "x"}, ["x"] * 300, {"": ""}]
+CELLS = ["", " ", "-", "1 m", "1e400", "nan", "inf", '"', '""', "(" * 300, "1,5"]
+CELLS += ["5 parsec", "=1+1"]
 TABLE = """angle [deg],speed [m/s],contact_restitution,spin_out [rad/s]
 10,0.6,-0.4,3.1
 30,0.6,0.2,12

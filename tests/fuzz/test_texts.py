@@ -9,28 +9,11 @@ from carom.quantities.glossary import GLOSSARY
 from carom.quantities.texts import Unreadable, read_text
 
 TEXTS = [
-    "5 mm",
-    "210 GPa",
-    "2 m/s",
-    "-100 rad/s",
-    "600 rpm",
-    "30 deg",
-    "0.2",
-    "20 %",
-    "1.5e-3 kg/m^3",
+    *("5 mm", "210 GPa", "2 m/s", "-100 rad/s", "600 rpm", "30 deg", "0.2", "20 %", "30°"),
+    *("1.5e-3 kg/m^3", "2 m·s⁻¹", "7.85 g/cm³", "7.2 km/h", "5e3mm", "10 kN", "5 µm", "1e-6 s"),
+    *("−3 N/mm²", "7850 kg/m3", "2.1×10^5 N/mm2", "20 rad.s-1", "5×10⁻³ m", "600 RPM", "30º"),
+    "2 Pascal",
 ]
-TEXTS += [
-    "2 m·s⁻¹",
-    "7.85 g/cm³",
-    "7.2 km/h",
-    "5e3mm",
-    "10 kN",
-    "5 µm",
-    "−3 N/mm²",
-    "1e-6 s",
-    "30°",
-]
-TEXTS += ["7850 kg/m3", "2.1×10^5 N/mm2", "20 rad.s-1", "5×10⁻³ m", "600 RPM", "30º", "2 Pascal"]
 RAISED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 UNITS = sorted({entry.unit for entry in GLOSSARY.values()})
 BLANKS = "\u00a0\u2009\u202f"

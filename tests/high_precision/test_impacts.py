@@ -1,4 +1,4 @@
-"""Whole impacts against a table made with mpmath at 50 digits by `generate_impacts.py`.
+"""Whole impacts against a table that `tests/oracles/generate_impacts.py` made at 50 digits.
 
 The generator finds the slip front from the memory itself, F(s_a) = l, where the phase machine
 integrates the load backwards; the two have no code in common.
@@ -61,7 +61,7 @@ def test_phases(row):
 
 def test_the_generator_confirms_its_table():
     """With other precision and order, for the first lines; `--check` alone does all, in minutes."""
-    program = [sys.executable, str(HERE / "generate_impacts.py"), "--check", "--first", "3"]
-    done = subprocess.run(program, capture_output=True, text=True, check=False)
+    program = [sys.executable, "-m", "tests.oracles.generate_impacts", "--check", "--first", "3"]
+    done = subprocess.run(program, cwd=HERE.parents[1], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "3 impacts confirmed" in done.stdout

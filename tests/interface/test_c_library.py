@@ -79,7 +79,7 @@ def test_no_impacts_at_all(functions):
 
 
 def test_every_status_has_its_words(functions):
-    for status in carom.Status:
+    for status in carom.status.Status:
         assert functions.carom_status_message(status).decode() == status.message
     assert functions.carom_status_message(99) == b"no status"
 
@@ -88,7 +88,7 @@ def test_codes_in_the_header_are_those_of_python():
     text = Path(carom.get_include(), "carom.h").read_text()
     codes = dict(re.findall(r"CAROM_([A-Z_]+) = (\d+)", text))
     assert {name: int(code) for name, code in codes.items()} == {
-        s.name: s.value for s in carom.Status
+        s.name: s.value for s in carom.status.Status
     }
 
 

@@ -151,7 +151,7 @@ def test_normals_of_another_length_are_told_with_their_number():
     normal = np.random.default_rng(4).normal(size=(1000, 3))
     with pytest.warns(UserWarning, match="of 1,000 pairs .* 1,000 whose normal is not of length"):
         after = carom.collide(WALL, velocity1=np.ones((1000, 3)), normal=normal)
-    assert np.all(after.status == carom.CollisionStatus.NORMAL_NOT_UNIT)
+    assert np.all(after.status == carom.status.CollisionStatus.NORMAL_NOT_UNIT)
 
 
 @pytest.mark.parametrize("library", LIBRARIES)

@@ -43,11 +43,11 @@ def test_refuses_what_does_not_fit_together():
     refused("shapes", velocity1=np.zeros((4, 3)), spin2=np.zeros((2, 3)))
     refused("spin2", pair=WALL, spin2=[0.0, 0.0, 1.0])
     refused("pair", pair="balls")
-    refused("law", law=carom.ReboundLaw(1.0))
-    refused("law", pair=WALL, law=carom.ReboundLaw(PAIR.chi))
+    refused("law", law=carom.laws.ReboundLaw(1.0))
+    refused("law", pair=WALL, law=carom.laws.ReboundLaw(PAIR.chi))
 
 
-@pytest.mark.parametrize("law", ["rough", 0.5, carom.RoughLaw, np.array([1.0, 2.0])])
+@pytest.mark.parametrize("law", ["rough", 0.5, carom.laws.RoughLaw, np.array([1.0, 2.0])])
 def test_refuses_what_is_no_law(law):
     """A name, a number, a class that was not called."""
     refused("law", law=law)
@@ -160,30 +160,30 @@ def test_out_of_place_touches_nothing(pair):
 
 def test_says_what_became_of_a_pair():
     """Each status has its words."""
-    words = {status: status.message for status in carom.CollisionStatus}
+    words = {status: status.message for status in carom.status.CollisionStatus}
     assert [int(status) for status in words] == [0, 1, 2, 3]
     assert len(set(words.values())) == 4
     with pytest.warns(UserWarning, match="of 1 pair .* 1 with a number .* too large"):
         fast = carom.collide(PAIR, velocity1=[1e200, 0.0, 1e200], normal=[0.0, 0.0, 1.0])
-    assert carom.CollisionStatus(int(fast.status)).name == "NOT_FINITE"
-    assert "too large" in words[carom.CollisionStatus.NOT_FINITE]
+    assert carom.status.CollisionStatus(int(fast.status)).name == "NOT_FINITE"
+    assert "too large" in words[carom.status.CollisionStatus.NOT_FINITE]
 
 
 @pytest.mark.parametrize(
     ("law", "name", "values"),
     [
-        (carom.SmoothLaw, "restitution", {"restitution": 1.1}),
-        (carom.RoughLaw, "restitution", {"restitution": -0.1}),
-        (carom.RoughLaw, "restitution", {"restitution": float("nan")}),
-        (carom.WaltonLaw, "friction", {"friction": -0.1, "tangential_restitution": 0.0}),
-        (carom.WaltonLaw, "friction", {"friction": np.inf, "tangential_restitution": 0.0}),
-        (carom.WaltonLaw, "restitution",
+        (carom.laws.SmoothLaw, "restitution", {"restitution": 1.1}),
+        (carom.laws.RoughLaw, "restitution", {"restitution": -0.1}),
+        (carom.laws.RoughLaw, "restitution", {"restitution": float("nan")}),
+        (carom.laws.WaltonLaw, "friction", {"friction": -0.1, "tangential_restitution": 0.0}),
+        (carom.laws.WaltonLaw, "friction", {"friction": np.inf, "tangential_restitution": 0.0}),
+        (carom.laws.WaltonLaw, "restitution",
          {"friction": 0.1, "restitution": 2.0, "tangential_restitution": 0.0}),
-        (carom.WaltonLaw, "tangential_restitution",
+        (carom.laws.WaltonLaw, "tangential_restitution",
          {"friction": 0.1, "tangential_restitution": 1.01}),
-        (carom.WaltonLaw, "tangential_restitution",
+        (carom.laws.WaltonLaw, "tangential_restitution",
          {"friction": 0.1, "tangential_restitution": -1.01}),
-        (carom.WaltonLaw, "tangential_restitution",
+        (carom.laws.WaltonLaw, "tangential_restitution",
          {"friction": 0.1, "tangential_restitution": "most"}),
     ],
 )  # fmt: skip

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.oracles.contact import drive
 
 import carom
+from carom.dem import lattice
 from carom.dimensionless.lossy.panels.stages import viscous_loss
-from carom.dimensionless.twins.marching_contact import drive
-from carom.laws.dem import lattice
 
 COMPILER = shutil.which("c++")
 pytestmark = pytest.mark.skipif(COMPILER is None, reason="no C++ compiler on this machine")

@@ -36,8 +36,14 @@ def test_arrays_along_different_dimensions():
     one, other = (xr.DataArray([0.5, 1.0], dims=name) for name in "ab")
     match = "their dimensions are a and b; give arrays along the same ones"
     refused(f"psi, chi: {match}", carom.rebound, one, other)
-    refused(match, carom.LinearSpring().rebound, one, other)
-    refused(match, carom.convert, PAIR, known={"speed": one, "angle": other}, wanted="psi_in")
+    refused(match, carom.dem.LinearSpring().rebound, one, other)
+    refused(
+        match,
+        carom.convert_observables,
+        PAIR,
+        known={"speed": one, "angle": other},
+        wanted="psi_in",
+    )
     forces = {"normal_force": one, "tangential_force": other}
     refused(match, carom.load_path, PAIR, **forces)
     assert carom.rebound(one, one).shape == (2,)

@@ -32,27 +32,15 @@ def test_links_lead_somewhere(document):
         assert (path.parent / target).exists(), target
 
 
-def tree(text):
-    """Return the paths of a listing: a name first on each line, two spaces deeper in a folder.
+def test_the_tree_of_the_architecture_is_that_of_the_sources():
+    from tree import page
 
-    A name ends in "/" if it is a folder's, and words follow after two or more spaces.
-    """
-    folders, paths = [], set()
-    for indent, name in re.findall(r"^( *)(\S+)(?:  .*)?$", text, re.MULTILINE):
-        folders[len(indent) // 2 :] = [name]
-        if not name.endswith("/"):
-            paths.add("".join(folders))
-    return paths
+    assert page(ARCHITECTURE) == ARCHITECTURE
+    assert "    lossy/ " in ARCHITECTURE
 
 
-def test_architecture_names_every_module():
-    """By its path, in listings that begin with "src/carom/"; none that is not there."""
-    listings = re.findall(r"^```\w*\n(src/carom/.*?)^```$", ARCHITECTURE, re.MULTILINE | re.DOTALL)
-    named = set().union(*(tree(listing) for listing in listings))
-    paths = [path.relative_to(ROOT) for path in (ROOT / "src/carom").rglob("*.py")]
-    modules = {str(path) for path in paths if path.name != "__init__.py"}
-    assert [path for path in sorted(modules - named) if "/data/" not in path] == []
-    assert [path for path in sorted(named) if not (ROOT / path).is_file()] == []
+def test_the_architecture_is_short():
+    assert len(ARCHITECTURE.split()) <= 3000
 
 
 def test_paths_in_the_architecture_are_there():
@@ -61,12 +49,12 @@ def test_paths_in_the_architecture_are_there():
 
 
 def test_short_paths_in_the_architecture_are_there():
-    """Those below src/carom; one is announced, not yet there, one made by the build."""
+    """Those below src/carom; one is made by the build."""
     paths = set(re.findall(r"`([a-z_]+/[\w./]*)`", ARCHITECTURE))
     here = {
         path for path in paths if (ROOT / "src/carom" / path).exists() or (ROOT / path).exists()
     }
-    assert paths - here <= {"laws/memory/", "lib/"}
+    assert paths - here <= {"lib/"}
 
 
 def test_ten_files_to_read_are_there():
@@ -76,14 +64,3 @@ def test_ten_files_to_read_are_there():
     paths = re.findall(r"`(src/carom/[\w/]+\.py)`", section[1])
     assert len(paths) == len(set(paths)) == 10
     assert [path for path in paths if not (ROOT / path).is_file()] == []
-
-
-def test_a_listing_gives_paths():
-    listing = (
-        "src/carom/\n  bodies/   what meets\n    pairs.py  two\n    shapes.py\n  classical.py  a b"
-    )
-    assert tree(listing) == {
-        "src/carom/bodies/pairs.py",
-        "src/carom/bodies/shapes.py",
-        "src/carom/classical.py",
-    }

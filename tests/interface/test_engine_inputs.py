@@ -19,7 +19,7 @@ FREE = carom.Pair(BEAD, BALL, friction=0.3)
 
 
 def experiment(**changed):
-    given = {"pair": WALL, "law": carom.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
+    given = {"pair": WALL, "law": carom.dem.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
     given |= {"tangential_speed": (0.005, -0.02), "spin": (0.0, 3.0)}
     return Experiment(**(given | changed))
 
@@ -60,7 +60,7 @@ def test_results_are_what_the_scorer_reads(pair, tmp_path):
 @pytest.mark.parametrize("restitution", [1.0, 0.6])
 def test_spring_takes_the_energy_of_the_impact(pair, restitution):
     """k_n d_max^2 = m_n V_1^2; the dashpot is the part of the critical one that leaves e."""
-    wanted = experiment(pair=pair, law=carom.LinearSpring(restitution=restitution))
+    wanted = experiment(pair=pair, law=carom.dem.LinearSpring(restitution=restitution))
     normal, tangential, dashpot = spring(wanted)
     energy = pair.normal_mass * wanted.normal_speed**2
     assert normal * wanted.scales.length**2 == pytest.approx(energy, rel=1e-12)
@@ -70,11 +70,11 @@ def test_spring_takes_the_energy_of_the_impact(pair, restitution):
 
 
 LAWS = (
-    carom.LinearSpring,
-    carom.HertzLinearHistory,
-    carom.LammpsMindlin,
-    carom.LiggghtsHertz,
-    carom.YadeMindlin,
+    carom.dem.LinearSpring,
+    carom.dem.HertzLinearHistory,
+    carom.dem.LammpsMindlin,
+    carom.dem.LiggghtsHertz,
+    carom.dem.YadeMindlin,
 )
 
 

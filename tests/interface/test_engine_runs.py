@@ -25,7 +25,7 @@ GOOD = "printf '0.01 0.002 1\\n0.01 0.003 2\\n' > results"
 
 
 def experiment(**changed):
-    given = {"pair": WALL, "law": carom.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
+    given = {"pair": WALL, "law": carom.dem.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
     given |= {"tangential_speed": (0.005, -0.02), "spin": (0.0, 3.0)}
     return Experiment(**(given | changed))
 
@@ -47,7 +47,7 @@ class Shell:
         return Path("/bin/sh") if self.present else None
 
     def supports(self, law):
-        return isinstance(law, carom.LinearSpring)
+        return isinstance(law, carom.dem.LinearSpring)
 
     def files(self, wanted):
         return {"script": f"echo $$ > {self.note}\n{self.script}\n"}
@@ -177,7 +177,7 @@ def test_absent_engine_says_what_to_do(tmp_path):
 def test_law_that_the_engine_does_not_have(tmp_path):
     engine = Shell(GOOD, tmp_path / "note")
     with pytest.raises(carom.InputError, match="Shell does not have it"):
-        run(engine, experiment(law=carom.ThorntonLaw()))
+        run(engine, experiment(law=carom.dem.ThorntonLaw()))
     assert not engine.folders
 
 

@@ -28,8 +28,6 @@ NAN = float("nan")
         ({"angle [deg]": None, "angle": ANGLES}, r"every row.*'angle \[deg\]'"),
         ({"angle [deg]": [10.0, NAN, 30.0, 40.0, 95.0]}, "row 2"),
         ({"angle [deg]": [10.0, 20.0, 30.0, 40.0, 95.0]}, "in row 5 cannot be used"),
-        ({"contact_beta": [0.1, NAN, 0.0, NAN, 0.1]}, "rows 2 and 4; write '-'"),
-        ({"contact_beta": [0.1, "x", 0.0, 0.1, 0.1]}, "row 2"),
         ({"speed [kg]": [2.0] * 5}, "not a value in m/s"),
         ({"spin_out": [-10.0] * 5}, "speed: column missing; spin_out needs"),
         ({**SPEEDS, "spin_out": [10.0] * 5}, "change the signs"),
@@ -42,7 +40,6 @@ NAN = float("nan")
         ),
         ({"normal_restitution": [0.9, -0.9, 0.9, 0.9, 0.9]}, "normal_restitution: -0.9 in row 2"),
         ({"contact_beta_error": [0.1, 0.0, 0.1, 0.1, 0.1]}, "0 in row 2.*positive"),
-        ({"angle_error": [0.1] * 5}, r"angle_error \[deg\]"),
         (
             {"angle [deg]": [0.0, *ANGLES[1:]]},
             "contact_beta: 0.1 in row 1.*velocity before is zero",
@@ -56,9 +53,8 @@ NAN = float("nan")
 )
 def test_bad_columns(changes, words):
     data = {name: values for name, values in (GOOD | changes).items() if values is not None}
-    with pytest.raises(carom.InputError, match=words) as caught:
+    with pytest.raises(carom.InputError, match=words):
         fit(data, pair=PAIR)
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -156,9 +152,8 @@ def test_bodies_in_the_file_are_read_as_strictly_as_a_case_file(case, words, tmp
     path.write_text(f"# case: {text}\nangle [deg],contact_beta\n10,0.1\n20,0.2\n")
     dataset = xr.Dataset({name: ("row", values) for name, values in GOOD.items()})
     for source in (path, dataset.assign_attrs(case=text)):
-        with pytest.raises(carom.InputError, match=words) as told:
+        with pytest.raises(carom.InputError, match=words):
             fit(source)
-        assert "\n" not in str(told.value)
 
 
 def test_what_was_not_used_is_told():

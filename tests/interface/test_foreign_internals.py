@@ -9,10 +9,14 @@ from pathlib import Path
 import pytest
 from llvmlite import binding
 from numba import njit
-from numba.core import codegen, compiler, cpu, dispatcher, registry
+from numba.core import compiler, registry
 
 import carom
-from carom.native.emission import CODE
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.numerics.kernels import Kernel
+from carom.native import numba_internals
+from carom.native.emission import object_code
+from carom.native.numba_internals import CODE, PATCHES
 
 PACKAGE = Path(carom.__file__).parent
 OWN = {  # private to Carom: classes that share a file or a folder
@@ -23,14 +27,14 @@ OWN = {  # private to Carom: classes that share a file or a folder
 }
 PUBLIC = {"_replace", "_asdict", "_fields", "_make", "_value_", "_exit"}  # documented by Python
 NUMBA = {
-    "native/emission.py": {
+    "native/numba_internals.py": {
         *("_dynfunc", "_FunctionCompiler", "_codegen", "_data_layout", "_final_module"),
         *("_optimize_functions", "_optimize_final_module", "_get_module_for_linking"),
         *("_get_host_cpu_name", "_get_host_cpu_features"),
     },
     "dimensionless/numerics/kernels.py": {"_numba_type_"},
 }
-PATCHED = {"_optimize_functions", "_optimize_final_module", "_finalize_specific", "_add_module"}
+PATCHED = {each.name for each in PATCHES}
 TYPING = {"__metadata__", "__origin__", "__args__", "__value__", "__parameters__"}
 FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))
 
@@ -63,24 +67,35 @@ def test_the_internals_of_numba_exist():
     compiled.compile("(float64,)")
     library = CODE(compiled.overloads[compiled.signatures[0]])
     own = registry.cpu_target.target_context.codegen()
-    read = {compiled: {"_numba_type_"}, dispatcher: {"_FunctionCompiler"}}
-    read[library] = {"_codegen", "_final_module", "_get_module_for_linking", *PATCHED} - {
-        "_add_module"
-    }
-    read[own] = {"_data_layout", "_get_host_cpu_name", "_get_host_cpu_features"}
-    read[codegen.JITCPUCodegen], read[codegen.CPUCodeLibrary] = (
-        {"_add_module"},
-        {"_optimize_functions"},
-    )
-    read[dispatcher._FunctionCompiler] = {"_customize_flags"}
-    read[cpu.CPUContext] = {"get_executable"}
-    missing = {
-        f"{getattr(owner, '__name__', type(owner).__name__)}.{name}"
-        for owner, names in read.items()
-        for name in names
-        if not hasattr(owner, name)
-    }
+    read = [(each.owner, each.name) for each in PATCHES]
+    read += [(compiled, "_numba_type_"), (library, "_codegen"), (library, "_final_module")]
+    read += [(library, "_get_module_for_linking"), (own, "_data_layout")]
+    read += [(own, "_get_host_cpu_name"), (own, "_get_host_cpu_features")]
+    missing = [f"{owner}.{name}" for owner, name in read if not hasattr(owner, name)]
     assert not missing
     assert {"no_cpython_wrapper", "no_cfunc_wrapper"} <= set(vars(compiler.Flags))
     assert isinstance(own._get_host_cpu_features(), str)
     assert isinstance(library._get_module_for_linking(), binding.ModuleRef)
+
+
+@pytest.fixture
+def reached(monkeypatch):
+    """Which of the patches the build comes to, as it goes on."""
+    names = set()
+
+    def watched(each):
+        def call(*args):
+            names.add(each.name)
+            return each.value(*args)
+
+        return each._replace(value=call)
+
+    monkeypatch.setattr(numba_internals, "PATCHES", tuple(map(watched, PATCHES)))
+    return names
+
+
+def test_the_build_comes_to_every_patch(reached):
+    """One that numba goes round would do nothing, and say nothing."""
+    fresh = Kernel(hertz.time.py_func, ("float64",))
+    assert len(object_code([fresh])) > 1000
+    assert reached == PATCHED

@@ -73,7 +73,7 @@ def test_outside_the_domain_there_is_no_number():
     slow = {"velocity1": [0.0, 0.0, 1e-3], "normal": UP}
     fast = judged(LIKE, **slow, spin1=[0.0, 0.0, 1e4])
     assert (int(fast.judgement), np.isnan(fast.psi_out_error)) == (1, True)
-    assert carom.Judgement(1).message.startswith("not studied")
+    assert carom.status.Judgement(1).message.startswith("not studied")
     slippery = carom.Pair(STEEL, carom.HalfSpace(material="soda-lime-glass"), friction=0.001)
     assert int(judged(slippery, **slow).judgement) == 1
     for friction in (0.0, 1e-310):  # so little that psi_1 is infinite, as `impact` has it
@@ -94,7 +94,7 @@ def test_written_in_place_it_is_judged_as_it_was():
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        ({"law": carom.SmoothLaw()}, r"^law: .*judge=True judges the exact law"),
+        ({"law": carom.laws.SmoothLaw()}, r"^law: .*judge=True judges the exact law"),
         ({"judge": "yes"}, r"^judge: "),
     ],
 )

@@ -13,7 +13,7 @@ import carom
 from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.explorer.figures import NumbersImpact
+from carom.explorer.files import NumbersImpact
 from carom.impacts.validity import judge_losses
 from carom.io.labels import spheres
 from carom.quantities.refusals import InputError
@@ -27,7 +27,7 @@ GLASS = carom.Pair(
 )
 
 
-def hit(law: object, speed: float = 1.0, pair: carom.Pair = STEEL) -> carom.Impact:
+def hit(law: object, speed: float = 1.0, pair: carom.Pair = STEEL) -> carom.results.Impact:
     return carom.impact(pair, normal_speed=speed, tangential_speed=0.4 * speed, losses=law)
 
 
@@ -182,12 +182,6 @@ def test_too_large_a_loss_time_is_refused_not_answered() -> None:
         hit(carom.KelvinVoigt(loss_time="1 s"))
 
 
-@pytest.mark.parametrize("law", [carom.ElasticPlastic(0.1), carom.StandardLinearSolid(2.0, 1e-5)])
-def test_fields_of_marched_solids_are_refused(law: LossLaw) -> None:
-    with pytest.raises(InputError, match=r"losses: fields of this solid are not known"):
-        hit(law).contact(time=1e-6)
-
-
 def test_standard_linear_solid_is_in_units_of_the_elastic_impact() -> None:
     law = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="20 us")
     loss, theta, extra = law.loss(STEEL, 0.7)
@@ -216,18 +210,12 @@ def test_what_is_no_standard_linear_solid_is_refused(given: dict[str, Any], mess
         lambda **law: carom.solve(0.5, 1.44, **law).psi_out,
         lambda **law: float(carom.curve(1.44, [0.5], **law).psi_out[0, 0]),
         lambda **law: carom.impact(STEEL, normal_speed=1.0, **law).duration,
-        lambda **law: float(carom.ReboundLaw(1.44, **law)(0.5)),
+        lambda **law: float(carom.laws.ReboundLaw(1.44, **law)(0.5)),
     ],
 )
-def test_the_old_name_of_losses_still_works(call: Callable[..., float]) -> None:
-    """With one warning, and the same number; both at once are refused."""
-    law = carom.KelvinVoigt(restitution=0.9)
-    with pytest.warns(DeprecationWarning, match="normal= is now called losses=") as told:
-        old = call(normal=law)
-    assert len(told) == 1
-    assert old == call(losses=law)
-    with pytest.raises(InputError, match="normal: this is the old name of losses"):
-        call(normal=law, losses=law)
+def test_the_old_name_of_losses_is_refused_with_the_new(call: Callable[..., float]) -> None:
+    with pytest.raises(InputError, match=r"^normal: no keyword of \w+; write losses$"):
+        call(normal=carom.KelvinVoigt(restitution=0.9))
 
 
 def test_validity_says_what_is_assumed_of_losses() -> None:

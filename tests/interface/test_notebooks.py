@@ -95,7 +95,7 @@ def test_load_paths_are_a_table_and_a_picture():
 
 
 def test_rankings_are_a_table_and_a_picture():
-    laws = [carom.LinearSpring(), carom.HardSphere()]
+    laws = [carom.dem.LinearSpring(), carom.dem.HardSphere()]
     ranking = carom.verify.rank(laws, psi=[1.0, 2.0])
     rows, html = told(ranking)
     worst = {one.entry.label: one.max_error for one in ranking.standings}
@@ -106,7 +106,9 @@ def test_rankings_are_a_table_and_a_picture():
 
 
 def test_tunings_are_a_table():
-    rows, html = told(carom.verify.tune([carom.HardSphere(), carom.ThorntonLaw()], chi=1.44))
+    rows, html = told(
+        carom.verify.tune([carom.dem.HardSphere(), carom.dem.ThorntonLaw()], chi=1.44)
+    )
     assert next(iter(rows)) == "Thornton, incremental"
     assert "tangential_restitution 0.36" in rows["hard sphere"]
     assert "<img" not in html
@@ -164,7 +166,7 @@ def test_what_was_used_is_cited():
     aside = path.then(normal_force=10.0, tangential_force=[[0.0, 0.5]])
     assert entries(aside.cite())[-1] == "moreau1977"
     assert "kalker1990" in entries(carom.impact(PAIR, **MOTION, method=TINY).cite())
-    assert entries(carom.ReboundLaw(1.44).cite()) == list(IMPACT)
+    assert entries(carom.laws.ReboundLaw(1.44).cite()) == list(IMPACT)
     table = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.0, 0.0, 0.0]}
     assert entries(carom.verify.score(table, chi=1.44).cite()) == list(IMPACT)
 

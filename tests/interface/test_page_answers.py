@@ -2,6 +2,8 @@
 
 import json
 import logging
+import subprocess
+import sys
 import threading
 import time
 
@@ -10,23 +12,28 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import answers, warming
-from carom.explorer.app import new_app
+from carom.explorer.app import WRITTEN, new_app
 from carom.explorer.page import plotly_file
 from carom.explorer.views import LAWS, View
 from carom.explorer.warming import Preparing, Warming
-from carom.quantities.refusals import InputError
 
 PATIENCE = 60.0  # s
 
 
-class Idle:
-    """A worker that has nothing to do here."""
+class Told:
+    """A worker that says what it was asked; it has no history."""
 
-    def fit(self, **_):
-        raise InputError("file: it holds no rows")
+    def __init__(self):
+        self.asked = []
 
-    def file(self, *_):
-        raise RuntimeError("the process that works for the page has ended")
+    def fit(self, **asked):
+        self.asked.append(asked)
+        return {"words": "fitted"}
+
+    def file(self, name, query, time):
+        if name == "history.png":
+            raise RuntimeError("a secret")
+        return f"{name} {query} {time}".encode()
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +47,7 @@ def client():
             break
         except Preparing:
             continue
-    return new_app(Idle(), found, ["localhost"]).test_client()
+    return new_app(Told(), found, ["localhost"]).test_client()
 
 
 def test_the_page_asks_only_what_is_here(client):
@@ -105,7 +112,47 @@ def test_files_are_refused_in_a_line_of_text(client, caplog):
     assert client.get("/assets/../app.py").status_code == 404
     assert client.get("/history.png").data == b"carom: failed, RuntimeError\n"
     assert client.post("/answer").get_json()["message"] == "405: Method Not Allowed"
-    assert client.get("/", headers={"Host": "elsewhere"}).status_code == 400
+    for host in ("elsewhere", "elsewhere:8050", "localhost.elsewhere", "[", "a@b", ""):
+        answered = client.get("/answer", headers={"Host": host})
+        assert answered.json == {"field": "", "message": "400: Bad Request"}
+
+
+def test_addresses_of_files(client):
+    for name in WRITTEN:
+        if name != "history.png":
+            answered = client.get(f"/{name}?angle=50&time=0.25")
+            assert answered.text == f"{name} angle=50 0.25"
+            assert answered.headers["Content-Disposition"] == f"attachment; filename={name}"
+    assert 'angle="50.0 deg"' in client.get("/view.py?angle=50&time=0.3").text
+    assert client.get("/curve.png?time=7").text.endswith(" 1.0")
+    for wrong in ("curve.png?angle=x", "view.py?angle=x", "history.nc?time=soon"):
+        answered = client.get(f"/{wrong}")
+        assert answered.status_code == 400
+        assert answered.text.count("\n") == 1
+    assert client.get("/curve.exe").status_code == 404
+
+
+def test_addresses_of_fits():
+    worker = Told()
+    client = new_app(worker, Warming()).test_client()
+    for _ in range(2):  # a data set is fitted once
+        assert client.get("/fit?data=kharaz2001").json == {"words": "fitted"}
+    assert worker.asked == [{"data": "kharaz2001"}]
+    assert client.get("/fit?data=nothing").json["field"] == "data"
+    file = {"contents": "data:text/csv;base64,eA==", "name": "a.csv", "bodies": ""}
+    assert client.post("/fit", json=file).json == {"words": "fitted"}
+    assert worker.asked[1:] == [file]
+    refused = {"field": "", "message": "file: it did not arrive; choose it again"}
+    for wrong in ({}, [], {**file, "bodies": 1}, "x"):
+        assert client.post("/fit", json=wrong).json == refused
+    assert client.post("/fit", data=json.dumps(file)).json == refused  # from a form elsewhere
+
+
+def test_the_server_itself_loads_none_of_what_fits_and_draws():
+    line = "import sys, carom.explorer; print(*sys.modules)"
+    ran = subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, check=True)
+    heavy = {"lmfit", "matplotlib", "xarray", "pandas", "carom.fitting"}
+    assert heavy.isdisjoint(ran.stdout.split())
 
 
 def test_a_failure_is_a_line(client, monkeypatch, caplog):
@@ -127,7 +174,7 @@ def test_what_is_compiled_is_told_with_how_far_it_is(monkeypatch):
     monkeypatch.setattr(warming, "PATIENCE", 0.2)
     monkeypatch.setattr(warming.shared_library, "reason", lambda: "there is none")
     busy = Warming()
-    client = new_app(Idle(), busy, ["localhost"]).test_client()
+    client = new_app(Told(), busy, ["localhost"]).test_client()
     busy.start()
     found = client.get("/answer")
     assert found.status_code == 200
@@ -135,6 +182,7 @@ def test_what_is_compiled_is_told_with_how_far_it_is(monkeypatch):
     assert (told["percent"], told["again"]) == (0, 1)
     assert "0 % of what this answer needs" in told["message"]
     go.set()
+    monkeypatch.setattr(warming, "PATIENCE", PATIENCE)
     for query in ("angle=3", "restitution=0.9"):
         assert "scene" in client.get(f"/answer?{query}").get_json()
 

@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import sys
 from base64 import b64encode
 
 import numpy as np
@@ -165,56 +164,6 @@ def test_what_cannot_be_fitted_is_refused_in_the_words_of_the_page(content, word
 def test_what_did_not_arrive_whole_is_refused(contents):
     with pytest.raises(carom.InputError, match=r"^file: it did not arrive whole"):
         answer({"contents": contents, "name": "a.csv", "bodies": ""})
-
-
-class Told:
-    """A worker that says what it was asked."""
-
-    def __init__(self):
-        self.asked = []
-
-    def fit(self, **asked):
-        self.asked.append(asked)
-        return {"words": "fitted"}
-
-
-@pytest.fixture
-def page():
-    from flask import Flask
-
-    from carom.explorer.fits import add_fits
-
-    server, worker = Flask(__name__), Told()
-    add_fits(server, worker)
-    server.register_error_handler(carom.InputError, lambda error: (str(error), 400))
-    return server.test_client(), worker
-
-
-def test_addresses_of_fits(page):
-    client, worker = page
-    for _ in range(2):  # a data set is fitted once
-        assert client.get("/fit?data=kharaz2001").json == {"words": "fitted"}
-    assert worker.asked == [{"data": "kharaz2001"}]
-    assert client.get("/fit?data=nothing").status_code == 400
-    file = {"contents": sent(b"x"), "name": "a.csv", "bodies": ""}
-    assert client.post("/fit", json=file).status_code == 200
-    assert worker.asked[1:] == [file]
-    for wrong in ({}, [], {**file, "bodies": 1}, "x"):
-        answered = client.post("/fit", json=wrong)
-        assert (answered.status_code, answered.text) == (
-            400,
-            "file: it did not arrive; choose it again",
-        )
-    assert client.post("/fit", data=json.dumps(file)).status_code == 400  # from a form elsewhere
-
-
-def test_the_server_itself_loads_none_of_what_fits_and_draws():
-    import subprocess
-
-    line = "import sys, carom.explorer.fits, carom.explorer.downloads; print(*sys.modules)"
-    ran = subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, check=True)
-    heavy = {"lmfit", "matplotlib", "xarray", "pandas", "carom.fitting"}
-    assert heavy.isdisjoint(ran.stdout.split())
 
 
 def test_the_process_that_fits():

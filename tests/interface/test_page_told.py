@@ -1,7 +1,9 @@
 """What the page is told: an impact, its contact laws, results and findings, as JSON holds them."""
 
 import json
+import re
 from dataclasses import fields
+from importlib.resources import files
 from urllib.parse import urlencode
 
 import numpy as np
@@ -15,6 +17,8 @@ from carom.explorer.knobs import KNOBS, NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import ENERGIES, impact_of, scene_of
 from carom.explorer.views import LAWS, View
+from carom.impacts.curves import REGIMES as LONG
+from carom.plots.bands import BANDS
 from carom.plots.impact import ENERGIES as IN_FIGURES, LOST
 from carom.plots.regimes import REGIMES as OF_FIGURES
 
@@ -99,3 +103,33 @@ def test_the_page_is_told_all_that_it_shows():
     assert {name: words[0] for name, words in (IN_FIGURES | LOST).items()} == ENERGIES
     for preset in told["presets"]:
         answer(View.of(preset["query"]))
+
+
+SHEET = files("carom.explorer").joinpath("assets", "carom.css").read_text("utf-8")
+LIGHT, DARK = SHEET.split(':root[data-theme="dark"]')
+FILLS = {"stick": ("stick", 0), "slip": ("slip", 1), "gross": ("gross slip", 1)}
+
+
+def variables(sheet):
+    return dict(re.findall(r"--([\w-]+): ([^;]+);", sheet))
+
+
+@pytest.mark.parametrize("name", FILLS)
+def test_phases_have_the_tints_of_figures(name):
+    band = BANDS[FILLS[name]]
+    assert variables(LIGHT)[f"{name}-fill"] == band.face.lower()
+    if band.hatch:
+        assert variables(LIGHT)[f"{name}-hatch"] == band.edge.lower()
+
+
+def test_regimes_have_the_names_and_tints_of_figures_and_fits():
+    told = config()["regimes"]
+    assert [each["name"] for each in told] == list(OF_FIGURES)
+    assert [each["long"] for each in told] == list(LONG)
+    assert variables(LIGHT)["only-fill"] == OF_FIGURES["gross slip only"].face.lower()
+
+
+def test_dark_colours_are_those_of_the_light_in_another_tone():
+    light, dark = variables(LIGHT), variables(DARK)
+    assert set(dark) == set(light)
+    assert all(dark[name] != light[name] for name in FILLS)

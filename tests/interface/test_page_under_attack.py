@@ -5,6 +5,7 @@ How much slower it does is measured by benchmarks/explorer_attack.py, whose atta
 
 import sys
 import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -24,7 +25,8 @@ def test_a_page_under_attack_answers():
     with served() as url, attacked(url, "all at once"):
         time.sleep(3.0)
         for angle in (20, 40, 60):
-            size, late = Page(url, PATIENCE).answer(f"angle={angle}")
+            with closing(Page(url, PATIENCE)) as page:
+                size, late = page.answer(f"angle={angle}")
             assert size > 10_000
             assert late == []
             time.sleep(0.5)

@@ -12,10 +12,10 @@ import carom
 pytest.importorskip("flask")
 
 from carom.explorer.answers import answer
-from carom.explorer.knobs import CHOICES, KNOBS, NUMBERS, OF_MATERIAL, label
-from carom.explorer.refused import Refused
+from carom.explorer.knobs import CHOICES, KNOBS, NEEDS, NUMBERS, OF_MATERIAL, label
+from carom.explorer.limits import Refused
 from carom.explorer.scenes import scene_of
-from carom.explorer.views import LAWS, OF_BODIES, OF_NUMBERS, View
+from carom.explorer.views import LAWS, View
 
 NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}
 WORD = {name: st.sampled_from(known) for name, known in CHOICES.items()}
@@ -31,7 +31,7 @@ def test_every_state_is_a_link_that_restores_it(view):
 @pytest.mark.parametrize("name", KNOBS)
 def test_numbers_out_of_range_are_refused_by_name(name):
     knob, using = KNOBS[name], {"against": "sphere", "material": "own", "second_material": "own"}
-    if name in OF_NUMBERS:
+    if name in ("psi", "chi"):
         using = {"given": NUMBERS}
     for text in ("", "nan", "inf", "x", "1e400", str(knob.most * 1.01), str(knob.least - 0.1)):
         with pytest.raises(Refused, match=r": must be a number from .*(not '|empty)") as error:
@@ -110,7 +110,7 @@ def test_any_numbers_are_answered_or_refused_by_field(view):
     except Refused as error:
         told = error.field
         event(told)
-    assert told in (*OF_BODIES, "friction") or 10_000 < len(told) < 200_000
+    assert told in (*NEEDS, "friction") or 10_000 < len(told) < 200_000
 
 
 def test_own_materials_are_those_of_the_numbers():
@@ -119,4 +119,4 @@ def test_own_materials_are_those_of_the_numbers():
     soft = View(against="sphere", second_material="own", second_young=0.01, second_poisson=0.5)
     stuff = carom.Material(young="10 MPa", poisson=0.5, density=soft.second_density)
     assert soft.pair.second.material.young == stuff.young
-    assert {soft.unused} == {(*OF_NUMBERS, *OF_MATERIAL)}
+    assert set(soft.unused) == {"psi", "chi", *OF_MATERIAL}

@@ -31,7 +31,7 @@ def drawers(pair, hit):
     """Every public function that draws, with what it draws."""
     path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.2, -1.2])
     psi = [0.5, 1.0, 3.0]
-    law = carom.LinearSpring()
+    law = carom.dem.LinearSpring()
     given = {
         "plot_impact": hit,
         "plot_forces": hit,
@@ -43,7 +43,7 @@ def drawers(pair, hit):
         "plot_spectrum": hit,
         "plot_wear": hit,
         "plot_contact": hit,
-        "plot_strength": carom.strength(pair, angle=["0 deg", "60 deg"]),
+        "plot_strength": carom.bearable_speeds(pair, angle=["0 deg", "60 deg"]),
         "plot_curve": carom.curve(1.44, [0.0, 0.5, 1.0, 6.0]),
         "plot_regime_map": carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]),
         "plot_laws": carom.verify.rank([law], psi=psi),

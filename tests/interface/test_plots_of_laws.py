@@ -15,7 +15,8 @@ from matplotlib.text import Text
 import carom
 from carom.plots.laws import plot_error_map, plot_laws
 from carom.plots.regimes import draw_borders
-from carom.verify import CATALOGUE, error_map, rank
+from carom.verify import error_map, rank
+from carom.verify.entries import CATALOGUE
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "studies"))
@@ -50,7 +51,9 @@ def laws(ranking):
 
 @pytest.fixture(scope="module")
 def errors():
-    return error_map(carom.LammpsMindlin("mindlin"), np.linspace(0.0, 7.0, 36), [1.2, 1.4, 1.75])
+    return error_map(
+        carom.dem.LammpsMindlin("mindlin"), np.linspace(0.0, 7.0, 36), [1.2, 1.4, 1.75]
+    )
 
 
 def rows(figure):

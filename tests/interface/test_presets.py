@@ -7,11 +7,11 @@ from urllib.parse import parse_qsl
 import numpy as np
 import pytest
 
+from carom.explorer.config import SYMBOLS
 from carom.explorer.knobs import WORDS
 from carom.explorer.presets import PRESETS
 from carom.explorer.results import OF_LOSSES, SIGNS
 from carom.explorer.scenes import impact_of
-from carom.explorer.symbols import SYMBOLS
 from carom.explorer.views import View
 from carom.quantities.glossary import GLOSSARY
 

@@ -11,7 +11,7 @@ BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 MOTION = {"speed": 2.0, "angle": "30 deg"}
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": "2 m/s"}
-LAWS = [carom.LinearSpring(), carom.WaltonBraunLaw()]
+LAWS = [carom.dem.LinearSpring(), carom.dem.WaltonBraunLaw()]
 
 
 def by_elements(folder, progress):
@@ -125,7 +125,7 @@ def test_a_table_with_losses_counts_its_impacts(monkeypatch, capsys):
 
     monkeypatch.setattr(tables, "lossy_rebounds", counted)
     monkeypatch.setattr("carom.io.progress.place", lambda progress: Place.TEXT)
-    carom.ReboundLaw(1.0, losses=carom.KelvinVoigt(restitution=0.8))
+    carom.laws.ReboundLaw(1.0, losses=carom.KelvinVoigt(restitution=0.8))
     shown = capsys.readouterr().err
     assert "tabulating the rebounds" in shown
     assert f"{sum(solved)} impacts" in shown

@@ -17,6 +17,10 @@ def hit():
     return carom.impact(carom.Pair(ball, rigid, friction=0.2), speed=1.0, angle="20 deg")
 
 
+def test_a_refusal_is_one_line_whatever_it_names():
+    assert str(carom.InputError("a\nb\r\nc\x0bd\u2028e")) == "a b c d e"
+
+
 @pytest.mark.parametrize("ask", ["fields", "stress", "radial", "contact"])
 @pytest.mark.parametrize(
     ("time", "message"),
@@ -33,7 +37,6 @@ def test_times(hit, ask, time, message):
     with pytest.raises(carom.InputError, match=message) as error:
         getattr(hit, ask)(time)
     assert str(error.value).startswith("time: ")
-    assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize(
@@ -56,9 +59,8 @@ def test_times(hit, ask, time, message):
     ],
 )
 def test_places_on_the_surface(hit, given, message):
-    with pytest.raises(carom.InputError, match=message) as error:
+    with pytest.raises(carom.InputError, match=message):
         hit.fields(1e-6, **given)
-    assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize(
@@ -74,9 +76,8 @@ def test_places_on_the_surface(hit, given, message):
     ],
 )
 def test_places_below_the_surface(hit, given, message):
-    with pytest.raises(carom.InputError, match=message) as error:
+    with pytest.raises(carom.InputError, match=message):
         hit.stress(1e-6, **({"body": "first"} | given))
-    assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize("n", [1, 2.5, "many", NAN, None])
@@ -151,14 +152,13 @@ NO_NAMES = [
 
 @pytest.mark.parametrize("outputs", NO_NAMES, ids=[str(row) for row in range(len(NO_NAMES))])
 def test_outputs_of_a_sweep_that_are_no_list_of_names(outputs):
-    with pytest.raises(carom.InputError, match=r"^outputs: ") as error:
+    with pytest.raises(carom.InputError, match=r"^outputs: "):
         carom.sweep(CASE, carom.Grid({"angle": [0.1]}), outputs=outputs, progress=False)
-    assert "\n" not in str(error.value)
 
 
 def damaged_tables():
     """Yield tables of a law of which a part is missing, of another kind, shape or size."""
-    law = carom.ReboundLaw(1.44)
+    law = carom.laws.ReboundLaw(1.44)
     for key in ("chi", "edges", "coefficients"):
         table = law.to_dict()
         del table[key]
@@ -186,7 +186,7 @@ def test_tables_of_a_law_that_are_damaged():
     count = 0
     for table in damaged_tables():
         with pytest.raises(carom.InputError, match=r"^table: it is not a table of ReboundLaw"):
-            carom.ReboundLaw.from_dict(table)
+            carom.laws.ReboundLaw.from_dict(table)
         count += 1
     assert count > 200
 
@@ -235,6 +235,5 @@ def test_records_that_are_no_columns(use, given):
         "fit": carom.fit,
         "table": lambda given: carom.sweep(CASE, carom.Table(given)),
     }[use]
-    with pytest.raises(carom.InputError, match=": ") as error:
+    with pytest.raises(carom.InputError, match=": "):
         call(given)
-    assert "\n" not in str(error.value)

@@ -55,7 +55,7 @@ def test_a_material_of_the_catalogue_takes_what_is_known_besides():
 
 def test_no_strength_at_all_is_told_with_where_to_put_it():
     with pytest.raises(carom.InputError, match="no strength of either body is known") as caught:
-        carom.strength(pair_of("float glass", "float glass"))
+        carom.bearable_speeds(pair_of("float glass", "float glass"))
     for word in ("yield_strength", "tensile_strength", "fracture_toughness", "carom.material"):
         assert word in str(caught.value)
 
@@ -90,7 +90,7 @@ def test_a_material_without_the_strength_has_a_status_of_its_own():
 
 
 def test_points_that_cannot_be_solved_have_their_status():
-    found = carom.strength(pair_of(), angle=["30 deg", "95 deg"], friction=[0.1, -0.1])
+    found = carom.bearable_speeds(pair_of(), angle=["30 deg", "95 deg"], friction=[0.1, -0.1])
     assert found.status.values.tolist() == [
         [PointStatus.SOLVED, PointStatus.NOT_APPROACHING],
         [PointStatus.OUT_OF_RANGE, PointStatus.NOT_APPROACHING],
@@ -101,7 +101,7 @@ def test_points_that_cannot_be_solved_have_their_status():
 def test_the_speed_told_is_the_speed_at_which_it_happens():
     """An impact at the speed of the map has the strength as its largest stress, spin or not."""
     pair = pair_of(tensile_strength="1 GPa")
-    found = carom.strength(pair, angle=["15 deg"], friction=[0.2])
+    found = carom.bearable_speeds(pair, angle=["15 deg"], friction=[0.2])
     for name, share in (("yield_speed", "yield_ratio"), ("tensile_speed", "tension_ratio")):
         speed = float(found[f"{name}_second"][0, 0])
         peaks = carom.impact(pair, speed=speed, angle="15 deg").peaks()
@@ -221,10 +221,12 @@ def test_coupling_leaves_strength_unjudged_by_boundary_elements():
 
 
 def test_maps_say_what_bounds_their_speeds():
-    like = carom.strength(pair_of(), angle=[0.1, 0.2])
+    like = carom.bearable_speeds(pair_of(), angle=[0.1, 0.2])
     assert "lower bounds" in like.notes
     assert "radial tractions" not in like.notes
-    unlike = carom.strength(pair_of("bearing steel", "glass", flaw_size="9 um"), angle=[0.1, 0.2])
+    unlike = carom.bearable_speeds(
+        pair_of("bearing steel", "glass", flaw_size="9 um"), angle=[0.1, 0.2]
+    )
     assert "radial tractions of unlike materials" in unlike.notes
     with pytest.raises(carom.InputError, match="one angle makes no curve"):
         carom.plots.plot_strength(like.isel(angle=[0]))
@@ -239,25 +241,26 @@ def test_a_rigid_body_is_refused_where_its_stress_is_wanted():
 
 def test_spheres_that_yield_have_no_known_stress():
     hit = carom.impact(pair_of(), speed=5.0, angle="30 deg", losses=carom.ElasticPlastic())
-    with pytest.raises(carom.InputError, match="fields of this solid are not known"):
+    with pytest.raises(carom.InputError, match=r"losses: .* a yielded contact"):
         hit.peaks()
     assert any(each.name == "p_0/Y" for each in hit.validity.findings)
 
 
 def test_peaks_and_maps_are_stored_and_read_again(tmp_path):
     peaks = carom.impact(pair_of(), speed=0.5, angle="30 deg").peaks()
-    found = carom.strength(pair_of(), angle=[0.1, 0.8], friction=[0.1, 0.3])
+    found = carom.bearable_speeds(pair_of(), angle=[0.1, 0.8], friction=[0.1, 0.3])
     for name, dataset in (("peaks", peaks), ("strength", found)):
-        for ending in (".nc", ".csv"):
-            again = carom.read(carom.save(dataset, tmp_path / f"{name}{ending}"))
-            for variable in dataset.data_vars:
-                assert again[variable].values == pytest.approx(dataset[variable].values)
+        again = carom.read(carom.save(dataset, tmp_path / f"{name}.nc"))
+        for variable in dataset.data_vars:
+            assert again[variable].values == pytest.approx(dataset[variable].values)
     figure = carom.plots.plot_strength(carom.read(tmp_path / "strength.nc"))
     assert len(figure.axes) == 2
 
 
 def test_many_frictions_are_drawn_as_a_map():
-    found = carom.strength(pair_of(), angle=[0.0, 0.5, 1.0], friction=np.linspace(0.0, 0.5, 7))
+    found = carom.bearable_speeds(
+        pair_of(), angle=[0.0, 0.5, 1.0], friction=np.linspace(0.0, 0.5, 7)
+    )
     figure = carom.plots.plot_strength(found)
     assert figure.axes[0].get_ylabel().startswith("$\\mu$")
     with pytest.raises(carom.InputError, match="no speed in this dataset is finite"):

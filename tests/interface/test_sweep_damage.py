@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import carom
-from carom.io.stores import FROZEN, SEALED
+from carom.io.stores import FROZEN
 
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 1.0, "angle": 0.4}
 AXES = {
@@ -46,7 +46,7 @@ def chunks(path, name):
 def test_a_store_is_read_like_any_other_file(whole):
     """`carom.read` gives what the sweep returned."""
     assert carom.read(whole[0]).load().identical(whole[1])
-    with pytest.raises(carom.InputError, match=r"must end in \.nc or \.csv, or be the store"):
+    with pytest.raises(carom.InputError, match=r"must end in \.nc, or be the store"):
         carom.read(whole[0].with_name("none.zarr"))
 
 
@@ -114,7 +114,7 @@ def test_block_without_status_counts_as_not_run(whole, copy):
     """As in a store that is not finished: NOT_RUN there, and everything else as it was."""
     chunks(copy, "status")[0].unlink()
     dataset = carom.read(copy).load()
-    again = dataset.status != carom.PointStatus.NOT_RUN
+    again = dataset.status != carom.status.PointStatus.NOT_RUN
     assert 0 < int((~again).sum()) < again.size
     assert dataset.where(again, drop=False).identical(whole[1].where(again, drop=False))
 
@@ -142,14 +142,6 @@ def is_axis(store, file):
     return file.relative_to(store).parts[0] in AXES
 
 
-def test_store_without_checksums_is_read_and_continued(whole, copy):
-    """As they were before there were any."""
-    (copy / FROZEN).unlink()
-    chunks(copy, "chi")[2].write_bytes(b"")
-    assert swept(copy).load().identical(whole[1])
-    assert carom.read(copy).load().identical(whole[1])
-
-
 def test_checksums_are_those_that_the_shell_computes(copy):
     """`sha256sum -c` in the folder of the store agrees."""
     done = subprocess.run(["sha256sum", "-c", FROZEN], cwd=copy, capture_output=True, text=True)
@@ -169,7 +161,7 @@ def test_what_is_read_when_it_is_used_can_be_pickled(whole, copy):
 
 def test_array_that_is_missing_is_refused(copy):
     shutil.rmtree(copy / "psi_out")
-    with pytest.raises(carom.InputError, match=r"damaged: psi_out/zarr.json is missing"):
+    with pytest.raises(carom.InputError, match=r"damaged: psi_out/zarr\.json is not what"):
         swept(copy)
 
 
@@ -201,7 +193,7 @@ def test_folder_of_something_else_is_never_touched(tmp_path):
     other.mkdir()
     (other / "mine.txt").write_text("mine")
     for resume in (False, True):
-        with pytest.raises(carom.InputError, match="not a Zarr store"):
+        with pytest.raises(carom.InputError, match="not a store of Carom"):
             swept(other, resume=resume)
     assert [file.name for file in other.iterdir()] == ["mine.txt"]
     assert np.all([file.read_text() == "mine" for file in other.iterdir()])
@@ -240,21 +232,6 @@ def test_chunks_exchanged_are_found(whole, copy):
     other.write_bytes(kept)
     keys = "|".join(str(each.relative_to(copy)) for each in (one, other))
     with pytest.raises(carom.InputError, match=f"({keys}) is damaged"):
-        carom.read(copy).load()
-    assert swept(copy).load().identical(whole[1])
-
-
-def test_store_whose_chunks_have_no_seals_is_read(whole, copy):
-    """As they were before chunks had them: with a list of what is written once."""
-    (copy / SEALED).unlink()
-    lines = (copy / FROZEN).read_text().splitlines(keepends=True)
-    (copy / FROZEN).write_text("".join(x for x in lines if not x.endswith(f"  {SEALED}\n")))
-    for name in [*OUTPUTS, "status"]:
-        for file in chunks(copy, name):
-            file.write_bytes(file.read_bytes()[:-40])
-    assert carom.read(copy).load().identical(whole[1])
-    damage(chunks(copy, "psi_out")[0], "bit within")
-    with pytest.raises(carom.InputError, match="psi_out/c/0/0 is damaged"):
         carom.read(copy).load()
     assert swept(copy).load().identical(whole[1])
 

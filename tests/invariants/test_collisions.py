@@ -16,8 +16,8 @@ BALL = carom.Sphere(radius=5e-3, material=STEEL)
 SHELL = carom.Sphere(radius=8e-3, material=GLASS, inner_radius=7e-3)
 PAIR = carom.Pair(BALL, SHELL, friction=0.2)
 WALL = carom.Pair(SHELL, carom.HalfSpace(material=STEEL), friction=0.3)
-WALTON = carom.WaltonLaw(friction=0.3, restitution=0.9, tangential_restitution=0.4)
-LAWS = [None, carom.SmoothLaw(), carom.RoughLaw(), WALTON]
+WALTON = carom.laws.WaltonLaw(friction=0.3, restitution=0.9, tangential_restitution=0.4)
+LAWS = [None, carom.laws.SmoothLaw(), carom.laws.RoughLaw(), WALTON]
 NAMES = ("velocity1", "spin1", "velocity2", "spin2")
 EPS = np.finfo(float).eps
 
@@ -99,7 +99,7 @@ def test_energy_never_grows(law, pair):
     before = energy(bodies, [motion.get(name) for name in NAMES])
     after = energy(bodies, parts(carom.collide(pair, law=law, **motion)))
     assert np.all(after <= before * (1.0 + 1e-12))
-    if isinstance(law, carom.SmoothLaw | carom.RoughLaw):
+    if isinstance(law, carom.laws.SmoothLaw | carom.laws.RoughLaw):
         assert np.all(after >= before * (1.0 - 1e-12))
 
 
@@ -111,11 +111,11 @@ def test_energy_never_grows_where_none_is_lost(chi):
     radius = BALL.radius / np.sqrt(2.0 * chi / kappa - 1.0)
     ball = carom.Sphere(radius=BALL.radius, material=STEEL, gyration_radius=radius)
     pair = carom.Pair(ball, wall, friction=50.0)
-    table = carom.ReboundLaw(chi).to_dict()
+    table = carom.laws.ReboundLaw(chi).to_dict()
     stick = sum(edge <= 1.0 for edge in table["edges"][1:])
     for row in table["coefficients"][:stick]:
         row[0] -= 4e-9
-    law = carom.ReboundLaw.from_dict(table)
+    law = carom.laws.ReboundLaw.from_dict(table)
     motion = {name: random_motion(20_000, 10)[name] for name in ("velocity1", "spin1", "normal")}
     after = carom.collide(pair, law=law, **motion)
     zero = np.zeros((20_000, 3))
@@ -176,8 +176,8 @@ def test_separating_pairs_are_left_alone_to_the_bit():
     after = carom.collide(PAIR, **motion)
     apart = closing <= 0.0
     assert np.mean(apart) == pytest.approx(0.5, abs=0.05)
-    assert np.array_equal(after.status == carom.CollisionStatus.SEPARATING, apart)
-    assert np.all(after.status[~apart] == carom.CollisionStatus.COLLIDED)
+    assert np.array_equal(after.status == carom.status.CollisionStatus.SEPARATING, apart)
+    assert np.all(after.status[~apart] == carom.status.CollisionStatus.COLLIDED)
     for name in NAMES:
         assert getattr(after, name)[apart].tobytes() == motion[name][apart].tobytes(), name
     assert np.all(np.any(after.velocity1[~apart] != motion["velocity1"][~apart], axis=1))
@@ -198,8 +198,8 @@ def test_few_bad_rows_among_many(law):
     wanted = carom.collide(PAIR, law=law, **clean)
     with pytest.warns(UserWarning, match="of 300,000 pairs .* 100 whose normal .* 300 with"):
         after = carom.collide(PAIR, law=law, **dirty)
-    assert np.all(after.status[rows[:300]] == carom.CollisionStatus.NOT_FINITE)
-    assert np.all(after.status[rows[300:]] == carom.CollisionStatus.NORMAL_NOT_UNIT)
+    assert np.all(after.status[rows[:300]] == carom.status.CollisionStatus.NOT_FINITE)
+    assert np.all(after.status[rows[300:]] == carom.status.CollisionStatus.NORMAL_NOT_UNIT)
     good = np.delete(np.arange(300_000), rows)
     assert np.array_equal(after.status[good], wanted.status[good])
     for name in NAMES:
@@ -250,8 +250,8 @@ import carom
 table = json.loads(sys.argv[1])
 ball = carom.Sphere(radius=5e-3, material="steel")
 pair = carom.Pair(ball, carom.Sphere(radius=3e-3, material="steel"), friction=0.2)
-laws = [carom.ReboundLaw.from_dict(table), carom.RoughLaw(restitution=0.8),
-        carom.WaltonLaw(friction=0.2, tangential_restitution=0.4)]
+laws = [carom.laws.ReboundLaw.from_dict(table), carom.laws.RoughLaw(restitution=0.8),
+        carom.laws.WaltonLaw(friction=0.2, tangential_restitution=0.4)]
 rng = np.random.default_rng(1)
 v1, w1, v2, w2, normal = rng.normal(size=(5, 600, 3))
 normal /= np.linalg.norm(normal, axis=1, keepdims=True)
@@ -271,7 +271,12 @@ def test_compiled_equals_uncompiled():
     """The kernels give what the same Python gives without numba, to rounding."""
     ball = carom.Sphere(radius=5e-3, material="steel")
     pair = carom.Pair(ball, carom.Sphere(radius=3e-3, material="steel"), friction=0.2)
-    arguments = [sys.executable, "-c", PROGRAM, json.dumps(carom.ReboundLaw(pair.chi).to_dict())]
+    arguments = [
+        sys.executable,
+        "-c",
+        PROGRAM,
+        json.dumps(carom.laws.ReboundLaw(pair.chi).to_dict()),
+    ]
     compiled, plain = (
         np.array(json.loads(subprocess.check_output(arguments, env=os.environ | more, text=True)))
         for more in ({}, {"CAROM_KERNELS": "python"})

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import carom
+from carom.dem import lattice
 from carom.dimensionless import rebound_tables
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.lossy.solving import solve_with_losses
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
-from carom.laws.dem import lattice
 
 pytestmark = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 STEEL = carom.material("steel")
@@ -110,22 +110,22 @@ def contacts(rng):
 
 def laws(rng):
     psi = rng.uniform(-6.0, 6.0, 20)
-    for law in (carom.LinearSpring(), carom.LammpsMindlin(), carom.ThorntonLaw()):
+    for law in (carom.dem.LinearSpring(), carom.dem.LammpsMindlin(), carom.dem.ThorntonLaw()):
         law.rebound(psi, 1.44)
         law.rebound(psi, 1.44, steps=100)
         law.history(0.7, 1.44)
-    for law in (carom.MemoryLaw(16), carom.MemoryLaw(16, restitution=0.8)):
+    for law in (carom.dem.ExactContactLaw(16), carom.dem.ExactContactLaw(16, restitution=0.8)):
         law.rebound(psi, 1.44, steps=40)
         law.history(0.7, 1.44, steps=40)
     memory, load = np.zeros(lattice.places(16)), np.empty(3)
     lattice.step(memory, 16, 0.1, np.array([1.0, 0.5, 0.2]), 0.1, 0.2, 0.2, load)
-    mixed = carom.MixtureLaw(1.4, 1.45)
+    mixed = carom.laws.MixtureLaw(1.4, 1.45)
     mixed(psi, 1.42)
     for kind in (np.float32, np.float64):
         velocity = rng.normal(size=(700, 3)).astype(kind)
         normal = rng.normal(size=(700, 3))
         normal = (normal / np.linalg.norm(normal, axis=1, keepdims=True)).astype(kind)
-        for law in (None, carom.RoughLaw(restitution=0.9)):
+        for law in (None, carom.laws.RoughLaw(restitution=0.9)):
             carom.collide(PAIR, velocity1=velocity, normal=normal, law=law, threads=1)
     places = np.arange(50, dtype=np.uint64)
     permutation.fractions(places, 1000, permutation.secrets(1, 1)[0])

@@ -14,34 +14,34 @@ CHI = 1.4412
 VARIANTS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
 DAMPED = {"restitution": 0.8, "tangential_damping": 0.5}
 PASSIVE = [  # no spring stiffens while it is stretched, or what it gains it has lost before
-    carom.LinearSpring(),
-    carom.LinearSpring(2 / 7),
-    carom.LinearSpring(0.6, **DAMPED),
-    carom.HertzLinearHistory(),
-    carom.LammpsMindlin("mindlin_rescale"),
-    carom.LammpsMindlin("mindlin_rescale/force"),
-    carom.LiggghtsHertz(0.8),
-    carom.StrongeLaw(restitution=0.7),
-    carom.WaltonBraunLaw(),
-    carom.WaltonBraunLaw(restitution=0.7),
-    carom.MemoryLaw(32, restitution=0.7),
+    carom.dem.LinearSpring(),
+    carom.dem.LinearSpring(2 / 7),
+    carom.dem.LinearSpring(0.6, **DAMPED),
+    carom.dem.HertzLinearHistory(),
+    carom.dem.LammpsMindlin("mindlin_rescale"),
+    carom.dem.LammpsMindlin("mindlin_rescale/force"),
+    carom.dem.LiggghtsHertz(0.8),
+    carom.dem.StrongeLaw(restitution=0.7),
+    carom.dem.WaltonBraunLaw(),
+    carom.dem.WaltonBraunLaw(restitution=0.7),
+    carom.dem.ExactContactLaw(32, restitution=0.7),
 ]
 ELASTIC = [
     *(law for law in PASSIVE if getattr(law, "restitution", 1.0) == 1.0),
-    carom.LammpsMindlin("mindlin"),
-    carom.LammpsMindlin("mindlin/force"),
-    carom.ThorntonLaw(),
+    carom.dem.LammpsMindlin("mindlin"),
+    carom.dem.LammpsMindlin("mindlin/force"),
+    carom.dem.ThorntonLaw(),
 ]
 CONTACTS = [
     *PASSIVE,
-    *(carom.LammpsMindlin(name) for name in VARIANTS[:2]),
-    *(carom.LammpsMindlin(name, **DAMPED) for name in VARIANTS),
-    carom.LammpsMindlin("mindlin", restitution=0.7, damping="tsuji"),
-    carom.EdemHertzMindlin(0.9),
-    carom.ThorntonLaw(),
-    carom.MemoryLaw(32),  # which gives energy back as exactly as its springs are many
+    *(carom.dem.LammpsMindlin(name) for name in VARIANTS[:2]),
+    *(carom.dem.LammpsMindlin(name, **DAMPED) for name in VARIANTS),
+    carom.dem.LammpsMindlin("mindlin", restitution=0.7, damping="tsuji"),
+    carom.dem.EdemHertzMindlin(0.9),
+    carom.dem.ThorntonLaw(),
+    carom.dem.ExactContactLaw(32),  # which gives energy back as exactly as its springs are many
 ]
-LAWS = [*CONTACTS, carom.HardSphere(0.4, 0.9)]
+LAWS = [*CONTACTS, carom.dem.HardSphere(0.4, 0.9)]
 
 
 def sample(n, seed):
@@ -60,7 +60,9 @@ def test_mirrored_impacts_are_mirrored(law, steps):
     assert np.all(np.isfinite(out))
 
 
-@pytest.mark.parametrize("law", [*PASSIVE, carom.HardSphere(0.4, 0.9), carom.HardSphere()], ids=str)
+@pytest.mark.parametrize(
+    "law", [*PASSIVE, carom.dem.HardSphere(0.4, 0.9), carom.dem.HardSphere()], ids=str
+)
 def test_no_energy_is_gained(law):
     psi, chi = sample(100, 2)
     assert np.all(np.abs(law.rebound(psi, chi)) <= psi + 1e-8)
@@ -72,7 +74,9 @@ def test_no_energy_is_gained(law):
 )
 def test_mindlin_without_rescaling_makes_energy(variant, psi, chi, gain):
     """LAMMPS documents it; the largest found by a scan of psi_1 and chi."""
-    assert carom.LammpsMindlin(variant).rebound(psi, chi) / -psi == pytest.approx(gain, abs=2e-4)
+    assert carom.dem.LammpsMindlin(variant).rebound(psi, chi) / -psi == pytest.approx(
+        gain, abs=2e-4
+    )
 
 
 @pytest.mark.parametrize("law", [*ELASTIC, *PASSIVE[-3:]], ids=str)
@@ -90,7 +94,9 @@ def test_history_keeps_the_cone_and_the_impulse(law, psi):
     history, steps = law.history(psi, CHI, steps=300), 300
     f, t = history["normal_force"], history["tangential_force"]
     dt = history["time"][1]
-    if not (isinstance(law, carom.LiggghtsHertz) and not isinstance(law, carom.EdemHertzMindlin)):
+    if not (
+        isinstance(law, carom.dem.LiggghtsHertz) and not isinstance(law, carom.dem.EdemHertzMindlin)
+    ):
         assert np.all(np.abs(t) <= np.abs(f) * (1 + 1e-12))
     for name, force, pull in (("normal_velocity", f, 1.25), ("psi", t, 2.5 * CHI)):
         lost = pull * dt * (force[1:] + force[:-1]) / 2
@@ -102,11 +108,13 @@ def test_history_keeps_the_cone_and_the_impulse(law, psi):
 
 
 def test_liggghts_leaves_the_cone_by_its_damping():
-    history = carom.LiggghtsHertz(0.5).history(0.5, CHI, steps=1000)
+    history = carom.dem.LiggghtsHertz(0.5).history(0.5, CHI, steps=1000)
     assert np.max(np.abs(history["tangential_force"]) - np.abs(history["normal_force"])) > 0.01
 
 
-@pytest.mark.parametrize("law", [law for law in CONTACTS if law != carom.ThorntonLaw()], ids=str)
+@pytest.mark.parametrize(
+    "law", [law for law in CONTACTS if law != carom.dem.ThorntonLaw()], ids=str
+)
 def test_grazing_of_the_normal_has_a_limit(law):
     """psi_2/psi_1 -> a number as psi_1 -> 0."""
     psi = np.array([1e-3, 1e-4, 1e-5])
@@ -118,11 +126,11 @@ def test_grazing_of_the_normal_has_a_limit(law):
 @pytest.mark.parametrize(
     ("make", "parameter"),
     [
-        (carom.LinearSpring, 0.6),
-        (carom.StrongeLaw, 0.6),
-        (carom.WaltonBraunLaw, 0.6),
-        (carom.HertzLinearHistory, 1.0),
-        *((lambda s, name=name: carom.LammpsMindlin(name, s), 1.0) for name in VARIANTS),
+        (carom.dem.LinearSpring, 0.6),
+        (carom.dem.StrongeLaw, 0.6),
+        (carom.dem.WaltonBraunLaw, 0.6),
+        (carom.dem.HertzLinearHistory, 1.0),
+        *((lambda s, name=name: carom.dem.LammpsMindlin(name, s), 1.0) for name in VARIANTS),
     ],
 )
 def test_units_of_psi(make, parameter):
@@ -171,31 +179,34 @@ def test_shapes_broadcast(law):
 
 
 def test_no_impacts_have_no_rebounds():
-    assert carom.LinearSpring().rebound([], CHI).shape == (0,)
+    assert carom.dem.LinearSpring().rebound([], CHI).shape == (0,)
 
 
 @pytest.mark.parametrize(
     ("make", "name"),
     [
-        (lambda: carom.LinearSpring(0.0), "stiffness_ratio"),
-        (lambda: carom.LinearSpring(float("inf")), "stiffness_ratio"),
-        (lambda: carom.StrongeLaw(-1.0), "stiffness_ratio"),
-        (lambda: carom.WaltonBraunLaw("soft"), "stiffness_ratio"),
-        (lambda: carom.LinearSpring(restitution=0.0), "restitution"),
-        (lambda: carom.LammpsMindlin(restitution=1.1), "restitution"),
-        (lambda: carom.LiggghtsHertz(float("nan")), "restitution"),
-        (lambda: carom.EdemHertzMindlin(None), "restitution"),
-        (lambda: carom.StrongeLaw(restitution=-0.5), "restitution"),
-        (lambda: carom.HardSphere(1.2), "tangential_restitution"),
-        (lambda: carom.HardSphere(0.4, restitution=0.0), "restitution"),
-        (lambda: carom.LinearSpring(tangential_damping=-1.0), "tangential_damping"),
-        (lambda: carom.HertzLinearHistory(tangential_damping=float("inf")), "tangential_damping"),
-        (lambda: carom.HertzLinearHistory(0.0), "stiffness"),
-        (lambda: carom.LammpsMindlin("hooke"), "variant"),
-        (lambda: carom.LammpsMindlin(damping="velocity"), "damping"),
-        (lambda: carom.ThorntonLaw().rebound(1.0, CHI, steps=3), "steps"),
-        (lambda: carom.ThorntonLaw().rebound(1.0, CHI, steps=10.5), "steps"),
-        (lambda: carom.LinearSpring().history(1.0, CHI, steps=True), "steps"),
+        (lambda: carom.dem.LinearSpring(0.0), "stiffness_ratio"),
+        (lambda: carom.dem.LinearSpring(float("inf")), "stiffness_ratio"),
+        (lambda: carom.dem.StrongeLaw(-1.0), "stiffness_ratio"),
+        (lambda: carom.dem.WaltonBraunLaw("soft"), "stiffness_ratio"),
+        (lambda: carom.dem.LinearSpring(restitution=0.0), "restitution"),
+        (lambda: carom.dem.LammpsMindlin(restitution=1.1), "restitution"),
+        (lambda: carom.dem.LiggghtsHertz(float("nan")), "restitution"),
+        (lambda: carom.dem.EdemHertzMindlin(None), "restitution"),
+        (lambda: carom.dem.StrongeLaw(restitution=-0.5), "restitution"),
+        (lambda: carom.dem.HardSphere(1.2), "tangential_restitution"),
+        (lambda: carom.dem.HardSphere(0.4, restitution=0.0), "restitution"),
+        (lambda: carom.dem.LinearSpring(tangential_damping=-1.0), "tangential_damping"),
+        (
+            lambda: carom.dem.HertzLinearHistory(tangential_damping=float("inf")),
+            "tangential_damping",
+        ),
+        (lambda: carom.dem.HertzLinearHistory(0.0), "stiffness"),
+        (lambda: carom.dem.LammpsMindlin("hooke"), "variant"),
+        (lambda: carom.dem.LammpsMindlin(damping="velocity"), "damping"),
+        (lambda: carom.dem.ThorntonLaw().rebound(1.0, CHI, steps=3), "steps"),
+        (lambda: carom.dem.ThorntonLaw().rebound(1.0, CHI, steps=10.5), "steps"),
+        (lambda: carom.dem.LinearSpring().history(1.0, CHI, steps=True), "steps"),
     ],
 )
 def test_parameters_out_of_range_are_refused_in_a_line(make, name):
@@ -217,9 +228,10 @@ def test_laws_are_records_with_a_source(law):
 
 PROGRAM = """
 import json, carom
-laws = [carom.LinearSpring(0.5, 0.9, 0.4), carom.LammpsMindlin("mindlin_rescale/force"),
-        carom.LiggghtsHertz(0.7), carom.WaltonBraunLaw(restitution=0.8), carom.ThorntonLaw(),
-        carom.MemoryLaw(16), carom.MemoryLaw(16, restitution=0.8)]
+from carom import dem
+laws = [dem.LinearSpring(0.5, 0.9, 0.4), dem.LammpsMindlin("mindlin_rescale/force"),
+        dem.LiggghtsHertz(0.7), dem.WaltonBraunLaw(restitution=0.8), dem.ThorntonLaw(),
+        dem.ExactContactLaw(16), dem.ExactContactLaw(16, restitution=0.8)]
 print(json.dumps([[law.rebound([0.7, 2.5], 1.4, steps=80).tolist() for law in laws],
                   [law.rebound([0.7], 1.4).tolist() for law in (laws[2], laws[4])]]))
 """

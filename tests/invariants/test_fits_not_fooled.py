@@ -208,7 +208,7 @@ def test_clean_data_are_not_called_mistaken(truth, seed):
 def test_advice_halves_the_interval():
     """As many further impacts as `advice` says, where it says: the median of 5 within 10 %.
 
-    studies/fit_advice.py has 0.45 to 0.50 of 60 sets, with and without stated errors.
+    studies/fit_advice.csv has 0.45 to 0.50 of 60 sets, with and without stated errors.
     """
     losses, ratios = carom.KelvinVoigt(restitution=0.95), []
     for seed in range(5):

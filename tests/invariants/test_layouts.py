@@ -14,7 +14,7 @@ PAIR = carom.Pair(
 )
 VISCOUS = carom.KelvinVoigt(restitution=0.8)
 HIT = carom.impact(PAIR, speed=1.0, angle=0.6)
-LAW, MIXTURE = carom.ReboundLaw(1.44), carom.MixtureLaw(1.2, 1.6)
+LAW, MIXTURE = carom.laws.ReboundLaw(1.44), carom.laws.MixtureLaw(1.2, 1.6)
 rng = np.random.default_rng(4)
 PSI, CHI = rng.uniform([[0.1], [0.8]], [[6.0], [2.0]], (6, 2, 8)).swapaxes(0, 1)
 PLACES = 1e-4 * rng.uniform(-1.0, 1.0, (40, 3))
@@ -40,8 +40,10 @@ CALLS = {
     "rebound with losses": lambda of: carom.rebound(of(PSI), of(CHI), losses=VISCOUS),
     "law": lambda of: LAW(of(PSI)),
     "mixture": lambda of: MIXTURE(of(PSI), of(1.2 + 0.3 * (CHI - 0.8))),
-    "contact law": lambda of: carom.LammpsMindlin().rebound(of(PSI[0]), of(CHI[0]), steps=100),
-    "memory law": lambda of: carom.MemoryLaw(springs=16).rebound(of(PSI[0]), 1.44, steps=50),
+    "contact law": lambda of: carom.dem.LammpsMindlin().rebound(of(PSI[0]), of(CHI[0]), steps=100),
+    "memory law": lambda of: carom.dem.ExactContactLaw(springs=16).rebound(
+        of(PSI[0]), 1.44, steps=50
+    ),
     "fields": lambda of: HIT.fields(0.4 * HIT.duration, points=of(PLACES[:, :2])),
     "stress": lambda of: HIT.stress(0.4 * HIT.duration, points=of(PLACES)),
     "collide": lambda of: carom.collide(
@@ -53,7 +55,7 @@ CALLS = {
     "path that turns": lambda of: carom.load_path(
         PAIR, normal_force=of(LOADS), displacement=of(MOVED)
     ),
-    "wear": lambda of: carom.wear(PAIR, speed=of(1.0 + ANGLES), angle=of(ANGLES)),
+    "wear": lambda of: carom.wear_of_many(PAIR, speed=of(1.0 + ANGLES), angle=of(ANGLES)),
     "curve": lambda of: carom.curve(1.44, of(PSI[0])),
     "score": lambda of: carom.verify.score(
         {"psi_1": of(PSI[0]), "psi_2": of(0.5 - PSI[0])}, chi=1.44, code="own"

@@ -12,19 +12,18 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_simpson, simpson
+from tests.oracles.march import march, motion
 
 import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import NUMBERS, PSI_OUT
-from carom.dimensionless.lossy.panels.plans import TOLERANCE
-from carom.dimensionless.lossy.panels.record import new_record
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds, outgoing
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.lossy.solving import solve_with_losses
-from carom.dimensionless.twins.marching_motion import kelvin_voigt
-from carom.dimensionless.twins.marching_solid import march_history
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
+from carom.dimensionless.lossy.viscoelastic.record import new_record
 
 Array = NDArray[np.float64]
 
@@ -255,7 +254,9 @@ def test_histories_are_those_of_the_marching_method(impact: tuple[float, float, 
     """
     psi, chi, alpha = impact
     s = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
-    ledger = march_history(psi, chi, alpha, 1000, 4000)[:-3:20]
+    ledger = np.zeros((4001, 7))
+    march(psi, chi, alpha, 1000, ledger)
+    ledger = ledger[20:-3:20]
     h = s.at(ledger[:, 0])
     for name, column, factor, close in (
         ("psi", 1, 1.0, 1e-5), ("displacement", 2, 1.0, 1e-5), ("force", 3, 1.0, 3e-5),
@@ -274,8 +275,8 @@ def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
     """
     slopes = []
     for steps in (2000, 4000):
-        motion = kelvin_voigt(alpha, steps)
-        t, b, peak = motion[:, 1], motion[:, 3], steps // 2
+        _, t, b, *_ = motion(alpha, steps)
+        peak = steps // 2
         psi, u, laid = 1.0, np.zeros(steps + 1), np.zeros(peak + 1)
         for i in range(steps):
             before = laid[i] if i <= peak else np.interp(b[i], b[: peak + 1], laid)
@@ -335,13 +336,15 @@ def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
 def test_friction_takes_energy_however_slow_or_fast_the_slip(law: Loss) -> None:
     """psi_1 from 1e-30 to 1e6: what shear leaves of the tangential energy that is lost."""
     rng = np.random.default_rng(44)
-    count = {Loss.VISCOUS: 600, Loss.PLASTIC: 600, Loss.RELAXING: 60}[law]
+    count = {Loss.VISCOUS: 600, Loss.PLASTIC: 600, Loss.RELAXING: 60, Loss.PLATE: 60}[law]
     psi = 10.0 ** rng.uniform(-30.0, 6.0, count)
     psi[::3] = 10.0 ** rng.uniform(-5.0, -3.0, psi[::3].size)
     chi = rng.choice([0.3, 0.5, 1.44, 4.0, 7.0], count)
     parameter, extra = 10.0 ** rng.uniform(-3.0, 1.0, count), np.zeros(count)
     if law is Loss.PLASTIC:
         parameter = 1.0 - 10.0 ** rng.uniform(-4.9, 0.0, count)
+    if law is Loss.PLATE:
+        parameter = rng.uniform(1e-3, 2.0, count)
     if law is Loss.RELAXING:
         extra = 10.0 ** rng.uniform(-1.0, 2.5, count)
     found = lossy_rebounds(psi, chi, LossNumbers(law, parameter, extra))
@@ -357,7 +360,7 @@ def test_slow_slip_is_linear(law: Loss) -> None:
     """psi_2/psi_1 and the share that shear loses have limits."""
     psi = np.array([1e-100, 1e-30, 1e-9, 1e-7])
     for chi in (0.3, 1.44, 5.0):
-        parameter = {Loss.VISCOUS: 0.3, Loss.PLASTIC: 0.4, Loss.RELAXING: 0.3}[law]
+        parameter = 0.4 if law is Loss.PLASTIC else 0.3
         found = lossy_rebounds(psi, np.full(4, chi), LossNumbers(law, parameter, 0.5))
         assert found.psi_out / psi == pytest.approx(found.psi_out[-1] / psi[-1], abs=2e-7)
         shares = found.shear_lost / psi**2

@@ -12,10 +12,10 @@ import pytest
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.panels.collocation import INTEGRALS, NODES
-from carom.dimensionless.lossy.panels.newton import Panel, back_substitute, factorise
-from carom.dimensionless.lossy.panels.work import RADIUS, new_work
+from carom.dimensionless.lossy.panels.work import RADIUS, Panel, new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.lossy.solving import solve_with_losses
+from carom.dimensionless.lossy.viscoelastic.panels import back_substitute, factorise
 from carom.dimensionless.numerics.kernels import plain
 
 IMPACTS = (
@@ -32,14 +32,13 @@ import json, sys
 import numpy as np
 from carom.dimensionless.lossy.law import LossNumbers
 from carom.dimensionless.lossy.solving import solve_with_losses
-from carom.dimensionless.lossy.springs import rebounds, record, work
+from carom.dimensionless.lossy.springs import march, motion, rebounds
 found, springs = [], int(sys.argv[1])
 for psi, chi, losses in json.load(sys.stdin):
     if losses[0] != 1:
-        scratch = work.new_work()
-        rows = np.zeros((len(scratch.motion), record.COLUMNS))
-        steps = rebounds.trace(psi, chi, *losses, springs, scratch, rows)
-        found += rows[:steps].ravel().tolist()
+        law, kept = (motion.Inertia(chi), motion.Solid(*losses)), march.new_work(1000)
+        steps = rebounds.trace(psi, *law, springs, march.new_work(), kept)
+        found += kept.rows[:steps].ravel().tolist()
         continue
     s = solve_with_losses(psi, chi, LossNumbers(*losses))
     h = s.history(7)

@@ -22,7 +22,7 @@ ACCURACY = 3e-8
 
 @pytest.fixture(scope="module")
 def law():
-    return carom.ReboundLaw(PAIR.chi, losses=LOSSES)
+    return carom.laws.ReboundLaw(PAIR.chi, losses=LOSSES)
 
 
 def relative_error(law, psi):
@@ -33,7 +33,7 @@ def relative_error(law, psi):
 @pytest.mark.parametrize(("chi", "e"), [(0.3, 0.9), (1.44, 0.5), (1.44, 0.999), (2.2, 0.05)])
 def test_equals_the_solver(chi, e):
     """Within 3e-8 max(1, |psi|) of `rebound`, of either sign, at edges, in the tail, near zero."""
-    law = carom.ReboundLaw(chi, losses=carom.KelvinVoigt(restitution=e))
+    law = carom.laws.ReboundLaw(chi, losses=carom.KelvinVoigt(restitution=e))
     rng = np.random.default_rng(4)
     spread = rng.uniform(0.0, 4.0 * chi * (1.0 + e), 250)
     psi = np.concatenate([spread, 10.0 ** rng.uniform(-7.0, 9.0, 100), law.edges])
@@ -104,7 +104,7 @@ def test_collisions_are_impacts(law):
     later = contact(*after[:4])
     checked = 0
     for old, new, n, status in zip(before, later, motion["normal"], after.status, strict=True):
-        if status != carom.CollisionStatus.COLLIDED:
+        if status != carom.status.CollisionStatus.COLLIDED:
             continue
         along = old - (old @ n) * n
         hit = carom.impact(
@@ -136,7 +136,7 @@ def test_collisions_keep_momentum_and_never_gain_energy(law):
     closing = np.sum((motion["velocity1"] - motion["velocity2"]) * motion["normal"], axis=1)
     least = 0.5 * PAIR.normal_mass * (1.0 - 0.8**2) * np.maximum(closing, 0.0) ** 2
     assert np.all(energy - energy_out >= least - 1e-13 * energy)
-    hit = after.status == carom.CollisionStatus.COLLIDED
+    hit = after.status == carom.status.CollisionStatus.COLLIDED
     assert 0.4 < hit.mean() < 0.6
 
 
@@ -144,22 +144,22 @@ def test_survives_storage_to_the_bit_and_old_tables_load(law):
     """JSON and pickle give the same bits; a table without restitution is one of elastic bodies."""
     psi = np.random.default_rng(1).uniform(-15.0, 15.0, 2000)
     stored = json.loads(json.dumps(law.to_dict()))
-    for again in (carom.ReboundLaw.from_dict(stored), pickle.loads(pickle.dumps(law))):
+    for again in (carom.laws.ReboundLaw.from_dict(stored), pickle.loads(pickle.dumps(law))):
         assert (again.chi, again.restitution) == (law.chi, 0.8)
         assert np.array_equal(again(psi), law(psi))
-    elastic = carom.ReboundLaw(1.44)
+    elastic = carom.laws.ReboundLaw(1.44)
     old = {name: part for name, part in elastic.to_dict().items() if name != "restitution"}
-    assert np.array_equal(carom.ReboundLaw.from_dict(old)(psi), elastic(psi))
+    assert np.array_equal(carom.laws.ReboundLaw.from_dict(old)(psi), elastic(psi))
     for wrong in (1.0, 0.7, 2.0, "x", None):
         with pytest.raises(carom.InputError, match=r"^table: [^\n]+$"):
-            carom.ReboundLaw.from_dict(stored | {"restitution": wrong})
+            carom.laws.ReboundLaw.from_dict(stored | {"restitution": wrong})
 
 
 def test_restitution_one_is_the_elastic_law():
     """To the bit."""
     psi = np.linspace(-9.0, 9.0, 999)
-    lossless = carom.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=1.0))
-    assert np.array_equal(lossless(psi), carom.ReboundLaw(1.44)(psi))
+    lossless = carom.laws.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=1.0))
+    assert np.array_equal(lossless(psi), carom.laws.ReboundLaw(1.44)(psi))
 
 
 @pytest.mark.parametrize(
@@ -175,7 +175,7 @@ def test_restitution_one_is_the_elastic_law():
 def test_refuses_losses_that_have_no_table(normal):
     """One line that names losses."""
     with pytest.raises(carom.InputError, match=r"^losses: [^\n]+$"):
-        carom.ReboundLaw(1.44, losses=normal)
+        carom.laws.ReboundLaw(1.44, losses=normal)
 
 
 def test_c_header_is_the_law(law, tmp_path):
@@ -183,7 +183,7 @@ def test_c_header_is_the_law(law, tmp_path):
     compiler = shutil.which("cc")
     if compiler is None:
         pytest.skip("needs a C compiler, cc, on the path")
-    text = c_header([law, carom.ReboundLaw(1.44)])
+    text = c_header([law, carom.laws.ReboundLaw(1.44)])
     assert "e = 0.8;" in text
     assert max(map(len, text.splitlines())) <= 100
     name = text.partition("double carom_rebound_")[2].partition("(")[0]

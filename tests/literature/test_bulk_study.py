@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "studies"))
 
 import bulk_study as study
 import bulk_tables as tables
-from bulk import contact_laws, events, gas, table
+from bulk import contact_laws, events, gas, simulations
 from bulk.cells import both_ways
 from page_blocks import blocks
 
@@ -30,7 +30,7 @@ def test_page_shows_what_the_table_says():
 
 
 def test_table_holds_every_simulation_and_no_other():
-    assert list(table.read()) == study.everything()
+    assert list(simulations.read()) == study.everything()
 
 
 def test_laws_are_given_the_contact_that_they_are_named_after():
@@ -59,7 +59,9 @@ def test_laws_are_given_the_contact_that_they_are_named_after():
 )
 def test_lammps_is_told_what_the_bench_tells_it(name, variant, stiffness):
     """The words of `pair_coeff` are those of the bench, which runs LAMMPS against its own laws."""
-    law = carom.LammpsMindlin(variant, stiffness=stiffness, restitution=0.9, tangential_damping=1.0)
+    law = carom.dem.LammpsMindlin(
+        variant, stiffness=stiffness, restitution=0.9, tangential_damping=1.0
+    )
     experiment = Experiment(
         pair=PAIR, law=law, normal_speed=0.01, tangential_speed=(0.0,), steps=100
     )

@@ -194,10 +194,7 @@ def test_the_dataset_reads_as_its_file(name):
 
 def test_storing_and_reading_gives_the_dataset_back(tmp_path):
     data = datasets.load("kharaz2001")
-    for file in ("data.nc", "data.csv"):
-        carom.save(data, tmp_path / file)
-        back = carom.read(tmp_path / file)
-        assert back.identical(data)
+    assert carom.read(carom.save(data, tmp_path / "data.nc")).identical(data)
 
 
 @pytest.mark.parametrize(

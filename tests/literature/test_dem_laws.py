@@ -11,12 +11,12 @@ import carom
 CHI = 1.4412
 PSI = np.array([0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0])
 MEASURED = [
-    (carom.LinearSpring(), 0.1756),
-    (carom.LinearSpring(2 / 7), 1.3851),
-    (carom.LammpsMindlin("mindlin"), 0.5763),
-    (carom.LammpsMindlin("mindlin/force"), 0.4677),
-    (carom.LammpsMindlin("mindlin_rescale"), 0.4272),
-    (carom.LammpsMindlin("mindlin_rescale/force"), 0.42995),
+    (carom.dem.LinearSpring(), 0.1756),
+    (carom.dem.LinearSpring(2 / 7), 1.3851),
+    (carom.dem.LammpsMindlin("mindlin"), 0.5763),
+    (carom.dem.LammpsMindlin("mindlin/force"), 0.4677),
+    (carom.dem.LammpsMindlin("mindlin_rescale"), 0.4272),
+    (carom.dem.LammpsMindlin("mindlin_rescale/force"), 0.42995),
 ]
 
 
@@ -31,6 +31,6 @@ def test_the_law_that_knows_micro_slip_is_nearest():
     exact = carom.rebound(PSI, CHI)
     errors = [
         np.max(np.abs(law.rebound(PSI, CHI) - exact))
-        for law in (carom.ThorntonLaw(), *(law for law, _ in MEASURED[2:]))
+        for law in (carom.dem.ThorntonLaw(), *(law for law, _ in MEASURED[2:]))
     ]
     assert errors[0] < 0.5 * min(errors[1:])

@@ -18,7 +18,7 @@ SCATTER = 1 / np.sqrt(N)  # twice the standard deviation of what is compared, ov
 
 def test_smooth_elastic_spheres_keep_energy_momentum_and_rate():
     """4 n sigma^2 (pi T/m)^(1/2) collisions of a sphere in a unit of time (Chapman & Cowling)."""
-    gas = cool(carom.SmoothLaw(), N, 5)
+    gas = cool(carom.laws.SmoothLaw(), N, 5)
     assert gas.collisions[-1] / gas.time[-1] == pytest.approx(1, abs=4 * np.sqrt(2 / (5 * N)))
     np.testing.assert_allclose(gas.translational, 1, rtol=1e-12)
     assert gas.drift.max() < 1e-13
@@ -33,7 +33,7 @@ def test_smooth_inelastic_spheres_cool_by_haffs_law(restitution, a_2):
 
     At e = 0.3 the correction is 2.2 %, more than what is allowed here; at 2^(-1/2) it is nil.
     """
-    gas = cool(carom.SmoothLaw(restitution=restitution), N, 14)
+    gas = cool(carom.laws.SmoothLaw(restitution=restitution), N, 14)
     rate = (1 - restitution**2) / 6 * (1 + 3 / 16 * a_2)
     assert EXAMPLE["haff"](restitution) == pytest.approx(rate, rel=1e-5)
     assert gas.slope(3, 13) == pytest.approx(rate, rel=2.5 * SCATTER)
@@ -41,7 +41,7 @@ def test_smooth_inelastic_spheres_cool_by_haffs_law(restitution, a_2):
 
 def test_perfectly_rough_spheres_keep_energy_and_come_to_equal_temperatures():
     """T_tr - T_rot decays by (8/3) q/(1 + q)^2 per collision of a sphere (after Pidduck 1922)."""
-    gas = cool(carom.RoughLaw(), N, 17)
+    gas = cool(carom.laws.RoughLaw(), N, 17)
     np.testing.assert_allclose(gas.translational + gas.rotational, 1, rtol=1e-12)
     assert gas.drift.max() < 1e-13
     gap = gas.translational - gas.rotational
@@ -59,7 +59,7 @@ def test_rates_are_those_of_a_constant_beta(beta, ratio):
     Huthmann & Zippelius (1997); Luding, Huthmann, McNamara & Zippelius (1998).
     """
     eta = Q * (1 + beta) / (2 * (1 + Q))
-    law = carom.WaltonLaw(friction=1e9, tangential_restitution=beta)
+    law = carom.laws.WaltonLaw(friction=1e9, tangential_restitution=beta)
     moving = 4 / 3 * (eta**2 / Q * ratio - eta * (1 - eta))
     turning = 4 / 3 * (eta**2 / Q - eta / Q * (1 - eta / Q) * ratio)
     expected = moving, turning - ratio * moving
@@ -126,7 +126,7 @@ def test_impact_parameters_are_uniform_over_the_cross_section():
     gas = Gas(60_000, seed=2)
     one, other = np.arange(60_000).reshape(2, -1)
     before = gas.velocity[one] - gas.velocity[other]
-    count = gas.collide(one, other, 1e-300, carom.SmoothLaw(restitution=0.0))
+    count = gas.collide(one, other, 1e-300, carom.laws.SmoothLaw(restitution=0.0))
     assert count == 30_000
     after = gas.velocity[one] - gas.velocity[other]
     lost = 1 - np.sum(after**2, axis=1) / np.sum(before**2, axis=1)
@@ -144,7 +144,7 @@ def test_same_seed_same_gas():
 def test_viscoelastic_spheres_begin_to_cool_as_maxwellian_ones():
     """Exact at the start, by friction and (1 - e^2)/3 per collision of a sphere."""
     e = 0.7
-    law = carom.ReboundLaw(PAIR.chi, losses=carom.KelvinVoigt(restitution=e))
+    law = carom.laws.ReboundLaw(PAIR.chi, losses=carom.KelvinVoigt(restitution=e))
     gas = cool(law, N, 1)
     cooled, ratio = rates(law, 0.0, PAIR, e)
     first = gas.collisions < 0.15

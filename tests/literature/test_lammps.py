@@ -1,4 +1,4 @@
-"""LAMMPS itself: the laws of carom.laws.dem are those that LAMMPS computes, step for step.
+"""LAMMPS itself: the laws of carom.dem are those that LAMMPS computes, step for step.
 
 Each program computes all its impacts in one process, a folder an experiment.
 """
@@ -54,24 +54,24 @@ PAIRS = {
 }
 # max |error in psi_2| against the exact impact over PSI at chi = 1.4412, measured independently
 ELASTIC = {
-    carom.LinearSpring(): 0.176,
-    carom.LinearSpring(2 / 7): 1.385,
-    carom.HertzLinearHistory(0.8): None,
-    carom.LammpsMindlin("mindlin"): 0.576,
-    carom.LammpsMindlin("mindlin/force"): 0.468,
-    carom.LammpsMindlin("mindlin_rescale"): 0.427,
-    carom.LammpsMindlin("mindlin_rescale/force"): 0.430,
+    carom.dem.LinearSpring(): 0.176,
+    carom.dem.LinearSpring(2 / 7): 1.385,
+    carom.dem.HertzLinearHistory(0.8): None,
+    carom.dem.LammpsMindlin("mindlin"): 0.576,
+    carom.dem.LammpsMindlin("mindlin/force"): 0.468,
+    carom.dem.LammpsMindlin("mindlin_rescale"): 0.427,
+    carom.dem.LammpsMindlin("mindlin_rescale/force"): 0.430,
 }
-TWO = (carom.LinearSpring(2 / 7), carom.LammpsMindlin("mindlin_rescale/force"))
+TWO = (carom.dem.LinearSpring(2 / 7), carom.dem.LammpsMindlin("mindlin_rescale/force"))
 OLD_DAMPING = (
-    carom.LinearSpring(restitution=0.8, tangential_damping=0.5),
-    carom.LammpsMindlin("mindlin", restitution=0.7, damping="tsuji", tangential_damping=0.5),
+    carom.dem.LinearSpring(restitution=0.8, tangential_damping=0.5),
+    carom.dem.LammpsMindlin("mindlin", restitution=0.7, damping="tsuji", tangential_damping=0.5),
 )
 NEW_DAMPING = (
-    carom.HertzLinearHistory(restitution=0.8, tangential_damping=0.3),
-    carom.LammpsMindlin("mindlin_rescale", restitution=0.7, tangential_damping=0.5),
-    carom.LammpsMindlin("mindlin/force", restitution=0.5, tangential_damping=1.0),
-    carom.LammpsMindlin("mindlin/force", restitution=0.1),
+    carom.dem.HertzLinearHistory(restitution=0.8, tangential_damping=0.3),
+    carom.dem.LammpsMindlin("mindlin_rescale", restitution=0.7, tangential_damping=0.5),
+    carom.dem.LammpsMindlin("mindlin/force", restitution=0.5, tangential_damping=1.0),
+    carom.dem.LammpsMindlin("mindlin/force", restitution=0.1),
 )
 CASES = [
     *product(["wall"], ELASTIC, [STEPS]),
@@ -81,7 +81,7 @@ CASES = [
 LATEST_CASES = [
     *product(["wall"], ELASTIC, [STEPS, 2 * STEPS]),
     *product(["unlike wall"], NEW_DAMPING, [STEPS]),
-    *product(["wall", "unequal spheres"], [carom.LammpsMindlin("mindlin")], [STEPS], [(0.5,)]),
+    *product(["wall", "unequal spheres"], [carom.dem.LammpsMindlin("mindlin")], [STEPS], [(0.5,)]),
 ]
 
 
@@ -162,7 +162,7 @@ def test_damping(found, law):
     assert difference(found, "wall", law) < WALL
     assert difference(found, "unequal spheres", law) < FREE
     # Tsuji's polynomial, as LAMMPS has it, leaves 0.778 where 0.7 is asked for
-    restitution = 0.8 if isinstance(law, carom.LinearSpring) else 0.7777
+    restitution = 0.8 if isinstance(law, carom.dem.LinearSpring) else 0.7777
     assert found["wall", law, STEPS][1].normal_speed / SLOW == pytest.approx(restitution, abs=3e-4)
 
 
@@ -215,7 +215,7 @@ def test_unit_test_of_lammps(latest, name):
     yaml = pytest.importorskip("yaml")
     from run_tests import errors
 
-    law = carom.LammpsMindlin("mindlin")
+    law = carom.dem.LammpsMindlin("mindlin")
     wanted, own = latest[name, law, STEPS, (0.5,)]
     error = np.max(np.abs(law.rebound(PSI, wanted.pair.chi) - carom.rebound(PSI, wanted.pair.chi)))
     page = yaml.safe_load(unit_test_yaml(wanted, tolerance=1.2 * error))

@@ -94,7 +94,7 @@ def test_damped_laws_are_refused():
     wanted = study.experiment("wall", "mindlin")
     damped = carom.verify.Experiment(
         pair=wanted.pair,
-        law=carom.LammpsMindlin(restitution=0.9),
+        law=carom.dem.LammpsMindlin(restitution=0.9),
         normal_speed=1e-3,
         tangential_speed=(1e-3,),
         steps=100,
@@ -113,7 +113,7 @@ def test_sticking_case_of_lammps_as_recorded():
     recorded = (0.34437890244522057 - 2.5e-3 * 155.62109755477954) / unit
     energy = drift**2 + speed**2
     for share, velocity, lost in ((1.0, 0.344, 0.046), (0.5, 0.242, 0.041)):
-        law = carom.LammpsMindlin(stiffness=share, restitution=e, tangential_damping=0.5)
+        law = carom.dem.LammpsMindlin(stiffness=share, restitution=e, tangential_damping=0.5)
         found = law.rebound(drift / unit, pair.chi, kappa=pair.kappa, steps=1394)
         left = drift - (drift / unit - found) * unit / 3.5
         after = left**2 + (e * speed) ** 2 + 2.5 * (drift - left) ** 2

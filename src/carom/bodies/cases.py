@@ -15,7 +15,7 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_text
 from carom.quantities.faults import TOLD, Faults
-from carom.quantities.refusals import InputError, clipped, hint, refusal
+from carom.quantities.refusals import InputError, checked_type, clipped, hint, one_of, refusal
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ SHAPES = (HalfSpace, Sphere, Cup)
 DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
 
 
-def read_case(path: Path, *, losses: bool = False) -> Case:
+def read_case(path: str | Path, *, losses: bool = False) -> Case:
     """Return the content of a case file after checking its keys; `losses` as in `check_case`."""
     try:
         text = read_text("case file", path)
@@ -90,8 +90,7 @@ def check_case(
         for key in unknown[TOLD:]:  # which are counted, not told
             faults.add(f"{key}: unknown key")
 
-    if not isinstance(case, Mapping):
-        raise refusal("case", case, "must be a mapping with friction, speeds, first and second")
+    checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")
     with Faults() as faults:
         for key in () if losses else (*LOSSES, RATIO):
             if key in case:
@@ -100,14 +99,15 @@ def check_case(
         check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES), "")
         for name, allowed in TABLES.items():
             table = case.get(name, {})
-            if not isinstance(table, Mapping):
-                raise refusal(name, table, f"must be a table, [{name}], with {', '.join(allowed)}")
+            checked_type(
+                name, table, Mapping, f"must be a table, [{name}], with {', '.join(allowed)}"
+            )
             check(table, allowed, name)
             if isinstance(table.get("material"), Mapping):
                 check(table["material"], MATERIAL, name)
 
 
-def _place(path: Path, text: str, key: str, table: str) -> str:
+def _place(path: str | Path, text: str, key: str, table: str) -> str:
     return f" in {path}, line {line_of(key, text, table)}"
 
 
@@ -211,38 +211,37 @@ def read_ratio(value: Any) -> float:
 
 def as_kind(kind: Any) -> str:
     """Return the kind of a second body, or raise InputError if there is none of that name."""
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise refusal("kind", kind, f"must be {', '.join(KINDS[:-1])} or {KINDS[-1]}")
-    return str(kind)
+    return one_of("kind", kind, KINDS)
 
 
 def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
     kind = as_kind(table.get("kind", KINDS[0]))
-    same = {"material": first.material, "radius": first.radius}
     if kind == "sphere":
+        same = {"material": first.material, "radius": first.radius}
         return _sphere("second", "second-", table, same)
+    for name in reversed(SIZES):
+        if name in table and (kind, name) != ("cup", "radius"):
+            raise refusal(name, table[name], f"a {kind} has none; leave it out")
     stuff = read_material(table.get("material", first.material))
-    for name in ("gyration_radius", "inner_radius"):
-        if name in table:
-            raise refusal(name, table[name], f"a {kind} has none; it belongs to a sphere")
-    if kind == "cup":
-        if "radius" not in table:
-            raise InputError("radius: missing for the cup; give --second-radius, e.g. '10 mm'")
-        return Cup(radius=table["radius"], material=stuff)
-    if "radius" in table:
-        raise refusal("radius", table["radius"], "a half-space has none; set kind to sphere or cup")
-    return HalfSpace(material=stuff)
+    if kind == "half-space":
+        return HalfSpace(material=stuff)
+    return Cup(radius=_needed(table, "second", "second-", "radius", "10 mm"), material=stuff)
 
 
 def _sphere(name: str, prefix: str, table: Mapping[str, Any], default: Mapping[str, Any]) -> Sphere:
     values = {**default, **table}
     values.pop("kind", None)
-    for key, example in (("radius", "5 mm"), ("material", "steel")):
-        if values.get(key) is None:
-            raise InputError(
-                f"{key}: missing for the {name} body; give --{prefix}{key}, e.g. '{example}'"
-            )
-    return Sphere(**{**values, "material": read_material(values["material"])})
+    _needed(values, name, prefix, "radius", "5 mm")
+    stuff = read_material(_needed(values, name, prefix, "material", "steel"))
+    return Sphere(**{**values, "material": stuff})
+
+
+def _needed(table: Mapping[str, Any], body: str, prefix: str, key: str, example: str) -> Any:
+    """Return what a table must have, or raise InputError."""
+    if table.get(key) is None:
+        words = f"missing for the {body} body; give --{prefix}{key}, e.g. '{example}'"
+        raise InputError(f"{key}: {words}")
+    return table[key]
 
 
 def read_material(value: Any) -> Material:

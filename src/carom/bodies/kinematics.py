@@ -4,14 +4,14 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import zip_longest
-from math import inf, nan, pi
+from math import nan, pi
 from typing import Any, NamedTuple
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.elementwise import arctan2, cos, hypot, quotient, sin, where
 from carom.quantities.refusals import InputError, refusal
-from carom.quantities.units import Value, finite, number, positive
+from carom.quantities.units import APPROACH, Value, finite, positive
 
 
 def approach(
@@ -34,12 +34,8 @@ def approach(
         raise InputError("speed: missing; give speed and angle, or normal_speed")
     if angle is not None:
         raise InputError("angle: give it with speed; with normal_speed give tangential_speed")
-    normal = number("normal_speed", normal_speed)
-    if not 0.0 < normal < inf:
-        raise refusal(
-            "normal_speed", normal_speed, "must be positive and finite: the bodies must approach"
-        )
-    return normal, finite("tangential_speed", 0.0 if tangential_speed is None else tangential_speed)
+    tangential = finite("tangential_speed", 0.0 if tangential_speed is None else tangential_speed)
+    return positive("normal_speed", normal_speed), tangential
 
 
 def components(speed: float, angle: float) -> tuple[float, float]:
@@ -52,9 +48,9 @@ def slope(angle: Value) -> float:
     result = finite("angle", angle)
     if abs(result) < pi / 2:
         return result
-    if isinstance(angle, str) and any(c.isalpha() or c == "°" for c in angle):
-        raise refusal("angle", angle, "must be below 90 deg: the bodies must approach")
-    raise refusal("angle", angle, f"a bare angle is in radians, below pi/2; write '{angle} deg'")
+    bare = not isinstance(angle, str) or not any(c.isalpha() or c == "°" for c in angle)
+    hint = f"; a bare angle is in radians, below pi/2; write '{angle} deg'" if bare else ""
+    raise refusal("angle", angle, f"must be below 90 deg{APPROACH}{hint}")
 
 
 class Tangential(NamedTuple):

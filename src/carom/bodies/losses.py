@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache, reduce
+from functools import lru_cache, partial, reduce
 from math import pi
 from typing import Any, Protocol
 
@@ -16,10 +16,12 @@ from carom.quantities.arrays import numbers
 from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, refusal
-from carom.quantities.units import Value, not_negative, number, positive
+from carom.quantities.units import Value, not_negative, positive, within
 
 SMALLEST_RESTITUTION = 1e-3
 STIFFEST = 1000.0  # modulus at once over the relaxed one
+RESTITUTION = partial(within, least=SMALLEST_RESTITUTION, most=1.0)
+MODULUS_RATIO = partial(within, least=1.0, most=STIFFEST)
 LIMIT_PRESSURE = 1.6  # in yield strengths: where a sphere first yields (Johnson 1985, 6.1)
 
 _viscous_loss: Callable[[float], float] = lru_cache(maxsize=4096)(viscous_loss)
@@ -92,7 +94,7 @@ class KelvinVoigt:
         if (restitution is None) == (loss_time is None):
             raise InputError("restitution: give either restitution or loss_time")
         if restitution is not None:
-            e = _one_or_many("restitution", restitution, _restitution)
+            e = _one_or_many("restitution", restitution, RESTITUTION)
             object.__setattr__(self, "restitution", e)
         if loss_time is not None:
             time = _one_or_many("loss_time", loss_time, not_negative)
@@ -238,7 +240,7 @@ class StandardLinearSolid:
 
     @known_keywords
     def __init__(self, modulus_ratio: Any, relaxation_time: Value) -> None:
-        ratio = _one_or_many("modulus_ratio", modulus_ratio, _modulus_ratio)
+        ratio = _one_or_many("modulus_ratio", modulus_ratio, MODULUS_RATIO)
         time = _one_or_many("relaxation_time", relaxation_time, not_negative)
         object.__setattr__(self, "modulus_ratio", ratio)
         object.__setattr__(self, "relaxation_time", time)
@@ -297,20 +299,6 @@ def _alphas(restitution: Any) -> Any:
     good = (unique >= SMALLEST_RESTITUTION) & (unique <= 1.0)
     found = [_viscous_loss(float(e)) if ok else np.nan for e, ok in zip(unique, good, strict=True)]
     return np.array(found)[places].reshape(np.shape(restitution))
-
-
-def _restitution(name: str, value: Any) -> float:
-    found = number(name, value)
-    if not SMALLEST_RESTITUTION <= found <= 1.0:
-        raise refusal(name, value, f"must be from {SMALLEST_RESTITUTION:g} to 1")
-    return found
-
-
-def _modulus_ratio(name: str, value: Any) -> float:
-    found = number(name, value)
-    if not 1.0 <= found <= STIFFEST:
-        raise refusal(name, value, f"must be from 1 to {STIFFEST:g}")
-    return found
 
 
 def _one_or_many(name: str, value: Any, one: Callable[[str, Any], float]) -> Any:

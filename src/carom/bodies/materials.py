@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import Any, TypeVar
 
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, hint, nearest, refusal
+from carom.quantities.refusals import InputError, checked_type, hint, nearest, refusal
 from carom.quantities.units import Value, number, positive
 
 STRENGTHS = ("yield_strength", "tensile_strength", "fracture_toughness", "flaw_size")
@@ -114,6 +114,17 @@ class Material:
         """Whether the material does not deform."""
         return math.isinf(self.young)
 
+    @property
+    def sources(self) -> dict[str, str]:
+        """Sources of the values that are those of the catalogue, each by its name.
+
+        >>> sorted(carom.material("steel").sources)
+        ['density', 'poisson', 'yield_strength', 'young']
+        """
+        entry = _catalogue().get(self.name or "", {})
+        texts: dict[str, str] = entry.get("sources", {})
+        return {key: text for key, text in texts.items() if getattr(self, key) == entry[key]}
+
 
 def _stiffness(young: Any) -> float:
     """Return a positive modulus, infinite for what does not deform, or raise InputError."""
@@ -141,7 +152,7 @@ def _catalogue() -> dict[str, dict[str, Any]]:
 def materials() -> dict[str, Material]:
     """Return the catalogue of materials by name, without "rigid".
 
-    The values are typical of room temperature; `material_sources` names the source of each.
+    The values are typical of room temperature; `sources` of each names where they are from.
 
     Returns
     -------
@@ -187,8 +198,7 @@ def material(name: str, **values: Value) -> Material:
     >>> carom.material("glass", flaw_size="20 um").flaw_size
     2e-05
     """
-    if not isinstance(name, str):
-        raise refusal("material", name, "give a name, or carom.Material(young=..., poisson=...)")
+    checked_type("material", name, str, "give a name, or carom.Material(young=..., poisson=...)")
     for key in values:
         if key not in VALUES:
             raise InputError(f"{key}: unknown in a material; {hint(key, VALUES)}")
@@ -203,33 +213,6 @@ def material(name: str, **values: Value) -> Material:
     known = [alias for key, entry in entries for alias in (key, *entry.get("aliases", ()))]
     near = nearest(wanted, [*known, "rigid"]) or "'carom materials' lists them all"
     raise refusal("material", name, f"there is no material of that name; {near}")
-
-
-def material_sources(name: str) -> dict[str, str]:
-    """Return the source of each value of a material of the catalogue.
-
-    Parameters
-    ----------
-    name : str
-        A name that `material` accepts.
-
-    Returns
-    -------
-    dict
-        The source of each value by its name; empty for "rigid".
-
-    Raises
-    ------
-    InputError
-        If there is no material of that name.
-
-    Examples
-    --------
-    >>> import carom
-    >>> sorted(carom.material_sources("steel"))
-    ['density', 'poisson', 'yield_strength', 'young']
-    """
-    return dict(_catalogue().get(material(name).name or "", {}).get("sources", {}))
 
 
 def as_material(value: Material | str) -> Material:

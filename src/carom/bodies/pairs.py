@@ -4,13 +4,14 @@ from dataclasses import dataclass
 from functools import cached_property, reduce
 from math import pi
 from operator import and_
+from typing import Any
 
 from carom.bodies.materials import Material
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.quantities.elementwise import quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, checked_type, refusal
 from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
@@ -87,6 +88,24 @@ def checked_scales(
     return pair.scales(normal_speed)
 
 
+def checked_pair(pair: Any) -> "Pair":
+    """Return a pair, or raise InputError if it is none."""
+    return checked_type("pair", pair, Pair, "must be a Pair of bodies; make one with carom.Pair")
+
+
+def with_friction(pair: Any, why: str) -> "Pair":
+    """Return a pair that has friction, or raise InputError and say why it must."""
+    if checked_pair(pair).friction == 0.0:
+        raise refusal("friction", 0.0, f"must be positive; {why}")
+    return checked_pair(pair)
+
+
+def check_second_spin(pair: "Pair", spin2: Any, *, spins: bool) -> None:
+    """Raise InputError if the second body spins, but cannot."""
+    if spins and not isinstance(pair.second, Sphere):
+        raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
+
+
 def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
     """Tell whether impacts of two pairs are the same, but for the friction unless that counts."""
     names = ("chi", "kappa", "effective_radius", "normal_mass", *(["friction"] * friction))
@@ -145,8 +164,7 @@ class Pair:
 
     @known_keywords
     def __init__(self, first: Sphere, second: Counterbody, friction: Value) -> None:
-        if not isinstance(first, Sphere):
-            raise refusal("first body", first, "must be a Sphere; the other one comes second")
+        checked_type("first body", first, Sphere, "must be a Sphere; the other one comes second")
         if not isinstance(second, Sphere | HalfSpace | Cup):
             raise refusal("second body", second, "must be a Sphere, HalfSpace or Cup")
         if isinstance(second, Cup) and not second.radius > first.radius:

@@ -12,13 +12,13 @@ if TYPE_CHECKING:
 
 
 def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":
-    """Return a dataset that Carom stored as .nc, .csv or .zarr, or the case of a .toml file.
+    """Return a dataset that Carom stored as .nc or .zarr, or the case of a .toml file.
 
     Parameters
     ----------
     path : str or Path
-        A file that `save` or the option `--output` of a command has written, the store of a sweep
-        (.zarr), whose values are read only when they are used, or a case file (.toml).
+        A NetCDF file (.nc) that `save` or the option `--output` of a command has written, the store
+        of a sweep (.zarr), whose values are read only when they are used, or a case file (.toml).
 
     Returns
     -------
@@ -29,14 +29,15 @@ def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":
     Raises
     ------
     InputError
-        If the file is missing, damaged or not stored by Carom, or a case has an unknown key.
+        If the file is missing, damaged, changed or not stored by Carom, or a case has an unknown
+        key.
 
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
     >>> import carom
     >>> with TemporaryDirectory() as folder:
-    ...     stored = carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv")
+    ...     stored = carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.nc")
     ...     carom.read(stored).psi_out.values.round(4)
     array([[ 0.0471, -0.839 ]])
     """

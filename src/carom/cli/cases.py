@@ -1,19 +1,20 @@
 """What commands share: flags over a case file, files that are asked for."""
 
 import os
-from collections.abc import Iterable, Mapping
-from itertools import combinations
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeVar
 
 import typer
 
 import carom
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import checked_type, refusal
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
     from carom.plots.result import Result
+
+Command = TypeVar("Command", bound=Callable[..., None])
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 Column = Annotated[
@@ -26,24 +27,34 @@ Column = Annotated[
 Plot = Annotated[str | None, typer.Option(help="Store a figure of the result: .png, .pdf or .svg.")]
 
 
-def file_name(text: str) -> Path:
-    """Return the name of a file that is read; "" is none, though `Path` takes it for a folder."""
-    from carom.io.paths import checked_path
+def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
+    """Return a decorator that gives parameters of a command their help, or their option of typer.
 
-    try:
-        return checked_path("file", text)
-    except InputError as error:
-        raise typer.BadParameter(str(error)) from None
+    The signature then has names, types and defaults alone.
+    """
+
+    def decorate(command: Command) -> Command:
+        of_typer = {
+            name: Annotated[
+                command.__annotations__[name],
+                typer.Option(help=option) if isinstance(option, str) else option,
+            ]
+            for name, option in options.items()
+        }
+        command.__annotations__ = {**command.__annotations__, **of_typer}
+        return command
+
+    return decorate
 
 
 def file_option(words: str) -> Any:
-    """Return the option of a file that is read."""
-    return typer.Option(help=words, parser=file_name, metavar="FILE")
+    """Return the option of a file that is read; it is a text, as "" is a folder for `Path`."""
+    return typer.Option(help=words, metavar="FILE")
 
 
 def file_argument(words: str) -> Any:
     """Return the argument of a file that is read."""
-    return typer.Argument(help=words, parser=file_name)
+    return typer.Argument(help=words, metavar="FILE")
 
 
 def whole_option(words: str) -> Any:
@@ -51,17 +62,17 @@ def whole_option(words: str) -> Any:
     return typer.Option(help=words, metavar="INTEGER")
 
 
-def named_values(option: str, given: list[str] | None, example: str) -> dict[str, str]:
+def named_values(option: str, texts: list[str] | None, example: str) -> dict[str, str]:
     """Return the values by name of texts like "restitution=0.98", or raise InputError."""
-    found: dict[str, str] = {}
-    for text in given or []:
+    values: dict[str, str] = {}
+    for text in texts or []:
         name, equals, value = (part.strip() for part in text.partition("="))
         if not (name and equals and value):
             raise refusal(option, text, f"write a name and a value, e.g. {example}")
-        if name in found:
+        if name in values:
             raise refusal(option, text, f"{name} is given twice; leave one of them out")
-        found[name] = value
-    return found
+        values[name] = value
+    return values
 
 
 class Output(NamedTuple):
@@ -78,14 +89,14 @@ def merged(case: "Case", flags: Mapping[str, Any]) -> "Case":
     from carom.bodies.cases import LOSSES, RATIO
 
     result = {key: dict(value) if isinstance(value, dict) else value for key, value in case.items()}
-    given = {name for name, value in flags.items() if value is not None}
+    changed = {name for name, value in flags.items() if value is not None}
     polar, cartesian = {"speed", "angle"}, {"normal_speed", "tangential_speed"}
     relaxing = {"relaxation_time"}  # whose ratio of moduli stays
     losses = (relaxing, {*LOSSES}), ({*LOSSES} - relaxing, {*LOSSES, RATIO})
     for one, other in ((polar, cartesian), (cartesian, polar), *losses):
-        if given & one:
+        if changed & one:
             result = {name: value for name, value in result.items() if name not in other}
-    for name in given:
+    for name in changed:
         table, _, key = name.rpartition(".")
         (result.setdefault(table, {}) if table else result)[key] = flags[name]
     return result
@@ -110,7 +121,7 @@ def tell_sweep(case: "Case") -> None:
         tell(["the table [sweep] is ignored here; carom sweep computes what it describes"])
 
 
-def told_case(path: Path, *, losses: bool = False, swept: bool = False) -> "Case":
+def told_case(path: str, *, losses: bool = False, swept: bool = False) -> "Case":
     """Return the content of a case file; what is hardly meant in it is told on stderr.
 
     So is a table [sweep] that a command leaves out, unless the case is `swept`.
@@ -129,34 +140,31 @@ def outputs(case: "Case") -> Output:
     """Return the files that a case asks for."""
     table = case.get("output", {})
     for name, value in table.items():
-        if not isinstance(value, str):
-            raise refusal(name, value, "must be the name of a file")
+        checked_type(name, value, str, "must be the name of a file")
     return Output(*(table.get(name) for name in Output._fields))
 
 
-def refuse_same(files: Mapping[str, str | Path | None]) -> None:
-    """Raise InputError if two of the files, by what they are for, are one."""
-    from carom.io.paths import checked_path
+def check_outputs(
+    outputs: Mapping[str, tuple[str | Path | None, tuple[str, ...]]], **inputs: str | Path | None
+) -> None:
+    """Raise InputError if a file cannot be written, has another ending, or is another one, too.
 
-    given = {
-        name: os.path.realpath(checked_path(name, file))
-        for name, file in files.items()
-        if file is not None
-    }
-    for (one, path), (other, same) in combinations(given.items(), 2):
-        if path == same:
-            raise refusal(
-                other, str(files[other]), f"this file is also that of {one}; give another name"
-            )
-
-
-def check_outputs(*files: tuple[str | None, tuple[str, ...]]) -> None:
-    """Raise InputError if a file cannot be written or has another ending."""
+    Outputs are by what they are for, each with the endings that it may have.
+    """
     from carom.io.paths import checked_output
 
-    for path, endings in files:
-        if path is not None:
-            checked_output(path, endings)
+    real: dict[str, str] = {}
+    for name, path in {**inputs, **{name: path for name, (path, _) in outputs.items()}}.items():
+        if path is None:
+            continue
+        if name in outputs:
+            checked_output(path, outputs[name][1])
+        try:
+            same = real.setdefault(os.path.realpath(path), name)
+        except ValueError:  # no file can have such a name, as its reader says
+            continue
+        if same != name:
+            raise refusal(name, str(path), f"this file is also that of {same}; give another name")
 
 
 def store(result: "Result", output: str | None, plot: str | None) -> None:

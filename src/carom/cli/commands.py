@@ -18,8 +18,8 @@ from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant, remark
 
 app = Commands(
-    name="carom",
-    help="Carom computes how an elastic sphere leaves an oblique impact, and what happens inside "
+    "carom",
+    "Carom computes how an elastic sphere leaves an oblique impact, and what happens inside "
     "the contact.\n\n"
     "Begin with carom impact for one impact, carom sweep for many, carom fit for measured "
     "rebounds, carom verify for contact laws of DEM codes, or carom explore for a page in the "
@@ -27,10 +27,6 @@ app = Commands(
     "cannot be used, 1 for a failure, or 130 after Ctrl-C.\n\n\b\n"
     'Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 '
     '--angle "30 deg"',
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
 )
 app.command("impact")(impact_command)
 app.command("curve")(curve_command)

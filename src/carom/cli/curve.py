@@ -1,12 +1,12 @@
 """`carom curve`: psi_2 and restitution against psi_1."""
 
 import json
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, require_some, stored, whole_option
+from carom.cli.cases import Json, Plot, check_outputs, described, require_some, stored, whole_option
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import finite, or_none, positive, whole
 
@@ -21,43 +21,33 @@ HEADERS = (".h",)
 COLUMNS = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
 
 
+OPTIONS = {
+    "chi": "Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive, e.g. 1.44 for a "
+    "steel ball on a steel plate. You can repeat this option.",
+    "restitution": "Normal coefficient of restitution of a viscous (Kelvin-Voigt) contact, e.g. "
+    "0.9 (default: elastic bodies).",
+    "start": typer.Option("--from", help="First incidence psi_1 = kappa V_x/(mu V_1)."),
+    "stop": typer.Option(
+        "--to", help="Last psi_1 (default: 4 chi + 1, where the contact slides throughout)."
+    ),
+    "points": whole_option("Number of values of psi_1, from 2 to 100,000."),
+    "output": "Store the curve: .csv or .nc, or .h with --export c.",
+    "export": "Print psi_2(psi_1) as source code instead of a table: 'c' gives a header for C and "
+    "C++ with one function for each --chi.",
+}
+
+
+@described(OPTIONS)
 def curve_command(
-    chi: Annotated[
-        list[str],
-        typer.Option(
-            help="Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive, e.g. 1.44 for "
-            "a steel ball on a steel plate. You can repeat this option."
-        ),
-    ],
-    restitution: Annotated[
-        str | None,
-        typer.Option(
-            help="Normal coefficient of restitution of a viscous (Kelvin-Voigt) contact, e.g. 0.9 "
-            "(default: elastic bodies)."
-        ),
-    ] = None,
-    start: Annotated[
-        str, typer.Option("--from", help="First incidence psi_1 = kappa V_x/(mu V_1).")
-    ] = "0",
-    stop: Annotated[
-        str | None,
-        typer.Option(
-            "--to", help="Last psi_1 (default: 4 chi + 1, where the contact slides throughout)."
-        ),
-    ] = None,
-    points: Annotated[str, whole_option("Number of values of psi_1, from 2 to 100,000.")] = "401",
+    chi: list[str],
+    restitution: str | None = None,
+    start: str = "0",
+    stop: str | None = None,
+    points: str = "401",
     as_json: Json = False,
     plot: Plot = None,
-    output: Annotated[
-        str | None, typer.Option(help="Store the curve: .csv or .nc, or .h with --export c.")
-    ] = None,
-    export: Annotated[
-        str | None,
-        typer.Option(
-            help="Print psi_2(psi_1) as source code instead of a table: 'c' gives a header for C "
-            "and C++ with one function for each --chi."
-        ),
-    ] = None,
+    output: str | None = None,
+    export: str | None = None,
 ) -> None:
     """Tabulate the rebound psi_2 against the incidence psi_1.
 
@@ -80,7 +70,7 @@ def curve_command(
 
     from carom.io.files import FIGURES, TABLES
 
-    check_outputs((plot, FIGURES), (output, TABLES))
+    check_outputs({"plot": (plot, FIGURES), "output": (output, TABLES)})
     values = [positive("chi", value) for value in chi]
     first = finite("from", start, "1")
     last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")
@@ -119,7 +109,7 @@ def _export(
         raise InputError(f"{unused}: has no effect with --export; leave one of them out")
     target = None if output is None else checked_output(output, HEADERS)
     losses = _losses(restitution)
-    text = c_header([carom.ReboundLaw(positive("chi", value), losses=losses) for value in chi])
+    text = c_header([carom.laws.ReboundLaw(positive("chi", value), losses=losses) for value in chi])
     if target is None:
         typer.echo(text, nl=False)
         return

@@ -5,42 +5,35 @@ import os
 import signal
 import webbrowser
 from contextlib import suppress
-from typing import Annotated
 
 import typer
 
-from carom.cli.cases import whole_option
+from carom.cli.cases import described, whole_option
 from carom.quantities.units import whole
 
+OPTIONS = {
+    "host": "Address of the page; 127.0.0.1 is for this machine only, 0.0.0.0 for others, too.",
+    "port": whole_option("Port of the page; 0 takes any free port."),
+    "open_browser": typer.Option(
+        "--open/--no-open", help="Open the page in a browser, or only print its address."
+    ),
+    "export": typer.Option(
+        metavar="FOLDER",
+        help="Write a copy of the page that needs no server, e.g. for a course, and end.",
+    ),
+    "as_json": typer.Option(
+        "--json", help="Print the address of the page, or with --export where the copy is, as JSON."
+    ),
+}
 
+
+@described(OPTIONS)
 def explore_command(
-    host: Annotated[
-        str,
-        typer.Option(
-            help="Address of the page; 127.0.0.1 is for this machine only, 0.0.0.0 for others, too."
-        ),
-    ] = "127.0.0.1",
-    port: Annotated[str, whole_option("Port of the page; 0 takes any free port.")] = "8050",
-    open_browser: Annotated[
-        bool,
-        typer.Option(
-            "--open/--no-open", help="Open the page in a browser, or only print its address."
-        ),
-    ] = True,
-    export: Annotated[
-        str | None,
-        typer.Option(
-            metavar="FOLDER",
-            help="Write a copy of the page that needs no server, e.g. for a course, and end.",
-        ),
-    ] = None,
-    as_json: Annotated[
-        bool,
-        typer.Option(
-            "--json",
-            help="Print the address of the page, or with --export where the copy is, as JSON.",
-        ),
-    ] = False,
+    host: str = "127.0.0.1",
+    port: str = "8050",
+    open_browser: bool = True,
+    export: str | None = None,
+    as_json: bool = False,
 ) -> None:
     """Explore impacts on a page in the browser.
 

@@ -3,7 +3,7 @@
 import json
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -13,10 +13,10 @@ from carom.cli.cases import (
     Json,
     Plot,
     check_outputs,
+    described,
     file_argument,
     file_option,
     named_values,
-    refuse_same,
     store,
     stored,
     told_case,
@@ -30,68 +30,52 @@ if TYPE_CHECKING:
     from carom.fitting import Fit
 
 
+OPTIONS = {
+    "data": file_argument(
+        "CSV file with one impact per row and units in its head, e.g. 'angle [deg]'."
+    ),
+    "dataset": "Published measurements that come with Carom, e.g. kharaz2001, instead.",
+    "case": file_option(
+        "Case file, as for carom impact, with the bodies; needed if the data hold none."
+    ),
+    "vary": "Parameters to fit, separated by commas, of friction, kappa (or chi), restitution and "
+    "spin_offset (default: the first three, or restitution for vertical drops).",
+    "fix": "A parameter that you know, with its value, e.g. restitution=0.98. You can repeat this "
+    "option.",
+    "confidence": "Confidence level of the intervals.",
+    "squares": typer.Option("--squares", help="Use least squares, in which outliers count fully."),
+    "template": typer.Option("--template", help="Print an empty table to fill in, and exit."),
+    "advice": whole_option("Number of further measurements to plan: print their best angles."),
+    "about": typer.Option(
+        "--for",
+        help="Parameter that --advice shall make more certain (default: the least certain).",
+    ),
+    "posterior": "Sample the posterior with emcee, and store the samples (.nc or .csv) or a "
+    "corner plot (.png, .pdf or .svg).",
+    "steps": whole_option("Number of steps for --posterior."),
+    "seed": whole_option("Seed of the random numbers for --posterior."),
+    "output": "Store data, fit and curves: .csv or .nc.",
+}
+
+
+@described(OPTIONS)
 def fit_command(
-    data: Annotated[
-        Path | None,
-        file_argument(
-            "CSV file with one impact per row and units in its head, e.g. 'angle [deg]'."
-        ),
-    ] = None,
-    dataset: Annotated[
-        str | None,
-        typer.Option(help="Published measurements that come with Carom, e.g. kharaz2001, instead."),
-    ] = None,
-    case: Annotated[
-        Path | None,
-        file_option(
-            "Case file, as for carom impact, with the bodies; needed if the data hold none."
-        ),
-    ] = None,
-    vary: Annotated[
-        str | None,
-        typer.Option(
-            help="Parameters to fit, separated by commas, of friction, kappa (or chi), restitution "
-            "and spin_offset (default: the first three, or restitution for vertical drops)."
-        ),
-    ] = None,
-    fix: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="A parameter that you know, with its value, e.g. restitution=0.98. You can repeat "
-            "this option."
-        ),
-    ] = None,
-    confidence: Annotated[str, typer.Option(help="Confidence level of the intervals.")] = "0.95",
+    data: str | None = None,
+    dataset: str | None = None,
+    case: str | None = None,
+    vary: str | None = None,
+    fix: list[str] | None = None,
+    confidence: str = "0.95",
     column: Column = None,
-    squares: Annotated[
-        bool, typer.Option("--squares", help="Use least squares, in which outliers count fully.")
-    ] = False,
-    template: Annotated[
-        bool, typer.Option("--template", help="Print an empty table to fill in, and exit.")
-    ] = False,
-    advice: Annotated[
-        str | None, whole_option("Number of further measurements to plan: print their best angles.")
-    ] = None,
-    about: Annotated[
-        str | None,
-        typer.Option(
-            "--for",
-            help="Parameter that --advice shall make more certain (default: the least certain).",
-        ),
-    ] = None,
-    posterior: Annotated[
-        str | None,
-        typer.Option(
-            help="Sample the posterior with emcee, and store the samples (.nc or .csv) or a corner "
-            "plot (.png, .pdf or .svg)."
-        ),
-    ] = None,
-    steps: Annotated[str, whole_option("Number of steps for --posterior.")] = "1000",
-    seed: Annotated[str, whole_option("Seed of the random numbers for --posterior.")] = "0",
+    squares: bool = False,
+    template: bool = False,
+    advice: str | None = None,
+    about: str | None = None,
+    posterior: str | None = None,
+    steps: str = "1000",
+    seed: str = "0",
     plot: Plot = None,
-    output: Annotated[
-        str | None, typer.Option(help="Store data, fit and curves: .csv or .nc.")
-    ] = None,
+    output: str | None = None,
     as_json: Json = False,
 ) -> None:
     """Fit friction, stiffness and restitution to measured rebounds.
@@ -124,9 +108,12 @@ def fit_command(
         raise refusal("for", about, "it has no effect without --advice; give that, too")
     count = None if advice is None else whole("advice", advice, 1, PLAN)
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
-    files = {"data": source, "case": case, "plot": plot, "output": output, "posterior": posterior}
-    refuse_same(files)
-    check_outputs((plot, FIGURES), (output, TABLES), (posterior, (*TABLES, *FIGURES)))
+    outputs = {
+        "plot": (plot, FIGURES),
+        "output": (output, TABLES),
+        "posterior": (posterior, (*TABLES, *FIGURES)),
+    }
+    check_outputs(outputs, data=source, case=case)
     found = carom.fit(
         source,
         pair=_pair(case),
@@ -147,7 +134,7 @@ def fit_command(
         typer.echo("\n".join(str(part) for part in (found, advised) if part is not None))
 
 
-def _tell_template(source: Path | str | None, as_json: bool) -> None:
+def _tell_template(source: str | None, as_json: bool) -> None:
     """Print an empty table."""
     from carom.fitting.template import TEMPLATE
 
@@ -156,7 +143,7 @@ def _tell_template(source: Path | str | None, as_json: bool) -> None:
     typer.echo(json.dumps({"template": TEMPLATE}) if as_json else TEMPLATE, nl=as_json)
 
 
-def _source(data: Path | None, dataset: str | None) -> Path:
+def _source(data: str | None, dataset: str | None) -> str | Path:
     """Return the file of the data, or raise InputError."""
     if (data is None) == (dataset is None):
         known = ", ".join(carom.datasets.names())
@@ -164,7 +151,7 @@ def _source(data: Path | None, dataset: str | None) -> Path:
     return data if data is not None else carom.datasets.path(str(dataset))
 
 
-def _pair(case: Path | None) -> "Pair | None":
+def _pair(case: str | None) -> "Pair | None":
     """Return the bodies of a case file, whose friction may be left out."""
     from carom.bodies.cases import LOSSES, RATIO, pair_of
     from carom.fitting.reading import START

@@ -1,9 +1,9 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -13,16 +13,16 @@ from carom.cli.cases import (
     Output,
     Plot,
     check_outputs,
+    described,
     file_argument,
     merged,
     outputs,
-    refuse_same,
     stored,
     tell_sweep,
     whole_option,
 )
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, one_of, refusal
 from carom.quantities.units import whole
 
 if TYPE_CHECKING:
@@ -41,129 +41,104 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 Text = str | None
 METHODS = ("exact", "halfspace")
 FRAMES = 60  # of an animation
+PLACES = {  # of what options give, in a case file, where they have other names there
+    "radius": "first.radius",
+    "material": "first.material",
+    "gyration_radius": "first.gyration_radius",
+    "inner_radius": "first.inner_radius",
+    "against": "second.kind",
+    "second_radius": "second.radius",
+    "second_material": "second.material",
+    "plot": "output.plot",
+    "animate": "output.animation",
+    "output": "output.data",
+    "spectrum": "output.spectrum",
+}
 
 
+OPTIONS = {
+    "case": file_argument("TOML file that describes the impact; options replace what it says."),
+    "radius": _flag("radius", "'5 mm'", " of the first body, a sphere"),
+    "material": "Material of the first body: a name that carom materials lists, or 'young=210 "
+    "GPa, poisson=0.3, density=7850'.",
+    "gyration_radius": _flag(
+        "gyration_radius", "'3 mm'", " of the first body (default: that of a solid sphere)"
+    ),
+    "inner_radius": _flag("inner_radius", "'4 mm'"),
+    "against": "Second body: half-space, sphere or cup (default: half-space).",
+    "second_radius": _flag("radius", "'10 mm'", " of the second body, a sphere or cup"),
+    "second_material": "Material of the second body (default: that of the first).",
+    "friction": _flag("friction", "0.2"),
+    "speed": _flag("speed", "'2 m/s'"),
+    "angle": _flag("angle", "'30 deg'"),
+    "normal_speed": _flag("normal_speed", "2"),
+    "tangential_speed": _flag("tangential_speed", "1"),
+    "spin": _flag(
+        "spin", "'100 rad/s'", ", positive if it adds to the tangential speed of the contact point"
+    ),
+    "spin2": _flag("spin2", "'50 rad/s'", ", if that is a sphere"),
+    "normal_spin": "Spin about the line of impact, e.g. '500 rad/s' [rad/s]. The exact theory "
+    "neglects it and says how much it may matter; --method halfspace solves for it.",
+    "restitution": "Normal coefficient of restitution of a viscous (Kelvin-Voigt) contact, e.g. "
+    "0.9 (default: elastic bodies).",
+    "loss_time": "Loss time of a viscous (Kelvin-Voigt) contact, e.g. '2 us' [s], instead of "
+    "--restitution.",
+    "relaxation_time": "Relaxation time of a standard linear solid, e.g. '20 us' [s]; needs "
+    "--modulus-ratio.",
+    "modulus_ratio": "Instantaneous modulus of a standard linear solid over its relaxed modulus, "
+    "e.g. 1.5; needs --relaxation-time.",
+    "yield_velocity": "Normal velocity above which a body yields, e.g. '0.1 m/s', or 'material' "
+    "to compute it from the yield strengths of the materials.",
+    "method": "'exact' solves the theory; 'halfspace' solves the full contact in three dimensions "
+    "by boundary elements, in two seconds, or fifteen for unlike materials.",
+    "elements": whole_option(
+        "Number of boundary elements across the contact, for --method halfspace (default: 64)."
+    ),
+    "steps": whole_option(
+        "Time steps per duration of Hertz's contact, for --method halfspace (default: 300)."
+    ),
+    "animate": "Store an animation of the contact patch: .gif, or .mp4 if ffmpeg is installed.",
+    "output": "Store forces, velocities, radii and energies over time: .nc or .csv.",
+    "spectrum": "Store the frequency spectra of the forces: .nc or .csv.",
+    "peaks": typer.Option(
+        "--peaks", help="Also print the largest stresses of the impact in each body."
+    ),
+}
+
+
+@described(OPTIONS)
 def impact_command(
-    case: Annotated[
-        Path | None,
-        file_argument("TOML file that describes the impact; options replace what it says."),
-    ] = None,
-    radius: Annotated[Text, _flag("radius", "'5 mm'", " of the first body, a sphere")] = None,
-    material: Annotated[
-        Text,
-        typer.Option(
-            help="Material of the first body: a name that carom materials lists, or "
-            "'young=210 GPa, poisson=0.3, density=7850'."
-        ),
-    ] = None,
-    gyration_radius: Annotated[
-        Text,
-        _flag("gyration_radius", "'3 mm'", " of the first body (default: that of a solid sphere)"),
-    ] = None,
-    inner_radius: Annotated[Text, _flag("inner_radius", "'4 mm'")] = None,
-    against: Annotated[
-        Text, typer.Option(help="Second body: half-space, sphere or cup (default: half-space).")
-    ] = None,
-    second_radius: Annotated[
-        Text, _flag("radius", "'10 mm'", " of the second body, a sphere or cup")
-    ] = None,
-    second_material: Annotated[
-        Text, typer.Option(help="Material of the second body (default: that of the first).")
-    ] = None,
-    friction: Annotated[Text, _flag("friction", "0.2")] = None,
-    speed: Annotated[Text, _flag("speed", "'2 m/s'")] = None,
-    angle: Annotated[Text, _flag("angle", "'30 deg'")] = None,
-    normal_speed: Annotated[Text, _flag("normal_speed", "2")] = None,
-    tangential_speed: Annotated[Text, _flag("tangential_speed", "1")] = None,
-    spin: Annotated[
-        Text,
-        _flag(
-            "spin",
-            "'100 rad/s'",
-            ", positive if it adds to the tangential speed of the contact point",
-        ),
-    ] = None,
-    spin2: Annotated[Text, _flag("spin2", "'50 rad/s'", ", if that is a sphere")] = None,
-    normal_spin: Annotated[
-        Text,
-        typer.Option(
-            help="Spin about the line of impact, e.g. '500 rad/s' [rad/s]. The exact theory "
-            "neglects it and says how much it may matter; --method halfspace solves for it."
-        ),
-    ] = None,
-    restitution: Annotated[
-        Text,
-        typer.Option(
-            help="Normal coefficient of restitution of a viscous (Kelvin-Voigt) contact, e.g. 0.9 "
-            "(default: elastic bodies)."
-        ),
-    ] = None,
-    loss_time: Annotated[
-        Text,
-        typer.Option(
-            help="Loss time of a viscous (Kelvin-Voigt) contact, e.g. '2 us' [s], instead of "
-            "--restitution."
-        ),
-    ] = None,
-    relaxation_time: Annotated[
-        Text,
-        typer.Option(
-            help="Relaxation time of a standard linear solid, e.g. '20 us' [s]; needs "
-            "--modulus-ratio."
-        ),
-    ] = None,
-    modulus_ratio: Annotated[
-        Text,
-        typer.Option(
-            help="Instantaneous modulus of a standard linear solid over its relaxed modulus, "
-            "e.g. 1.5; needs --relaxation-time."
-        ),
-    ] = None,
-    yield_velocity: Annotated[
-        Text,
-        typer.Option(
-            help="Normal velocity above which a body yields, e.g. '0.1 m/s', or 'material' to "
-            "compute it from the yield strengths of the materials."
-        ),
-    ] = None,
-    method: Annotated[
-        str,
-        typer.Option(
-            help="'exact' solves the theory; 'halfspace' solves the full contact in three "
-            "dimensions by boundary elements, in two seconds, or fifteen for unlike materials."
-        ),
-    ] = "exact",
-    elements: Annotated[
-        Text,
-        whole_option(
-            "Number of boundary elements across the contact, for --method halfspace (default: 64)."
-        ),
-    ] = None,
-    steps: Annotated[
-        Text,
-        whole_option(
-            "Time steps per duration of Hertz's contact, for --method halfspace (default: 300)."
-        ),
-    ] = None,
+    context: typer.Context,
+    case: str | None = None,
+    radius: Text = None,
+    material: Text = None,
+    gyration_radius: Text = None,
+    inner_radius: Text = None,
+    against: Text = None,
+    second_radius: Text = None,
+    second_material: Text = None,
+    friction: Text = None,
+    speed: Text = None,
+    angle: Text = None,
+    normal_speed: Text = None,
+    tangential_speed: Text = None,
+    spin: Text = None,
+    spin2: Text = None,
+    normal_spin: Text = None,
+    restitution: Text = None,
+    loss_time: Text = None,
+    relaxation_time: Text = None,
+    modulus_ratio: Text = None,
+    yield_velocity: Text = None,
+    method: str = "exact",
+    elements: Text = None,
+    steps: Text = None,
     as_json: Json = False,
     plot: Plot = None,
-    animate: Annotated[
-        Text,
-        typer.Option(
-            help="Store an animation of the contact patch: .gif, or .mp4 if ffmpeg is installed."
-        ),
-    ] = None,
-    output: Annotated[
-        Text,
-        typer.Option(help="Store forces, velocities, radii and energies over time: .nc or .csv."),
-    ] = None,
-    spectrum: Annotated[
-        Text, typer.Option(help="Store the frequency spectra of the forces: .nc or .csv.")
-    ] = None,
-    peaks: Annotated[
-        bool,
-        typer.Option("--peaks", help="Also print the largest stresses of the impact in each body."),
-    ] = False,
+    animate: Text = None,
+    output: Text = None,
+    spectrum: Text = None,
+    peaks: bool = False,
 ) -> None:
     """Solve one oblique impact of two bodies.
 
@@ -185,28 +160,15 @@ def impact_command(
     --spectrum forces.csv        spectra of the forces, for acoustic sensors
     --peaks                      the largest stresses in both bodies
     """
-    from carom.bodies.cases import losses_of, motion_of, pair_of, read_case
+    from carom.bodies.cases import LOSSES, MOTION, RATIO, losses_of, motion_of, pair_of, read_case
 
-    flags = {
-        "first.radius": radius,
-        "first.material": material,
-        "first.gyration_radius": gyration_radius,
-        "first.inner_radius": inner_radius,
-        "second.kind": against,
-        "second.radius": second_radius,
-        "second.material": second_material,
-        **{"output.plot": plot, "output.animation": animate, "output.data": output},
-        "output.spectrum": spectrum,
-        **{"friction": friction, "speed": speed, "angle": angle, "spin": spin, "spin2": spin2},
-        **{"normal_speed": normal_speed, "tangential_speed": tangential_speed},
-        **{"restitution": restitution, "loss_time": loss_time, "yield_velocity": yield_velocity},
-        **{"relaxation_time": relaxation_time, "modulus_ratio": modulus_ratio},
-    }
-    content = merged(read_case(case, losses=True) if case else {}, flags)
+    named = (*PLACES, "friction", *MOTION, *LOSSES, RATIO)
+    flags = {PLACES.get(name, name): context.params[name] for name in named}
+    content = merged(read_case(case, losses=True) if case is not None else {}, flags)
     tell_sweep(content)
     files = outputs(content)
     losses = losses_of(content)
-    _check_outputs(files, content)
+    _check_outputs(files)
     solver = _method(method, elements, steps)
     motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
     hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
@@ -218,7 +180,7 @@ def impact_command(
 
 
 def _peaks(hit: "ImpactResult") -> "xr.Dataset":
-    if not isinstance(hit, carom.Impact):
+    if not isinstance(hit, carom.results.Impact):
         raise InputError(
             "peaks: boundary elements give no stress below the surface; leave --method out"
         )
@@ -239,8 +201,7 @@ def _text(hit: "ImpactResult", peaks: "xr.Dataset | None") -> str:
 
 
 def _method(name: str, elements: str | None, steps: str | None) -> "str | BoundaryElements":
-    if name not in METHODS:
-        raise refusal("method", name, f"must be {' or '.join(METHODS)}")
+    one_of("method", name, METHODS)
     asked = {"elements": elements, "steps": steps}
     given = {key: value for key, value in asked.items() if value is not None}
     if not given:
@@ -254,16 +215,12 @@ def _method(name: str, elements: str | None, steps: str | None) -> "str | Bounda
     return carom.BoundaryElements(**counts)
 
 
-def _check_outputs(files: Output, case: Mapping[str, Any]) -> None:
+def _check_outputs(files: Output) -> None:
     from carom.io.files import FIGURES, TABLES
 
-    check_outputs((files.plot, FIGURES), (files.data, TABLES), (files.spectrum, TABLES))
-    refuse_same({"plot": files.plot, "output": files.data, "spectrum": files.spectrum})
+    tables = {"output": (files.data, TABLES), "spectrum": (files.spectrum, TABLES)}
+    check_outputs({"plot": (files.plot, FIGURES), **tables})
     if files.animation is not None:
-        for key in ("yield_velocity", "relaxation_time"):
-            if key in case:
-                allowed = f"fields of such a solid are not known; leave it or {key} out"
-                raise refusal("animation", files.animation, allowed)
         carom.plots.checked_animation(files.animation)
 
 

@@ -2,22 +2,15 @@
 
 import json
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
-from carom.cli.cases import Json
+from carom.cli.cases import Json, described
 from carom.cli.once import Commands
 
 app = Commands(
-    name="lammps",
-    help=(
-        "Use the exact contact law in LAMMPS, as pair_style carom.\n\n\b\n"
-        "Example: carom lammps build"
-    ),
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode=None,
+    "lammps",
+    "Use the exact contact law in LAMMPS, as pair_style carom.\n\n\b\nExample: carom lammps build",
 )
 
 
@@ -26,28 +19,23 @@ def _group() -> None:
     """Keep `build` a command of its own, although it is the only one."""
 
 
+OPTIONS = {
+    "include": typer.Option(
+        metavar="FOLDER",
+        help="Folder src of the LAMMPS that you compiled yourself. Give the option again for "
+        "the folder of its mpi.h.",
+    ),
+    "sizes": "Integer sizes with which you compiled your own LAMMPS: smallbig or bigbig.",
+    "folder": "Folder for the plugin (default: the folder in which LAMMPS finds it by itself).",
+}
+
+
 @app.command("build")
+@described(OPTIONS)
 def build_command(
-    include: Annotated[
-        list[Path] | None,
-        typer.Option(
-            metavar="FOLDER",
-            help="Folder src of the LAMMPS that you compiled yourself. Give the option again for "
-            "the folder of its mpi.h.",
-        ),
-    ] = None,
-    sizes: Annotated[
-        str,
-        typer.Option(
-            help="Integer sizes with which you compiled your own LAMMPS: smallbig or bigbig."
-        ),
-    ] = "smallbig",
-    folder: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for the plugin (default: the folder in which LAMMPS finds it by itself)."
-        ),
-    ] = None,
+    include: list[Path] | None = None,
+    sizes: str = "smallbig",
+    folder: Path | None = None,
     as_json: Json = False,
 ) -> None:
     """Compile the plugin with pair_style carom for LAMMPS.

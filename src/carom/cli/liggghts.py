@@ -2,22 +2,16 @@
 
 import json
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
-from carom.cli.cases import Json
+from carom.cli.cases import Json, described
 from carom.cli.once import Commands
 
 app = Commands(
-    name="liggghts",
-    help=(
-        "Use the exact contact law in LIGGGHTS, as tangential carom.\n\n\b\n"
-        "Example: carom liggghts build --source liggghts_3.8.0.orig.tar.xz"
-    ),
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode=None,
+    "liggghts",
+    "Use the exact contact law in LIGGGHTS, as tangential carom.\n\n\b\n"
+    "Example: carom liggghts build --source liggghts_3.8.0.orig.tar.xz",
 )
 
 
@@ -26,19 +20,15 @@ def _group() -> None:
     """Keep `build` a command of its own, although it is the only one."""
 
 
+OPTIONS = {
+    "source": typer.Option(metavar="PATH", help="Folder or tarball of LIGGGHTS-PUBLIC 3.8.0."),
+    "folder": "Folder for the program (default: that in which carom verify liggghts looks).",
+}
+
+
 @app.command("build")
-def build_command(
-    source: Annotated[
-        Path, typer.Option(metavar="PATH", help="Folder or tarball of LIGGGHTS-PUBLIC 3.8.0.")
-    ],
-    folder: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for the program (default: that in which carom verify liggghts looks)."
-        ),
-    ] = None,
-    as_json: Json = False,
-) -> None:
+@described(OPTIONS)
+def build_command(source: Path, folder: Path | None = None, as_json: Json = False) -> None:
     """Compile LIGGGHTS with the tangential model carom.
 
     This takes some minutes and makes a LIGGGHTS without MPI and VTK. The source package of Debian

@@ -1,30 +1,27 @@
 """`carom materials`: the catalogues of materials and of pairs, and where values come from."""
 
 import json
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
 import carom
 from carom.bodies.materials import VALUES
-from carom.cli.cases import Json
+from carom.cli.cases import Json, described
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import refusal
 from carom.quantities.units import or_none
 
+OPTIONS = {
+    "name": typer.Argument(help="Material to show, with the source of every value."),
+    "pairs": typer.Option(
+        "--pairs", help="List measured restitution and friction of pairs of materials instead."
+    ),
+}
 
-def materials_command(
-    name: Annotated[
-        str | None, typer.Argument(help="Material to show, with the source of every value.")
-    ] = None,
-    pairs: Annotated[
-        bool,
-        typer.Option(
-            "--pairs", help="List measured restitution and friction of pairs of materials instead."
-        ),
-    ] = False,
-    as_json: Json = False,
-) -> None:
+
+@described(OPTIONS)
+def materials_command(name: str | None = None, pairs: bool = False, as_json: Json = False) -> None:
     """List the materials that Carom knows by name.
 
     Use this command to find the name of a material, the values that Carom takes for it and where
@@ -95,7 +92,7 @@ def _record(name: str) -> dict[str, Any]:
     values = {key: getattr(stuff, key) for key in VALUES}
     if stuff.is_rigid:
         values["young"] = None
-    return values | {"sources": carom.material_sources(name)}
+    return values | {"sources": carom.material(name).sources}
 
 
 def _list(records: dict[str, dict[str, Any]]) -> str:

@@ -35,7 +35,11 @@ class Once(TyperCommand):
 
 
 class Commands(typer.Typer):
-    """Commands of this kind."""
+    """Commands of this kind, with help as plain text, which comes where no command is given."""
+
+    def __init__(self, name: str, words: str) -> None:
+        plain: dict[str, Any] = {"rich_markup_mode": None, "pretty_exceptions_enable": False}
+        super().__init__(name=name, help=words, no_args_is_help=True, add_completion=False, **plain)
 
     def command(self, name: str | None = None, **more: Any) -> Callable[..., Any]:
         """Return what registers a function as a command."""

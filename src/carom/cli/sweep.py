@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from math import degrees
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -14,6 +14,7 @@ from carom.cli.cases import (
     Column,
     Json,
     check_outputs,
+    described,
     file_argument,
     named_values,
     outputs,
@@ -33,43 +34,33 @@ if TYPE_CHECKING:
     from carom.sweeps.summaries import Summary
 
 
+OPTIONS = {
+    "case": file_argument("Case file with a table [sweep], which says what to vary."),
+    "store": "Store the results in a Zarr folder while they are computed, e.g. sweep.zarr.",
+    "resume": typer.Option("--resume", help="Continue the sweep in --store, or begin it."),
+    "quantities": "Quantities to compute, separated by commas, e.g. 'rebound_angle, "
+    "yield_speed_second' (default: those that the case file names, or all).",
+    "output": "Store the results at the end: .nc or .csv.",
+    "scheduler": "Address of a dask cluster to use, e.g. tcp://host:8786.",
+    "workers": whole_option("Number of threads (default: one for each core)."),
+    "progress": typer.Option(
+        "--progress/--no-progress", help="Show a progress bar (default: only on a terminal)."
+    ),
+}
+
+
+@described(OPTIONS)
 def sweep_command(
-    case: Annotated[
-        Path, file_argument("Case file with a table [sweep], which says what to vary.")
-    ],
+    case: str,
     column: Column = None,
-    store: Annotated[
-        str | None,
-        typer.Option(
-            help="Store the results in a Zarr folder while they are computed, e.g. sweep.zarr."
-        ),
-    ] = None,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Continue the sweep in --store, or begin it.")
-    ] = False,
-    quantities: Annotated[
-        str | None,
-        typer.Option(
-            help="Quantities to compute, separated by commas, e.g. 'rebound_angle, "
-            "yield_speed_second' (default: those that the case file names, or all)."
-        ),
-    ] = None,
-    output: Annotated[
-        str | None, typer.Option(help="Store the results at the end: .nc or .csv.")
-    ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option(help="Address of a dask cluster to use, e.g. tcp://host:8786.")
-    ] = None,
-    workers: Annotated[
-        str | None, whole_option("Number of threads (default: one for each core).")
-    ] = None,
+    store: str | None = None,
+    resume: bool = False,
+    quantities: str | None = None,
+    output: str | None = None,
+    scheduler: str | None = None,
+    workers: str | None = None,
     as_json: Json = False,
-    progress: Annotated[
-        bool | None,
-        typer.Option(
-            "--progress/--no-progress", help="Show a progress bar (default: only on a terminal)."
-        ),
-    ] = None,
+    progress: bool | None = None,
 ) -> None:
     """Solve many impacts: a grid, a Latin hypercube or a table.
 
@@ -90,8 +81,8 @@ def sweep_command(
 
     content = told_case(case, losses=True, swept=True)
     file = _file(content) if output is None else output
-    check_outputs((file, TABLES))
-    design, chosen = plan(content, case, named_values("column", column, "omega=spin"))
+    check_outputs({"output": (file, TABLES)})
+    design, chosen = plan(content, Path(case), named_values("column", column, "omega=spin"))
     if quantities is not None:
         chosen = [name.strip() for name in quantities.split(",")]
     tell(design.doubts())

@@ -8,21 +8,12 @@ from typing import Any, Literal, Protocol, Required, TypedDict, Unpack, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.pairs import Pair
-from carom.bodies.shapes import Sphere
+from carom.bodies.pairs import Pair, check_second_spin, checked_pair
+from carom.collisions import records
 from carom.collisions.compiled import Motions, collide_all
 from carom.collisions.judged import Incidence, JudgedCollisions, Judgement, incidence, judged
 from carom.collisions.portable import collide_arrays
-from carom.collisions.records import (
-    NAMES,
-    Collisions,
-    CollisionStatus,
-    Inertia,
-    common_shape,
-    inertia_of,
-    vectors,
-    warn_of_unusable,
-)
+from carom.collisions.records import Collisions, CollisionStatus, Inertia, vectors
 from carom.laws.exact import law_of
 from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
@@ -143,28 +134,26 @@ def collide(
     >>> after.velocity1.round(3), after.spin1.round(1), after.status
     (array([[ 0.583,  0.   , -1.732]]), array([[   0. , -208.5,    0. ]]), array([0], dtype=int8))
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    if spin2 is not None and not isinstance(pair.second, Sphere):
-        raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
+    checked_pair(pair)
+    check_second_spin(pair, spin2, spins=spin2 is not None)
     threads, inplace = threads_or_none(threads), flag("inplace", inplace)
     rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)
-    along_the_same(**dict(zip(NAMES, given, strict=True)))
+    along_the_same(**dict(zip(records.NAMES, given, strict=True)))
     if flag("judge", judge):
         met = _incidence(pair, given, law)
-        found = _collide_numpy(given, inertia_of(pair), rule, inplace, threads)
-        warn_of_unusable(found.status)
+        found = _collide_numpy(given, records.inertia_of(pair), rule, inplace, threads)
+        records.warn_of_unusable(found.status)
         return judged(pair, met, found)
     if any(is_foreign(each) for each in given):
         if inplace:
             raise refusal(
                 "inplace", inplace, "only NumPy arrays can be written in place; leave it out"
             )
-        found = collide_arrays(given, inertia_of(pair), rule)
+        found = collide_arrays(given, records.inertia_of(pair), rule)
     else:
-        found = _collide_numpy(given, inertia_of(pair), rule, inplace, threads)
-    warn_of_unusable(found.status)
+        found = _collide_numpy(given, records.inertia_of(pair), rule, inplace, threads)
+    records.warn_of_unusable(found.status)
     return found
 
 
@@ -174,8 +163,8 @@ def _incidence(pair: Pair, given: tuple[Any, ...], law: CollisionLaw | None) -> 
         raise refusal("law", law, "judge=True judges the exact law; leave law or judge out")
     if any(is_foreign(each) for each in given):
         raise refusal("judge", True, "it needs NumPy arrays; convert yours, or leave judge out")
-    arrays = [vectors(name, values) for name, values in zip(NAMES, given, strict=True)]
-    shape = common_shape(arrays)
+    arrays = [vectors(name, values) for name, values in zip(records.NAMES, given, strict=True)]
+    shape = records.common_shape(arrays)
     return incidence(pair, tuple(_whole(each, shape, np.dtype(float)) for each in arrays))
 
 
@@ -189,8 +178,8 @@ def _rule(law: CollisionLaw | None, pair: Pair) -> Rule:
 def _collide_numpy(
     given: tuple[Any, ...], inertia: Inertia, rule: Rule, inplace: bool, threads: int | None
 ) -> Collisions:
-    arrays = [vectors(name, values) for name, values in zip(NAMES, given, strict=True)]
-    shape = common_shape(arrays)
+    arrays = [vectors(name, values) for name, values in zip(records.NAMES, given, strict=True)]
+    shape = records.common_shape(arrays)
     kind = _kind(given)
     *before, axis = (_whole(each, shape, kind) for each in arrays)
     moving = 4 if inertia.factors[2] > 0.0 else 2
@@ -239,7 +228,7 @@ def _check_writable(
     given: tuple[Any, ...], used: Sequence[NDArray[np.floating]], moving: int
 ) -> None:
     """Refuse to write into what had to be copied to be used, or lies in the same memory."""
-    for name, values, whole in zip(NAMES[:moving], given, used, strict=False):
+    for name, values, whole in zip(records.NAMES[:moving], given, used, strict=False):
         if values is None:
             continue
         kind = whole.shape, whole.dtype
@@ -252,6 +241,6 @@ def _check_writable(
             )
         if not values.flags.writeable:
             raise refusal(name, values, "it is read-only; pass inplace=False")
-        for other, array in zip(NAMES, used, strict=True):
+        for other, array in zip(records.NAMES, used, strict=True):
             if other != name and np.may_share_memory(whole, array):
                 raise refusal(name, values, f"it shares memory with {other}; pass inplace=False")

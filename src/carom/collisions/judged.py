@@ -8,13 +8,7 @@ from numpy.typing import NDArray
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.collisions.records import Collisions, CollisionStatus, same_numbers
-from carom.dimensionless.neglected import (
-    SMALL_CONTACT,
-    SPIN,
-    not_studied,
-    rebound_error,
-    spin_error,
-)
+from carom.dimensionless import neglected
 from carom.plots.result import card
 from carom.quantities.statuses import WordedStatus
 
@@ -25,7 +19,7 @@ class Judgement(WordedStatus):
     Examples
     --------
     >>> import carom
-    >>> carom.Judgement(1).message
+    >>> carom.status.Judgement(1).message
     'not studied: materials, inertia, spin or contact size lie outside the study'
     """
 
@@ -117,14 +111,16 @@ def judged(pair: Pair, met: Incidence, found: Collisions) -> JudgedCollisions:
     """Return collisions with how far their psi_2 may be off."""
     collided = found.status == CollisionStatus.COLLIDED
     numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
-    outside = (met.spin > SPIN.most) | (met.reach > SMALL_CONTACT) | bool(not_studied(*numbers))
+    outside = (met.spin > neglected.SPIN.most) | (met.reach > neglected.SMALL_CONTACT)
+    outside |= bool(neglected.not_studied(*numbers))
     held = np.isfinite(met.psi)  # by friction: without it nothing is left out
     kinds, values = [~collided, outside & held], [Judgement.NOT_COLLIDED, Judgement.NOT_STUDIED]
     judgement = np.select(kinds, values, Judgement.BOUNDED).astype(np.int8)
     error = np.zeros(judgement.shape)
     if pair.friction > 0.0:
         with np.errstate(all="ignore"):
-            bound = rebound_error(*numbers, met.psi) + spin_error(pair.chi, met.psi, met.spin)
+            bound = neglected.rebound_error(*numbers, met.psi)
+            bound = bound + neglected.spin_error(pair.chi, met.psi, met.spin)
         error = np.where(held, bound, error)
     error = np.where(judgement == Judgement.BOUNDED, error, np.nan)
     return JudgedCollisions(*found, error, judgement)

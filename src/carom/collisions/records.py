@@ -31,7 +31,7 @@ class CollisionStatus(WordedStatus):
     Examples
     --------
     >>> import carom
-    >>> carom.CollisionStatus(1).message
+    >>> carom.status.CollisionStatus(1).message
     'left alone: the bodies do not approach'
     """
 

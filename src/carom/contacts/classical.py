@@ -6,9 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, with_friction
 from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.refusals import refusal
+
+FREE = "without friction the bodies slide freely"
 
 
 class Obliquity(NamedTuple):
@@ -146,13 +148,13 @@ def critical_obliquity(pair: Pair) -> Obliquity:
     >>> round(carom.classical.critical_obliquity(pair).force, 4)
     0.1974
     """
-    _check_pair(pair)
+    with_friction(pair, FREE)
     return Obliquity(atan(pair.friction), atan(pair.friction / pair.kappa))
 
 
 def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array, Array]:
     """Return T/(mu P), and mu P in N."""
-    _check_pair(pair)
+    with_friction(pair, FREE)
     allowed = "must be finite numbers in N, shapes that broadcast"
     along_the_same(normal_force=normal, tangential_force=tangential)
     load = numbers("normal_force", normal, allowed)
@@ -172,13 +174,6 @@ def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array,
     if not np.all(np.abs(share) <= 1.0):
         raise refusal("tangential_force", tangential, "Coulomb's law allows at most mu P")
     return share, most
-
-
-def _check_pair(pair: Pair) -> None:
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    if pair.friction == 0.0:
-        raise refusal("friction", pair.friction, "must be positive, or the bodies slide freely")
 
 
 def _gross_displacement(pair: Pair, most: Array) -> Array:

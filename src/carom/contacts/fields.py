@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.contacts.contact import Contact
 from carom.dimensionless.fields import surface
+from carom.dimensionless.fields.profile import borne
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.io.labels import flags, labelled_dataset
 from carom.quantities.arrays import Array, places
@@ -62,7 +63,7 @@ def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
         "traction_x": values[:, 1] * limit,
         "memory_g": memory[:, 0],
         "memory_q": memory[:, 1] * deflection,
-        "memory_limit": (contact.edge**2 + contact.rim - r**2) * deflection,
+        "memory_limit": (borne(contact.profile, r) + contact.rim) * deflection,
     }
     variables: dict[str, Any] = {name: ("distance", value) for name, value in columns.items()}
     return labelled_dataset(
@@ -90,7 +91,7 @@ def _radial(contact: Contact, r: Array) -> Array:
 
 
 def _memory(contact: Contact, r: Array) -> Array:
-    edges, q, g, _ = contact.profile
+    edges, q, g = contact.profile[:3]
     if len(g) == 0:
         return np.zeros((r.size, 2))
     panels = np.clip(np.searchsorted(edges, r) - 1, 0, len(g) - 1)

@@ -53,7 +53,7 @@ class InContact(ABC):
         Raises
         ------
         InputError
-            If the bodies do not touch then, there is no such step, or the spheres yield.
+            If the bodies do not touch then, or there is no such step.
 
         Examples
         --------
@@ -104,8 +104,8 @@ class InContact(ABC):
             displacement_x, displacement_y, displacement_z, slip_x, slip_y, and in impacts
             slip_velocity_x and slip_velocity_y. Numbers are contact_radius, stick_radius,
             normal_force, tangential_force, penetration, displacement, friction, and in impacts
-            time. For viscous bodies there are no displacements, and pressure and traction are
-            infinite at the edge while the load grows.
+            time. With losses there are no displacements, and of viscous bodies pressure and
+            traction are infinite at the edge while the load grows.
 
         Raises
         ------
@@ -170,7 +170,7 @@ class InContact(ABC):
         ------
         InputError
             If the bodies do not touch then, positions have a wrong shape, are not finite or lie
-            outside the body, or the body is rigid.
+            outside the body, the body is rigid, or the spheres yield.
 
         Examples
         --------

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom import plots
-from carom.bodies.pairs import ContactScales, Pair
+from carom.bodies.pairs import ContactScales, Pair, with_friction
 from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
 from carom.contacts.following import followed
@@ -311,11 +311,7 @@ def load_path(
     array([[1.72e-07, 0.00e+00],
            [4.00e-08, 1.43e-07]])
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    if pair.friction == 0.0:
-        allowed = "a load path needs friction; without it there is no tangential force"
-        raise refusal("friction", pair.friction, allowed)
+    with_friction(pair, "a load path needs friction, or there is no tangential force")
     steps = read_steps(pair, normal_force, penetration, tangential_force, displacement)
     return _load_path(pair, steps, progress)
 

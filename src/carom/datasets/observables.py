@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.kinematics import Rebound, Tangential, components, inertia
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, checked_pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, clipped, hint, refusal
+from carom.quantities.refusals import InputError, checked_type, clipped, hint, refusal
 
 Given = Mapping[str, Any]  # arrays by name
 
@@ -55,7 +55,7 @@ RELATIVE = {  # these say nothing where there was nothing before
 
 
 @known_keywords
-def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
+def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     """Return one quantity of a rebound from others that determine it.
 
         J_t = m_n (v_t - v_t') = m_t (V_x - V_x')
@@ -100,13 +100,13 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     >>> ball = carom.Sphere(radius="2.5 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.092)
     >>> known = {"speed": 3.9, "angle": ["20 deg", "40 deg"], "tangential_restitution": [0.6, 0.78]}
-    >>> carom.convert(pair, known=known, wanted="spin_out").round(1)
+    >>> carom.convert_observables(pair, known=known, wanted="spin_out").round(1)
     array([-533.6, -551.5])
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    if not isinstance(known, Mapping):
-        raise refusal("known", known, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}")
+    checked_pair(pair)
+    checked_type(
+        "known", known, Mapping, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}"
+    )
     given = {name: _values(name, value) for name, value in known.items()}
     along_the_same(**{str(name): value for name, value in known.items()})
     _check_name("wanted", wanted)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from carom.datasets.shipped import column_attributes
 from carom.io.columns import in_units, with_errors
 from carom.io.labels import labelled_dataset
-from carom.io.tables import Cells, read_table
+from carom.io.tables import read_table
+from carom.io.user_table import UserTable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,12 +49,12 @@ def parameters() -> "xr.Dataset":
     numbers = in_units(cells, NUMBERS, gaps=("diameter", "density")).columns
     found = {name: ("pair", numbers[name], column_attributes(name)) for name in NUMBERS}
     words = {
-        name: ("pair", [str(cell) for cell in cells.column(name)[1]], {"long_name": meaning})
+        name: ("pair", [str(cell) for cell in cells.column(name).cells], {"long_name": meaning})
         for name, meaning in WORDS.items()
     }
     return labelled_dataset(found, words, {"name": "parameters", **cells.comments})
 
 
 @lru_cache
-def _read() -> Cells:
+def _read() -> UserTable:
     return read_table(Path(str(files("carom").joinpath("data/parameters.csv"))))

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.datasets.observables import OBSERVABLES
-from carom.io.columns import ERROR, Results, entry, in_units
+from carom.io.columns import ERROR, entry, in_units
 from carom.io.labels import attributes, labelled_dataset
-from carom.io.tables import Cells, read_table
-from carom.quantities.refusals import nearest, refusal
+from carom.io.tables import read_table
+from carom.io.user_table import UserTable
+from carom.quantities.refusals import one_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,14 +57,10 @@ def path(name: str) -> Path:
     >>> carom.datasets.path("kharaz2001").name
     'kharaz2001.csv'
     """
-    if not isinstance(name, str) or name not in names():
-        near = nearest(name, names()) if isinstance(name, str) else ""
-        hint = near or f"known names are {', '.join(names())}"
-        raise refusal("dataset", name, f"there is no dataset of that name; {hint}")
-    return _folder() / f"{name}.csv"
+    return _folder() / f"{one_of('dataset', name, names())}.csv"
 
 
-def table(name: str) -> Results:
+def table(name: str) -> UserTable:
     """Return the columns of a dataset in SI units, NaN where nothing was measured.
 
     Parameters
@@ -73,7 +70,7 @@ def table(name: str) -> Results:
 
     Returns
     -------
-    Results
+    UserTable
         Arrays of shape (n,) by name in `columns`, also as `table[name]`, and the line numbers of
         the file in `rows`.
 
@@ -149,7 +146,7 @@ def column_attributes(name: str) -> dict[str, Any]:
 
 
 @lru_cache
-def _read(name: str) -> Cells:
+def _read(name: str) -> UserTable:
     return read_table(path(name))
 
 

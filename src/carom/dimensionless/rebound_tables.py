@@ -6,10 +6,9 @@ throughout and needs no table. The variables of a table are those of chi and e t
 and the place.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +16,9 @@ from numpy.typing import NDArray
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
 from carom.dimensionless.numerics.arrays import Array, Counts, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.dimensionless.numerics.kernels import entry_point, kernel
@@ -42,25 +41,11 @@ FOLD = 0.5  # chi up to which all borders are 1
 NARROW = 1e-7  # of a panel with losses: their kinks are too weak to be felt within
 
 
-class Accuracy(NamedTuple):
-    """How well a table is made: degrees of its series along chi, e and the place; their errors."""
-
-    degrees: tuple[int, int, int]
-    tolerance: float  # of the last terms of a series, as an error in psi_2
-    fading: float = np.inf  # chi beyond which errors may grow, by its ninth power
-    solved: float = TOLERANCE  # of a panel of time of a viscous impact
-
-
 def psi_at(place: Array, chi: Array, restitution: Array) -> Array:
     """Return psi_1 of a place from 0 to 3, at borders to the bit."""
-    borders = regime_borders(chi, restitution)
-    starts = np.concatenate((np.zeros_like(borders[..., :1]), borders), axis=-1)
-    regime = np.clip(np.floor(place), 0, 2).astype(np.int64)
-    part = place - regime
-    low, high = (
-        np.take_along_axis(starts, regime[..., np.newaxis] + step, -1)[..., 0] for step in (0, 1)
-    )
-    return np.asarray((1.0 - part) * low + part * high)
+    one, turn, end = np.moveaxis(regime_borders(chi, restitution), -1, 0)
+    sides = (2.0 - place) * one + (place - 1.0) * turn, (3.0 - place) * turn + (place - 2.0) * end
+    return np.asarray(np.where(place <= 1.0, place, np.where(place <= 2.0, *sides)))
 
 
 @kernel
@@ -136,7 +121,7 @@ def panels(table: Patches, chi: float, restitution: float) -> tuple[Array, Array
     Their shapes are (n + 1,) and (n, terms).
     """
     places, series = sections(table, *(chi, restitution)[: table.terms.size - 1])
-    ends = psi_at(places, *np.broadcast_arrays(chi, restitution, places)[:2])
+    ends = psi_at(places, np.asarray(chi), np.asarray(restitution))
     wide = np.diff(ends) > 0.0  # for chi <= 1/2 the borders are one
     return np.append(ends[:-1][wide], ends[-1]), series[wide]
 
@@ -144,63 +129,62 @@ def panels(table: Patches, chi: float, restitution: float) -> tuple[Array, Array
 def tabulated(
     chi: tuple[float, float],
     restitution: tuple[float, float],
-    accuracy: Accuracy,
-    advance: Callable[[int], object] = lambda solved: None,
+    tolerance: float,
+    advance: Callable[[int], object],
+    *,
+    degrees: tuple[int, int, int] = (8, 8, 8),
+    weight: Callable[[Array], Array] = np.ones_like,
+    impact_tolerance: float = TOLERANCE,
 ) -> Patches:
     """Return the table over ranges of chi and e, or one value of either, where the ends are one.
 
-    `advance` is called with the number of impacts that have been solved. Raises InputError if an
-    impact cannot be solved.
+    The last terms of a series are below `tolerance` as errors in psi_2, which have a `weight` that
+    depends on chi; `impact_tolerance` is that of viscous impacts. `advance` is called with the
+    number of impacts that have been solved. Raises InputError if one cannot be solved.
     """
-    ranges, degrees = (chi, restitution), accuracy.degrees
+    ranges, elastic = (chi, restitution), restitution[0] == 1.0
     wide = [i for i, (low, high) in enumerate(ranges) if low < high]
-    elastic = restitution[0] == 1.0
     places = SMALLEST if elastic else SMALLEST_LOSSY, 3.0 if chi[1] > FOLD else 1.0
+    cuts = [(len(wide), [1.0, 2.0])] if chi[1] > FOLD else []
+    if chi[0] < FOLD < chi[1]:
+        cuts = [(0, [FOLD]), *cuts]
 
     def ratio(*point: Array) -> Samples:
-        flat = [each.ravel() for each in point]
-        numbers = [np.full(flat[0].size, low) for low, _ in ranges]
-        for i, values in zip(wide, flat, strict=False):
-            numbers[i] = values
-        psi = psi_at(flat[-1], *numbers)
-        outgoing, branches = _solved(psi, numbers[0], numbers[1], accuracy.solved)
+        *some, place = (each.ravel() for each in point)
+        each_chi, e = (np.full(place.size, low) for low, _ in ranges)
+        for i, values in zip(wide, some, strict=True):
+            (each_chi, e)[i][:] = values
+        psi = psi_at(place, each_chi, e)
+        outgoing, branches = _rebounds(psi, each_chi, e, impact_tolerance)
         advance(psi.size)
-        faded = np.minimum(1.0, accuracy.fading / numbers[0]) ** 9
-        return Samples(outgoing / psi, psi * faded, branches)
+        return Samples(outgoing / psi, psi * weight(each_chi), branches)
 
     return fitted(
         ratio,
         [*(ranges[i] for i in wide), places],
         [*(degrees[i] for i in wide), degrees[-1]],
-        accuracy.tolerance,
-        cuts=_borders(chi, wide),
+        tolerance,
+        cuts=cuts,
         singular=1.0,
         narrowest=NARROWEST if elastic else NARROW,
     )
 
 
-def _borders(chi: tuple[float, float], wide: Sequence[int]) -> list[tuple[int, list[float]]]:
-    """Return where a table is cut in any case."""
-    cuts = [(len(wide), [1.0, 2.0])] if chi[1] > FOLD else []
-    return [(0, [FOLD]), *cuts] if chi[0] < FOLD < chi[1] else cuts
-
-
-def _solved(
+def _rebounds(
     psi: Array, chi: Array, restitution: Array, tolerance: float
 ) -> tuple[Array, NDArray[np.int64]]:
     """Return psi_2 and the branch of each impact: its phases, or one for all with losses.
 
     With losses kinks are weak. Raises InputError where an impact is not solved.
     """
-    branches = np.zeros(psi.size, dtype=np.int64)
     if np.all(restitution == 1.0):
         outgoing, status, branches = solved(psi, chi)
     else:
         values, which = np.unique(restitution, return_inverse=True)
-        alpha = np.array([_viscous_loss(e) for e in values.tolist()])[which]
-        losses = LossNumbers(Loss.VISCOUS, alpha)
-        found = lossy_rebounds(psi, chi, losses, tolerance=tolerance)
-        outgoing, status = found.psi_out, found.status
+        losses = LossNumbers(Loss.VISCOUS, np.array(list(map(_viscous_loss, values)))[which])
+        lossy = lossy_rebounds(psi, chi, losses, tolerance=tolerance)
+        outgoing, status = lossy.psi_out, lossy.status
+        branches = np.zeros(psi.size, dtype=np.int64)
     if np.any(status):
         first = int(np.flatnonzero(status)[0])
         message = Status(int(status[first])).message
@@ -214,7 +198,7 @@ _viscous_loss = cache(viscous_loss)
 @cache
 def stored() -> Patches:
     """Return the table that is stored with the package, over all chi and e that are fitted."""
+    kinds = (np.int64, np.float64, np.int64, np.float64, np.int64, np.float64)
     with files("carom").joinpath(STORED).open("rb") as stream, np.load(stream) as arrays:
-        kinds = (np.int64, np.float64, np.int64, np.float64, np.int64, np.float64)
         parts = zip(Patches._fields, kinds, strict=True)
         return Patches(*(arrays[name].astype(kind) for name, kind in parts))

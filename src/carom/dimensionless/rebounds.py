@@ -15,7 +15,7 @@ from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.arrays import Array
 from carom.quantities.arrays import along_the_same, pure_numbers, together
-from carom.quantities.keywords import renamed_keyword
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
 from carom.quantities.units import threads_or_none
 
@@ -44,7 +44,7 @@ def rebound(
 ) -> tuple[Any, Any]: ...
 
 
-@renamed_keyword("normal", "losses")
+@known_keywords
 def rebound(
     psi: ArrayLike,
     chi: ArrayLike,

@@ -7,11 +7,12 @@ from typing import ClassVar, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.dimensionless import states
 from carom.dimensionless.elastic import dense_output as dense, friction_work, slip
 from carom.dimensionless.elastic.annuli import memory_at
 from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
 from carom.dimensionless.elastic.motion import PSI
-from carom.dimensionless.elastic.phases import Cause, Kind, Status, new_work, run_phases
+from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import CAUSE, KIND, KIND_SIGN, Record, new_record, trimmed
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.memory import Memory
@@ -21,28 +22,12 @@ from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.lossy.solving import solve_with_losses
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.states import (
-    KIND_NAMES,
-    ContactState,
-    History,
-    Phase,
-    SlipAngle,
-    Trajectory,
-    now_at,
-    places_of,
-)
-from carom.quantities.keywords import renamed_keyword
+from carom.dimensionless.states import ContactState, History, Phase, SlipAngle, Trajectory
+from carom.quantities.causes import Cause
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import pure_number
 
-CAUSE_NAMES = {
-    Cause.EDGE_AT_LIMIT: "edge reaches friction limit",
-    Cause.SLIP_STOPS: "slip stops",
-    Cause.RING_CLOSES: "slip ring closes",
-    Cause.FRONT_AT_CENTRE: "slip front reaches centre",
-    Cause.SEPARATION: "separation",
-    Cause.UNRESOLVED: "not resolved",
-}
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(48)  # in time, over a phase
 ONE = "give one number; carom.rebound takes arrays"
 SHORTEST = 1e-12  # of a phase, in units of d_max/V_1; what is shorter is rounding
@@ -171,11 +156,11 @@ class Solution(Trajectory):
         >>> bool(abs(memory.g(0.0)) < 1.0)
         True
         """
-        now = now_at(self.at(self._time_within(time)))
+        now = states.now_at(self.at(self._time_within(time)))
         return memory_at(self._record, self._times, self._moved, now, self.scale or 1.0)
 
     def _contact_at(self, time: float) -> ContactState:
-        rate, now = self.slip_rate(time), now_at(self.at(self._time_within(time)))
+        rate, now = self.slip_rate(time), states.now_at(self.at(self._time_within(time)))
 
         def slipping(radii: Array) -> Array:
             shapes = [surface.slip_shape(now["stick_radius"], radius) for radius in radii]
@@ -226,7 +211,7 @@ class Solution(Trajectory):
         0.0
         """
         sign = self.phase_at(time).sign
-        now = now_at(self.at(self._time_within(time)))
+        now = states.now_at(self.at(self._time_within(time)))
         return now["psi"] - sign * abs(self.scale) * now["speed"] if sign else 0.0
 
     def slid(self, time: float, radii: ArrayLike) -> Array:
@@ -258,8 +243,8 @@ class Solution(Trajectory):
         array([[0., 0.],
                [0., 0.]])
         """
-        now = now_at(self.at(self._time_within(time)))
-        places = places_of(radii)
+        now = states.now_at(self.at(self._time_within(time)))
+        places = states.places_of(radii)
         out = np.empty((places.size, 2))
         last = int(np.searchsorted(self._times, now["time"], side="right")) - 1
         record, b, v = self._record, now["contact_radius"], now["speed"]
@@ -301,7 +286,7 @@ class Solution(Trajectory):
         return tuple(self._slip_angle(phase, ratio) for phase in self.phases)
 
     def _slip_angle(self, phase: Phase, lateral_ratio: float) -> SlipAngle:
-        if phase.kind != KIND_NAMES[Kind.SLIP]:
+        if phase.kind != states.KIND_NAMES[Kind.SLIP]:
             return SlipAngle(0.0, 0.0)
         middle, half = 0.5 * (phase.start + phase.end), 0.5 * (phase.end - phase.start)
         now = self.at(middle + half * np.sin(0.5 * np.pi * ABSCISSAS))
@@ -327,7 +312,7 @@ def solve(psi: float, chi: float, *, losses: None = ...) -> Solution: ...
 def solve(psi: float, chi: float, *, losses: ScaleFreeLaw) -> Solution | LossySolution: ...
 
 
-@renamed_keyword("normal", "losses")
+@known_keywords
 def solve(
     psi: float, chi: float, *, losses: ScaleFreeLaw | None = None
 ) -> Solution | LossySolution:
@@ -392,8 +377,8 @@ def solve(
 def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
     found: list[Phase] = []
     for i in range(len(changes) - 1):
-        kind = KIND_NAMES[Kind(int(changes[i, KIND]))]
-        cause = CAUSE_NAMES[Cause(int(changes[i + 1, CAUSE]))]
+        kind = states.KIND_NAMES[Kind(int(changes[i, KIND]))]
+        cause = Cause(int(changes[i + 1, CAUSE])).message
         sign = mirror * int(changes[i, KIND_SIGN])
         start, end = float(times[i]), float(times[i + 1])
         if end - start <= SHORTEST:
@@ -403,6 +388,6 @@ def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
             start = found.pop().start
         found.append(Phase(kind, sign, start, end, cause))
     if found:  # what was too short to keep may have been the last
-        last = CAUSE_NAMES[Cause(int(changes[-1, CAUSE]))]
+        last = Cause(int(changes[-1, CAUSE])).message
         found[-1] = found[-1]._replace(end=float(times[-1]), cause=last)
     return tuple(found)

@@ -110,7 +110,7 @@ class Trajectory(ABC):
         Raises
         ------
         InputError
-            If the time is outside the contact, or the bodies are spheres that yield.
+            If the time is outside the contact, or the impact is not solved.
 
         Examples
         --------
@@ -185,8 +185,7 @@ class Trajectory(ABC):
         Raises
         ------
         InputError
-            If a radius is negative, the impact is not solved, or the contact of these solids is not
-            known.
+            If a radius is negative, or the impact is not solved.
 
         Examples
         --------
@@ -216,8 +215,7 @@ class Trajectory(ABC):
         Raises
         ------
         InputError
-            If a radius is negative, the impact is not solved, or the contact of these solids is not
-            known.
+            If a radius is negative, or the impact is not solved.
 
         Examples
         --------

@@ -2,7 +2,8 @@
 
 from carom.io.extras import extra
 
-extra("flask", "the explorer", "explore")  # in one line what else the imports below would say
+for name in ("flask", "waitress"):  # in one line what else the imports below would say
+    extra(name, "the explorer", "explore")
 
 from carom.explorer.serving import Explorer, explorer  # noqa: E402
 

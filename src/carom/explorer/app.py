@@ -5,21 +5,22 @@ import logging
 from functools import cache
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qs, urlsplit
 
-from flask import Flask, Response, request, send_file, send_from_directory
+from flask import Flask, Response, abort, request, send_file, send_from_directory
 from werkzeug.exceptions import HTTPException
 
+from carom.datasets.shipped import names as dataset_names
 from carom.explorer import answers
-from carom.explorer.downloads import add_files
-from carom.explorer.fits import add_fits
 from carom.explorer.knobs import WORDS
-from carom.explorer.limits import LARGEST_REQUEST, Busy
+from carom.explorer.limits import LARGEST_REQUEST, Busy, Refused
 from carom.explorer.page import page, plotly_file
-from carom.explorer.refused import Refused
+from carom.explorer.scripts import script
 from carom.explorer.views import View
 from carom.explorer.warming import Preparing, Warming
 from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError
+from carom.quantities.texts import Unreadable, read_text
 
 OWN_HOST_ONLY = (
     "default-src 'self'; script-src 'self' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
@@ -31,6 +32,20 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
+TYPES = {
+    ".csv": "text/csv; charset=utf-8",
+    ".nc": "application/x-netcdf",
+    ".png": "image/png",
+    ".svg": "image/svg+xml",
+    ".pdf": "application/pdf",
+    ".py": "text/x-python; charset=utf-8",
+}
+PICTURES = ("curve", "history", "contact", "course")
+WRITTEN = (  # files of a view that take time
+    *("template.csv", "history.csv", "history.nc"),
+    *(f"{picture}.{kind}" for picture in PICTURES for kind in ("png", "svg", "pdf")),
+)
+UPLOADED = ("contents", "name", "bodies")
 ASSETS = Path(__file__).with_name("assets")
 FOR_THE_PAGE = ("/answer", "/laws", "/fit")  # told of errors as JSON, others as text
 AGAIN = 1  # s after which to ask again for what is being compiled
@@ -43,14 +58,23 @@ def new_app(worker: Worker, warming: Warming, hosts: list[str] | None = None) ->
     """Return the application, which answers to these names of hosts only, None for all."""
     server = Flask(__name__, static_folder=None)
     server.config["MAX_CONTENT_LENGTH"] = LARGEST_REQUEST
-    server.config["TRUSTED_HOSTS"] = hosts
     _add_parts(server)
     _add_answers(server, warming)
-    add_files(server, worker)
-    add_fits(server, worker)
+    _add_files(server, worker)
+    _add_fits(server, worker)
+    if hosts is not None:
+        server.before_request(lambda: None if _host() in hosts else abort(400))
     server.register_error_handler(Exception, _one_line)
     server.after_request(_guarded)
     return server
+
+
+def _host() -> str | None:
+    """Return the name by which the page was asked for, of IPv6 as well."""
+    try:
+        return urlsplit(f"//{request.headers.get('Host', '')}").hostname
+    except ValueError:
+        return None
 
 
 def _add_parts(server: Flask) -> None:
@@ -83,6 +107,50 @@ def _add_answers(server: Flask, warming: Warming) -> None:
         view = View.of(_query())
         warming.check(view, laws=True)
         return _json(answers.laws(view))
+
+
+def _add_files(server: Flask, worker: Worker) -> None:
+    """Add files of a view, at /history.csv and so on, ?... as in a link."""
+
+    @server.get("/<name>")
+    def file(name: str) -> Response:
+        if name not in ("view.py", *WRITTEN):
+            abort(404)
+        view, time = View.of(_query()), _time_of(_query())
+        if name == "view.py":
+            content = script(view, time).encode()
+        else:
+            content = worker.file(name, view.query(), time)
+        attached = {"Content-Disposition": f"attachment; filename={name}"}
+        return Response(content, headers=attached, content_type=TYPES[Path(name).suffix])
+
+
+def _time_of(query: str) -> float:
+    """Return the time in a link, within the contact, as a share of its duration."""
+    text = parse_qs(query).get("time", ["0.5"])[-1]
+    try:
+        return min(max(read_text(text, "1"), 0.0), 1.0)
+    except Unreadable:
+        raise Refused("", "time: must be a share of the duration, e.g. 0.5") from None
+
+
+def _add_fits(server: Flask, worker: Worker) -> None:
+    """Add fits of a data set that comes along, ?data=NAME, and of a file that is sent."""
+    shipped = cache(lambda name: worker.fit(data=name))
+
+    @server.get("/fit")
+    def fit_of_data() -> Response:
+        name = request.args.get("data", "")
+        if name not in dataset_names():
+            raise Refused("data", f"must be one of {', '.join(dataset_names())}")
+        return _json(shipped(name))
+
+    @server.post("/fit")
+    def fit_of_file() -> Response:
+        sent = request.get_json(silent=True)
+        if not isinstance(sent, dict) or not all(isinstance(sent.get(n), str) for n in UPLOADED):
+            raise Refused("", "file: it did not arrive; choose it again")
+        return _json(worker.fit(**{name: sent[name] for name in UPLOADED}))
 
 
 @cache

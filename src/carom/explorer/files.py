@@ -1,27 +1,67 @@
-"""The files of the page as they are written: histories, pictures, the template for a fit."""
+"""The files of a view, in SI units for bodies, without units where psi_1 and chi are given."""
 
 from collections.abc import Callable
+from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import xarray as xr
 from matplotlib.figure import Figure
 
-from carom.dimensionless.solution import solve
-from carom.explorer.figures import contact_figure, course_figure, curve_figure, history_figure
-from carom.explorer.scenes import TIMES, impact_of
+from carom.bodies.pairs import Scales
+from carom.contacts.contact import contact_in_impact
+from carom.contacts.fields import surface_fields
+from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.solution import Solution, solve
+from carom.explorer.limits import LAW_SECONDS, Busy
+from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
+from carom.explorer.scenes import OF_CONTACT, TIMES, Scene, impact_of, scene_of
 from carom.explorer.views import View
 from carom.fitting.template import TEMPLATE
+from carom.impacts.curves import curve
 from carom.io.files import save
-from carom.io.labels import labelled_dataset
-from carom.plots import save_figure
+from carom.io.labels import labelled, labelled_dataset
+from carom.plots import (
+    plot_contact,
+    plot_curve,
+    plot_impact,
+    plot_patch,
+    save_figure,
+    style as drawing,
+)
+from carom.plots.impact import (
+    ENERGIES,
+    LOST,
+    energies_panel,
+    forces_panel,
+    phase_handles,
+    radii_panel,
+    velocities_panel,
+)
+from carom.plots.legends import legend_above, legend_outside
+from carom.verify.errors import losses_of
 
-DRAW: dict[str, Callable[[View, float], Figure]] = {
-    "curve": curve_figure,
-    "history": history_figure,
-    "contact": contact_figure,
-    "course": course_figure,
+LENGTH, TIME = r"$[R^* d_{max}]^{1/2}$", "$d_{max}/V_1$"
+UNITS = {  # of what is told without units, as figures write them
+    **dict.fromkeys(("time", "phase_start", "phase_end"), TIME),
+    **dict.fromkeys(("x", "y", "contact_radius", "stick_radius"), LENGTH),
+    **dict.fromkeys(("tangential_force", "normal_force"), r"$\mu F_{max}$"),
+    **dict.fromkeys(("contact_velocity", "slip_velocity_x"), r"$\mu V_1/\kappa$"),
+    "normal_velocity": "$V_1$",
+    "pressure": "$p_0$",
+    "traction_x": r"$\mu p_0$",
 }
+SCALES = Scales(
+    **dict.fromkeys(("length", "radius", "force", "pressure", "tangential_length"), 1.0),
+    **dict.fromkeys(("time", "energy", "tangential_speed"), 1.0),
+    tangential_force=1.5,  # Q = (2/3) F_x/(mu F_max)
+)
+TANGENTIAL = {  # energies that psi_1 and chi tell, with the looks of what they are part of
+    name: (words, *ENERGIES.get(name, ENERGIES["tangential_kinetic_energy"])[1:])
+    for name, words in OF_CONTACT.items()
+    if name not in LOST
+}
+ENTRY = 1.8  # mm that a law adds to the legend of the rebound curve
 MEANINGS = {  # of the columns of `Solution.history`
     "penetration": "penetration, in d_max",
     "speed": "normal speed of approach, in V_1",
@@ -36,6 +76,140 @@ MEANINGS = {  # of the columns of `Solution.history`
     "normal_stored": "normal elastic energy, in that of the impact",
     "shear_lost": "what viscosity took in shear, in psi^2/2",
     "normal_lost": "what the normal motion lost, as above",
+}
+
+
+class UnitBodies(NamedTuple):
+    """Bodies of which every scale is 1, and whose slip is along x alone."""
+
+    friction: float = 1.0
+    lateral_ratio: float = 0.0
+
+    def scales(self, _: float) -> Scales:
+        """Return the scales of an impact of these bodies."""
+        return SCALES
+
+
+class NumbersImpact:
+    """An impact that psi_1 and chi tell, as figures take it: each quantity in a unit of theory."""
+
+    def __init__(self, solution: Solution | LossySolution) -> None:
+        self._solution = solution
+
+    def history(self, n: int = TIMES) -> xr.Dataset:
+        """Return the impact at n times."""
+        solution = self._solution
+        told = solution.history(n)
+        columns = {
+            "time": told.time,
+            "normal_force": told.normal_force,
+            "tangential_force": SCALES.tangential_force * told.force,
+            "contact_velocity": told.psi,
+            "normal_velocity": told.speed,
+            "contact_radius": told.contact_radius,
+            "stick_radius": told.stick_radius,
+            "contact_kinetic_energy": 0.5 * told.psi**2,
+            "tangential_elastic_energy": told.stored,
+            "frictional_work": told.dissipated,
+            "shear_loss": told.shear_lost,
+        }
+        numbers = {"friction": 1.0, "max_pressure": solution.max_pressure}
+        given: dict[str, Any] = {"psi_in": solution.psi_in, "chi": solution.chi}
+        if isinstance(solution, LossySolution):
+            given["losses"] = solution.losses._asdict()
+        return _in_theory(labelled(columns, numbers, solution.phases, given))
+
+    def fields(self, time: float) -> xr.Dataset:
+        """Return what the surface of the contact does at a time, in d_max/V_1."""
+        bodies: Any = UnitBodies()
+        contact = contact_in_impact(bodies, 1.0, 0.0, self._solution, time, {})
+        return _in_theory(surface_fields(contact))
+
+
+def _in_theory(dataset: xr.Dataset) -> xr.Dataset:
+    for name, unit in UNITS.items():
+        if name in dataset.variables:
+            dataset.variables[name].attrs["units"] = unit
+    return dataset
+
+
+def history_figure(view: View, _: float = 0.0) -> Figure:
+    """Return forces, velocities, radii and energies against time."""
+    if not view.in_numbers:
+        return plot_impact(impact_of(view).history(TIMES))
+    return _without_units(_numbers(view).history())
+
+
+@drawing.styled
+def _without_units(history: xr.Dataset) -> Figure:
+    size: Any = {"width": drawing.DOUBLE, "height": 112.0}
+    figure, axes = drawing.new_figure(2, 2, sharex=True, **size)
+    panels = (forces_panel, velocities_panel, radii_panel)
+    for axis, panel in zip(axes.flat, panels, strict=False):
+        panel(axis, history)
+    energies_panel(axes[1, 1], history, TANGENTIAL)
+    axes[1, 1].set_ylabel("share of tangential energy")
+    for axis in axes[0]:
+        axis.set_xlabel("")
+    legend_outside(figure, phase_handles(history), 5)
+    return figure
+
+
+def contact_figure(view: View, time: float) -> Figure:
+    """Return the contact from above at a time that is a share of the duration."""
+    if view.in_numbers:
+        solution = solve(view.psi, view.chi, losses=view.losses)
+        return plot_patch(NumbersImpact(solution).fields(time * solution.duration))
+    hit = impact_of(view)
+    return plot_patch(hit.fields(time * hit.duration))
+
+
+def course_figure(view: View, _: float = 0.0) -> Figure:
+    """Return the contact at several instants, above the course of the force."""
+    return plot_contact(_numbers(view) if view.in_numbers else impact_of(view))
+
+
+def _numbers(view: View) -> NumbersImpact:
+    return NumbersImpact(solve(view.psi, view.chi, losses=view.losses))
+
+
+def curve_figure(view: View, _: float = 0.0) -> Figure:
+    """Return the rebound curve with the contact laws of the view; Busy if one takes too long."""
+    scene = scene_of(view)
+    found = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
+    laws = [law for law in found if law is not None]
+    if len(laws) < len(found):
+        raise Busy
+    return drawn_curve(scene, laws)
+
+
+@drawing.styled
+def drawn_curve(scene: Scene, laws: list[LawCurve]) -> Figure:
+    """Return the rebound curve with the present point and the contact laws over it."""
+    psi = exact_curve(scene)[0]
+    figure = plot_curve(curve(scene.chi, psi, losses=losses_of(scene.restitution)))
+    axis = figure.axes[0]
+    legend = axis.get_legend()
+    entries: list[Any] = [] if legend is None else list(legend.legend_handles)
+    for row, law in enumerate(laws):
+        look: Any = {"color": drawing.LINES[1 + row % 4], "lw": 0.9 * (1 + row // 16)}
+        look["ls"] = drawing.DASHES[1 + row // 4 % 4]
+        entries += axis.plot(law.psi_in, law.psi_out, label=law.label, **look)
+    if isfinite(scene.psi_in):
+        point: Any = {"marker": "o", "ls": "", "color": drawing.BLACK, "label": "this impact"}
+        entries += axis.plot(scene.psi_in, scene.psi_out, **point)
+    if laws:  # whose names are long
+        height = figure.get_figheight() + ENTRY * drawing.MM * len(laws)
+        figure.set_size_inches(1.5 * figure.get_figwidth(), height)
+    legend_above(axis, 2, handles=entries)
+    return figure
+
+
+DRAW: dict[str, Callable[[View, float], Figure]] = {
+    "curve": curve_figure,
+    "history": history_figure,
+    "contact": contact_figure,
+    "course": course_figure,
 }
 
 

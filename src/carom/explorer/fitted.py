@@ -9,7 +9,6 @@ import xarray as xr
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
-from carom.explorer.columns import plain_words
 from carom.explorer.results import in_words
 from carom.fitting import Estimate, Fit
 from carom.fitting.comparison import LawFit
@@ -215,3 +214,8 @@ def _material(body: Any) -> str:
     if given.name:
         return str(given.name)
     return f"E = {text(given.young, 'Pa', 3)}, ν = {given.poisson:.3g}"
+
+
+def plain_words(name: str) -> str:
+    """Return what a quantity means, without the marks of formulas."""
+    return GLOSSARY[name].meaning.replace("$", "")

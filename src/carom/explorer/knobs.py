@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 from carom.bodies.materials import materials
 from carom.datasets.shipped import names as dataset_names
-from carom.explorer.refused import Refused
+from carom.explorer.limits import Refused
 from carom.quantities.refusals import clipped, nearest
 from carom.quantities.texts import Unreadable, read_text
 
@@ -72,6 +72,21 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "against": AGAINST,
     "second_material": (*MATERIALS[:-1], RIGID, OWN),
     "data": ("", *dataset_names()),
+}
+OF_BODIES: dict[str, tuple[str, ...]] = {"given": (BODIES,)}
+OWN_FIRST = OF_BODIES | {"material": (OWN,)}
+OWN_SECOND = OF_BODIES | {"second_material": (OWN,)}
+# what other fields must be for one to matter; it is not shown otherwise
+NEEDS: dict[str, dict[str, tuple[str, ...]]] = {
+    "psi": {"given": (NUMBERS,)},
+    "chi": {"given": (NUMBERS,)},
+    **dict.fromkeys(("speed", "angle", "spin", "radius", "material", "against"), OF_BODIES),
+    **dict.fromkeys(OF_MATERIAL, OWN_FIRST),
+    "second_radius": OF_BODIES | {"against": (SPHERE, CUP)},
+    "second_material": OF_BODIES,
+    "second_young": OWN_SECOND,
+    "second_poisson": OWN_SECOND,
+    "second_density": OWN_SECOND | {"against": (SPHERE,)},  # others do not move
 }
 OPTIONS = {  # what a choice is called where its word is not what one would say
     BODIES: "bodies",

@@ -1,11 +1,11 @@
-"""What a request may take of the page: every limit, and how those wait who want the same."""
+"""What a request may take of the page: every limit, and how what goes beyond it is refused."""
 
-from threading import BoundedSemaphore
-from typing import Any
+from carom.quantities.refusals import InputError
 
 LONGEST_LINK = 4000  # characters
 LARGEST_UPLOAD = 1_000_000  # bytes
 MOST_ROWS = 2000  # of an upload
+LARGEST_HEAD = 1 << 16  # bytes of a request, besides what it carries
 LARGEST_REQUEST = 2 * LARGEST_UPLOAD  # a file travels in more characters than it has
 
 FIT_SECONDS = 20.0  # that an upload may be read and fitted; 2000 rows take two
@@ -21,7 +21,8 @@ WAITING_SECONDS = 20.0  # that they do
 
 CONNECTIONS = 200  # at once
 QUEUED = 128  # connections that are not accepted yet: a burst of so many drives nobody out
-REQUEST_SECONDS = 60.0  # from the connection until the answer is taken
+IDLE_SECONDS = 60.0  # that a connection may be silent
+THREADS = 2 * (FOLLOWERS + 2 * (1 + WAITING))  # twice as many as ever wait for something
 
 
 class Busy(RuntimeError):
@@ -29,24 +30,20 @@ class Busy(RuntimeError):
 
     said = "the page is busy; try again"
 
-    def __init__(self) -> None:
-        super().__init__(self.said)
+    def __str__(self) -> str:
+        return self.said
 
 
-class Turns:
-    """Work that one request does at a time; some wait for it, and Busy is raised for the rest."""
+class Refused(InputError):
+    """A field of the page cannot be what it is, in the page's own words; "" is the whole link.
 
-    def __init__(self) -> None:
-        self._places = BoundedSemaphore(1 + WAITING)
-        self._turn = BoundedSemaphore(1)
+    Its text begins with the label of the field, for those who have no field to look at.
+    """
 
-    def __enter__(self) -> None:
-        if not self._places.acquire(blocking=False):
-            raise Busy
-        if not self._turn.acquire(timeout=WAITING_SECONDS):
-            self._places.release()
-            raise Busy
+    def __init__(self, field: str, message: str, label: str = "") -> None:
+        super().__init__(f"{label}: {message}" if label else message)
+        self.field, self.label = field, label
+        self.message = " ".join(message.splitlines())
 
-    def __exit__(self, *_: Any) -> None:
-        self._turn.release()
-        self._places.release()
+    def __reduce__(self) -> tuple[type["Refused"], tuple[str, str, str]]:
+        return Refused, (self.field, self.message, self.label)

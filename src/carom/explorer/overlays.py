@@ -9,16 +9,15 @@ from time import monotonic
 
 import numpy as np
 
+from carom.dem.base import ContactLaw, Law
 from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import rebound
 from carom.explorer.limits import FOLLOWERS, LAW_SECONDS
 from carom.explorer.scenes import Scene
-from carom.laws.base import Law
-from carom.laws.dem.base import ContactLaw
 from carom.quantities.arrays import Array
-from carom.verify.catalogue import named
+from carom.verify.entries import named
 from carom.verify.errors import damped, losses_of
 
 POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 81, 61

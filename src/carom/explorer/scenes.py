@@ -10,18 +10,18 @@ from typing import Any
 import numpy as np
 
 from carom.bodies.kinematics import Tangential
+from carom.dem.base import SOLID
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve
 from carom.dimensionless.states import Phase
 from carom.explorer.knobs import refused
-from carom.explorer.refused import Refused
+from carom.explorer.limits import Refused
 from carom.explorer.results import Row, findings_of, rows_of
 from carom.explorer.stages import MovingBodies, precise, short, stage_of_bodies, stage_of_numbers
 from carom.explorer.views import View
 from carom.impacts.exact import Impact
 from carom.impacts.history import history_columns
 from carom.impacts.solve import impact
-from carom.laws.base import SOLID
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import prefixed
 from carom.quantities.refusals import InputError

@@ -41,7 +41,7 @@ axis = figure.axes[0]
 shown = axis.get_legend().legend_handles
 """
 LAWS = """\
-laws = {{entry.label: entry.law for entry in carom.verify.CATALOGUE}}
+laws = {{entry.label: entry.law for entry in carom.verify.catalogue()}}
 for label in {labels!r}:
     law = {law}
 {told}    shown += axis.plot(psi, law.rebound(psi, {chi}, kappa={kappa}), "--", label=label)

@@ -1,12 +1,26 @@
-"""The page on a port of this machine."""
+"""The page on a port of this machine: no request holds up the others."""
 
+import logging
 import socket
 from dataclasses import dataclass, field
 from errno import EADDRNOTAVAIL
+from math import inf
+from time import time
+from typing import Any
+
+from flask import Flask
+from waitress.channel import HTTPChannel
+from waitress.server import TcpWSGIServer
 
 from carom.explorer.app import new_app
-from carom.explorer.connections import Server
-from carom.explorer.limits import QUEUED
+from carom.explorer.limits import (
+    CONNECTIONS,
+    IDLE_SECONDS,
+    LARGEST_HEAD,
+    LARGEST_REQUEST,
+    QUEUED,
+    THREADS,
+)
 from carom.explorer.overlays import followers
 from carom.explorer.page import plotly_file
 from carom.explorer.warming import Warming
@@ -14,9 +28,85 @@ from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError, refusal
 
 LOOPBACK = "127.0.0.1"
-OWN_NAMES = [LOOPBACK, "localhost", "::1", "[::1]"]
+OWN_NAMES = [LOOPBACK, "localhost", "::1"]
 PORT = 8050
 PORTS = 65535
+PIECE = 1 << 17  # bytes of an answer that are sent, or tried to be sent, at a time
+
+
+class Connection(HTTPChannel):  # type: ignore[misc]
+    """A connection; since when it waits for its request, or for its answer to be taken."""
+
+    def __init__(self, *arguments: Any, **more: Any) -> None:
+        super().__init__(*arguments, **more)
+        self.sendbuf_len = PIECE
+
+    def service(self) -> None:
+        """Answer a request."""
+        super().service()
+        if not self.requests:
+            self.creation_time = time()
+
+
+class Server(TcpWSGIServer):  # type: ignore[misc]
+    """waitress, which lets no connection wait for others that are slow.
+
+    A request occupies a thread once all of it is there, until its answer is known. If too many
+    other connections are open, the oldest are closed: those that have waited the longest for their
+    request, or for their answer to be taken.
+    """
+
+    channel_class = Connection
+
+    def __init__(self, app: Flask, listening: socket.socket) -> None:
+        logging.getLogger("waitress").setLevel(logging.CRITICAL)  # browsers come and go
+        self._stopped = False
+        settings: dict[str, Any] = {
+            "threads": THREADS,
+            "backlog": QUEUED,
+            "channel_timeout": IDLE_SECONDS,
+            "connection_limit": 2 * CONNECTIONS,  # the other half is at work
+            "max_request_header_size": LARGEST_HEAD,
+            "max_request_body_size": 2 * LARGEST_REQUEST,  # less is refused in a line
+            "outbuf_high_watermark": 1 << 40,  # answers wait in files, not in their threads
+            "ident": None,
+        }
+        place = listening.family, listening.type, listening.proto, listening.getsockname()
+        super().__init__(app, _sock=listening, sockinfo=place, bind_socket=False, **settings)
+
+    def handle_accept(self) -> None:
+        """Accept connections, of a flood so many at a time that they cannot close each other."""
+        for _ in range(CONNECTIONS // 2):
+            before = len(self.active_channels)
+            super().handle_accept()
+            if len(self.active_channels) == before:
+                return
+
+    def add_task(self, task: Any) -> None:
+        """Let the request of a connection be answered, which does not wait meanwhile."""
+        task.creation_time = inf
+        super().add_task(task)
+
+    def serve(self) -> None:
+        """Answer until `stop`, or an interrupt."""
+        while not self._stopped:
+            waiting = [each for each in self.active_channels.values() if each.creation_time < inf]
+            waiting.sort(key=lambda each: each.creation_time)
+            for each in waiting[:-CONNECTIONS]:
+                each.handle_close()
+            self.asyncore.loop(timeout=1.0, use_poll=True, map=self._map, count=1)
+
+    def stop(self) -> None:
+        """Let `serve`, which runs in another thread, return."""
+        self._stopped = True
+        self.pull_trigger()
+
+    def end(self) -> None:
+        """Close all connections, and let threads go that have nothing to do."""
+        for channel in list(self.active_channels.values()):
+            channel.handle_close()
+        self.close()
+        self.task_dispatcher.shutdown(timeout=0)
 
 
 @dataclass(frozen=True)
@@ -31,17 +121,17 @@ class Explorer:
     def serve(self) -> None:
         """Answer until `stop`, or an interrupt."""
         try:
-            self._server.serve_forever()
+            self._server.serve()
         finally:
             self.close()
 
     def stop(self) -> None:
         """Let `serve`, which runs in another thread, return."""
-        self._server.shutdown()
+        self._server.stop()
 
     def close(self) -> None:
         """Give the port back, of a page that is not served."""
-        self._server.server_close()
+        self._server.end()
         self._worker.close()
         self._warming.stop()
         followers.dismiss()
@@ -77,32 +167,29 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
     if not host:
         raise refusal("host", host, "must be an address, e.g. 127.0.0.1; 0.0.0.0 is every one")
     plotly_file()
-    with _bound(host, port) as listening:
-        worker, warming = Worker(), Warming()
-        app = new_app(worker, warming, OWN_NAMES if host in OWN_NAMES else None)
-        server = Server(host, listening.getsockname()[1], app, listening.fileno())
-        warming.start()
-        worker.start()
+    listening = _bound(host, port)
+    worker, warming = Worker(), Warming()
+    server = Server(new_app(worker, warming, OWN_NAMES if host in OWN_NAMES else None), listening)
+    warming.start()
+    worker.start()
     shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
-    return Explorer(f"http://{shown}:{server.port}/", server, worker, warming)
+    return Explorer(f"http://{shown}:{server.effective_port}/", server, worker, warming)
 
 
 def _bound(host: str, port: int) -> socket.socket:
     """Return a socket that listens, or raise InputError."""
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    found = socket.socket(family, socket.SOCK_STREAM)
+    listening = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
     try:
-        found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        found.bind((host, port))
-        found.listen(QUEUED)
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listening.bind((host, port))
     except OSError as error:
-        found.close()
+        listening.close()
         if isinstance(error, socket.gaierror) or error.errno == EADDRNOTAVAIL:
             allowed = "is no address of this machine; 127.0.0.1 is, and 0.0.0.0 is every one"
             raise refusal("host", host, allowed) from None
-        reason = error.strerror or str(error)
+        reason = (error.strerror or str(error)).lower()
         raise InputError(
-            f"port: {port} at {host!r} cannot be listened at, {reason.lower()}; "
+            f"port: {port} at {host!r} cannot be listened at, {reason}; "
             "take another, or 0 for any that is free"
         ) from None
-    return found
+    return listening

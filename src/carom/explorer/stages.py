@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from carom.bodies.shapes import Cup, Sphere
+from carom.dem.base import SOLID
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import History
 from carom.impacts.curves import SOLID_SPHERE
 from carom.impacts.exact import Impact
-from carom.laws.base import SOLID
 from carom.quantities.arrays import Array
 
 BEFORE = AFTER = 0.6  # of the contact's duration that is shown besides

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.rebound_tables import SMALLEST, SMALLEST_LOSSY, Accuracy, tabulated
+from carom.dimensionless.rebound_tables import SMALLEST, SMALLEST_LOSSY, tabulated
 from carom.explorer.results import OF_LOSSES, SIGNS
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import READ
@@ -20,7 +20,7 @@ RESTITUTIONS = (1.0, 0.9, 0.7)
 LEAST_CHI, LARGEST_CHI = 0.5, 3.0
 FARTHEST = 10.0  # psi_1 that is promised; the tables reach until everything slides
 IMPACTS = 122_000  # that are solved for all tables, about
-ACCURACY = Accuracy((8, 8, 8), tolerance=4e-7, solved=1e-8)  # for 1e-6 in psi_2
+TOLERANCE, SOLVED = 4e-7, 1e-8  # of series and of impacts with losses, for 1e-6 in psi_2
 
 Advance = Callable[[int], object]
 
@@ -42,7 +42,8 @@ def tables(advance: Advance) -> str:
 
 def _packed(restitution: float, advance: Advance) -> dict[str, Any]:
     """Return a table of psi_2 as text, its variables chi and the place of psi_1."""
-    table = tabulated((LEAST_CHI, LARGEST_CHI), (restitution, restitution), ACCURACY, advance)
+    ranges = (LEAST_CHI, LARGEST_CHI), (restitution, restitution)
+    table = tabulated(*ranges, TOLERANCE, advance, impact_tolerance=SOLVED)
     return {
         "smallest": SMALLEST if restitution == 1.0 else SMALLEST_LOSSY,
         "terms": table.terms.tolist(),

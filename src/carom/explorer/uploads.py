@@ -2,25 +2,31 @@
 
 from base64 import b64decode
 from binascii import Error as NotBase64
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from carom import datasets
 from carom.bodies.pairs import Pair
-from carom.datasets.observables import OBSERVABLES
-from carom.explorer.columns import KINDS, Given, taken
-from carom.explorer.fitted import shown_fit
-from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS
-from carom.explorer.refused import Refused
+from carom.datasets.observables import BEFORE, OBSERVABLES
+from carom.explorer.fitted import plain_words, shown_fit
+from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS, Refused
 from carom.explorer.results import in_words
 from carom.explorer.views import View
-from carom.fitting import fit
-from carom.fitting.reading import read_problem
-from carom.io.columns import in_units, others, with_errors
-from carom.io.csv_cells import read_csv
-from carom.io.tables import Cells, read_table
+from carom.fitting import Fit, fit
+from carom.fitting.heights import HEIGHTS
+from carom.fitting.reading import read_measurements, read_problem
+from carom.io.columns import entry
+from carom.io.tables import read_table
+from carom.io.user_table import Column
+from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, refusal
 
+KINDS = {
+    **dict.fromkeys(BEFORE, "before the impact"),
+    **dict.fromkeys(OBSERVABLES, "after the impact"),
+    **dict.fromkeys(HEIGHTS, "drop and rebound"),
+}
 LONGEST_NAME = 80
 ASKED = (
     "{name} does not say which bodies struck each other. The fit needs their radius, their "
@@ -73,28 +79,37 @@ def _decoded(contents: str) -> bytes:
     return found
 
 
-def _check(table: Cells) -> None:
-    """Raise InputError for what no bodies make right: cells, units, names of columns."""
-    known = with_errors(KINDS)
-    others(table, known)
-    present = [name for name in known if name in table.names]
-    in_units(table, present, gaps=(*OBSERVABLES, "rebound_height"))
-
-
 def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
     table = read_table(file, what="file")
-    if len(table.rows) > MOST_ROWS:
+    if len(table) > MOST_ROWS:
         allowed = f"must be at most {MOST_ROWS} rows; use carom fit for more"
-        raise refusal("file", f"{len(table.rows)} rows", allowed)
-    heads = read_csv("file", file, 2).heads
-    pairs = zip(heads, table.columns.items(), strict=True)
-    given = [Given(head, own, str(column.unit)) for head, (own, column) in pairs]
+        raise refusal("file", f"{len(table)} rows", allowed)
     if table.case is None and (view is None or view.in_numbers):
-        _check(table)
-        if not any(column.is_result for column in given):
-            read_problem(file, View().pair)  # no bodies make a fit of it: say why
+        read_measurements(table)  # what no bodies make right is said before they are asked for
+        if not {*table.names} & {*OBSERVABLES, *HEIGHTS}:
+            read_problem(table, View().pair)
         asked = ASKED.format(name=name)
-        return {"asks": "bodies", "name": name, "message": asked, "columns": taken(given)}
+        return {"asks": "bodies", "name": name, "message": asked, "columns": taken(table.cells)}
     pair: Pair | None = view.pair if table.case is None and view is not None else None
-    found = fit(file, pair=pair)
-    return shown_fit(found, name, "page" if pair else "file", taken(given, found))
+    found = fit(table, pair=pair)
+    return shown_fit(found, name, "page" if pair else "file", taken(table.cells, found))
+
+
+def taken(columns: Mapping[str, Column], found: Fit | None = None) -> list[dict[str, str]]:
+    """Return for each column its head, what it was taken for, and the unit it was read in."""
+    ignored = () if found is None else found.best.model.problem.ignored
+    empty = [name.partition(" ")[0] for name in ignored if "(" in name]
+    return [_taken(name, columns[name], entry(name) in empty) for name in columns]
+
+
+def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
+    quantity = entry(name)
+    if quantity not in KINDS:
+        return {"head": column.head, "kind": "not used", "meaning": "", "unit": ""}
+    si, kind, meaning = GLOSSARY[quantity].unit, KINDS[quantity], plain_words(quantity)
+    if name != quantity:
+        kind, meaning = "standard deviation", f"of {meaning}"
+    if empty:
+        kind = "not used: no value in it"
+    unit = str(column.unit) or ("" if si == "1" else f"{si} (the head names no unit)")
+    return {"head": column.head, "kind": kind, "meaning": meaning, "unit": unit}

@@ -15,6 +15,7 @@ from carom.explorer.knobs import (
     CUP,
     KNOBS,
     LONGEST_NAME,
+    NEEDS,
     NUMBERS,
     OF_MATERIAL,
     OWN,
@@ -25,18 +26,11 @@ from carom.explorer.knobs import (
     one_of,
     refused,
 )
-from carom.explorer.limits import LONGEST_LINK
-from carom.explorer.refused import Refused
+from carom.explorer.limits import LONGEST_LINK, Refused
 from carom.quantities.refusals import nearest
-from carom.verify.catalogue import CATALOGUE
+from carom.verify.entries import CATALOGUE
 from carom.verify.errors import losses_of
 
-OF_MOTION = ("speed", "angle", "spin")
-OF_NUMBERS = ("psi", "chi")
-OF_BODIES = (
-    *("radius", "material", *OF_MATERIAL, "against", "second_radius", "second_material"),
-    *(SECOND + name for name in OF_MATERIAL),
-)
 LAWS = tuple(entry.label for entry in CATALOGUE)
 UNDAMPED = tuple(each.label for each in CATALOGUE if not hasattr(each.law, "restitution"))
 PAGE_ONLY = ("time", "pace", "theme", "slow", "tab", "preset", "beside")  # the page alone has them
@@ -110,18 +104,11 @@ class View:
     @property
     def unused(self) -> tuple[str, ...]:
         """What does not matter in this view, and may be anything."""
-        if self.in_numbers:
-            return (*OF_BODIES, *OF_MOTION)
-        found = list(OF_NUMBERS)
-        if self.against == PLANE:
-            found.append("second_radius")
-        if self.material != OWN:
-            found += OF_MATERIAL
-        if self.second_material != OWN:
-            found += (SECOND + name for name in OF_MATERIAL)
-        elif self.against != SPHERE:
-            found.append(f"{SECOND}density")  # it does not move
-        return tuple(found)
+        return tuple(
+            name
+            for name, needs in NEEDS.items()
+            if any(getattr(self, other) not in words for other, words in needs.items())
+        )
 
     @cached_property
     def pair(self) -> Pair:

@@ -1,11 +1,11 @@
 """What has to be compiled before the first answers, where Carom came without its library."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from threading import Condition, Thread
 from typing import Any, NamedTuple
 
 from carom.dimensionless.numerics import shared_library
+from carom.dimensionless.numerics.kernels import has_numba
 from carom.explorer.knobs import NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import scene_of
@@ -25,7 +25,7 @@ STEPS: tuple[Callable[[], Any], ...] = (
 
 
 class Need(NamedTuple):
-    """What answers need: how many of the steps, and of kernels about, by which time is told."""
+    """How many of the steps answers need, and about how many kernels."""
 
     steps: int
     kernels: int
@@ -49,7 +49,7 @@ class Warming:
     """Compiles the solver while the page is served; with the library there is nothing to do."""
 
     def __init__(self) -> None:
-        self._steps = STEPS if shared_library.reason() else ()
+        self._steps = STEPS if shared_library.reason() and has_numba() else ()
         self._done = self._kernels = 0
         self._stopped = False
         self._news = Condition()
@@ -72,44 +72,33 @@ class Warming:
                 raise Preparing(min(99, 100 * self._kernels // need.kernels))
 
     def _run(self) -> None:
-        try:
-            with (
-                advancing("compiling the solver", OF_LAWS.kernels) as advance,
-                self._heard(advance),
-            ):
-                for step in self._steps:
-                    if self._stopped:
-                        return
-                    step()
-                    self._told(self._done + 1)
-        finally:  # if one has failed, each question tells by itself
-            self._told(len(self._steps))
-
-    @contextmanager
-    def _heard(self, advance: Callable[[int], object]) -> Iterator[None]:
-        """Count kernels as they are compiled."""
         from numba.core import event  # which takes long, and is not needed with the library
 
-        def count() -> None:
-            self._kernels += 1
-            advance(1)
+        warming = self
 
         class Counter(event.Listener):  # type: ignore[misc]
             def on_start(self, _: Any) -> None:
                 """Say nothing yet."""
 
             def on_end(self, _: Any) -> None:
-                """Count it."""
-                count()
+                """Count a kernel that is compiled."""
+                warming._kernels += 1
+                advance(1)
 
-        counter = Counter()
-        event.register("numba:compile", counter)
         try:
-            yield
-        finally:
-            event.unregister("numba:compile", counter)
+            with (
+                advancing("compiling the solver", OF_LAWS.kernels) as advance,
+                event.install_listener("numba:compile", Counter()),
+            ):
+                for step in self._steps:
+                    if self._stopped:
+                        return
+                    step()
+                    self._finish(self._done + 1)
+        finally:  # if one has failed, each question tells by itself
+            self._finish(len(self._steps))
 
-    def _told(self, done: int) -> None:
+    def _finish(self, done: int) -> None:
         with self._news:
             self._done = done
             self._news.notify_all()

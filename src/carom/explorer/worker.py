@@ -1,33 +1,45 @@
-"""Processes of their own for heavy work that might never end, killed at its time limit."""
+"""Heavy work that might never end, in processes of their own: fits, and files of a view."""
 
+import faulthandler
 import json
+import os
+import pickle
 import subprocess
 import sys
-from base64 import b64decode
+from collections.abc import Callable
 from contextlib import suppress
 from os.path import abspath
+from pathlib import Path
 from tempfile import TemporaryDirectory
-from threading import Lock, Timer
+from threading import BoundedSemaphore, Lock, Timer
 from time import monotonic
 from typing import Any
 
-from carom.explorer.limits import FILE_SECONDS, FIT_SECONDS, START_SECONDS, Busy, Turns
-from carom.explorer.refused import Refused
+from carom.explorer.limits import (
+    FILE_SECONDS,
+    FIT_SECONDS,
+    START_SECONDS,
+    WAITING,
+    WAITING_SECONDS,
+    WORK_MEMORY,
+    Busy,
+    Refused,
+)
+from carom.quantities.refusals import InputError
 
 PROGRAM = """\
-import json, os, sys
-if hasattr(os, "nice"):
-    os.nice(10)  # answers of the page go first
+import json, sys
 sys.path[:] = json.loads(sys.argv[1])
-from carom.explorer.tasks import answer_lines
-answer_lines(sys.argv[2], float(sys.argv[3]))
+from carom.explorer import worker
+worker.work(sys.argv[2], float(sys.argv[3]))
 """
-READY = {"ready": True}
 LATE = {
     "fit": "file: fitting it takes longer than {:g} s; leave out what is not needed, or use "
     "carom fit",
     "file": "file: it takes longer than {:g} s to write; choose fewer contact laws",
 }
+PAGES = Path("/proc/self/statm")  # of memory; Linux has it
+ORPHAN = 1.25  # times the limit: only where nobody is left to kill
 
 
 class Ended(Busy):
@@ -37,43 +49,42 @@ class Ended(Busy):
 
 
 class Desk:
-    """A process that does one kind of work, one piece at a time.
+    """A process that does one kind of work, one piece at a time; a few requests wait for it.
 
     Python code that holds the interpreter cannot be ended from within, and holds up every thread
     of its process; the time limit is sure as the whole process is killed, and started anew. It ends
     with this one, even if that is killed.
     """
 
-    def __init__(self, task: str, seconds: float) -> None:
-        self._task = task
-        self._seconds = seconds
-        self._turns = Turns()
+    def __init__(self, task: str, seconds: float, folder: str) -> None:
+        self._task, self._seconds, self._folder = task, seconds, folder
+        self._places = BoundedSemaphore(1 + WAITING)
+        self._turn = Lock()
         self._guard = Lock()
-        self._process: subprocess.Popen[str] | None = None
-        self._folder: TemporaryDirectory[str] | None = None
+        self._process: subprocess.Popen[bytes] | None = None
         self._ready = self._closed = False
 
-    def start(self) -> None:
-        """Let the process start if there is none, without waiting until it is ready."""
+    def start(self) -> subprocess.Popen[bytes]:
+        """Return the process, which is started if there is none, before it is ready."""
         with self._guard:
-            if self._closed or (self._process is not None and self._process.poll() is None):
-                return
-            if self._process is not None:
-                _end(self._process)
-            if self._folder is None:
-                self._folder = TemporaryDirectory(prefix="carom-")
-            paths = json.dumps([abspath(path) for path in sys.path])
-            self._process = subprocess.Popen(
-                [sys.executable, "-c", PROGRAM, paths, self._task, str(self._seconds)],
-                cwd=self._folder.name,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL,
-                text=True,
-                encoding="utf-8",
-                start_new_session=True,  # an interrupt from the keyboard is not for it
-            )
-            self._ready = False
+            if self._closed:
+                raise Busy
+            if self._process is None or self._process.poll() is not None:
+                if self._process is not None:
+                    _end(self._process)
+                self._process, self._ready = self._started(), False
+            return self._process
+
+    def _started(self) -> subprocess.Popen[bytes]:
+        paths = json.dumps([abspath(path) for path in sys.path])
+        return subprocess.Popen(
+            [sys.executable, "-c", PROGRAM, paths, self._task, str(self._seconds)],
+            cwd=self._folder,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,  # an interrupt from the keyboard is not for it
+        )
 
     def close(self) -> None:
         """End the process; none is started any more."""
@@ -81,55 +92,49 @@ class Desk:
             self._closed = True
             if self._process is not None:
                 _end(self._process)
-            if self._folder is not None:
-                self._folder.cleanup()
 
-    def ask(self, **asked: Any) -> dict[str, Any]:
-        """Return what the process answers.
+    def ask(self, **asked: Any) -> Any:
+        """Return what the process answers, or raise what it raises.
 
-        Raises Refused, for what takes too long as well, Busy if others wait already, or if the
-        process is killed twice, and RuntimeError if it fails.
+        Raises Refused for what takes too long, and Busy if others wait already, or if the process
+        is killed twice.
         """
-        question = json.dumps(asked) + "\n"
-        with self._turns:
-            try:
-                answer = self._answer(question)
-            except Ended:  # killed, perhaps by the system for want of memory: once more
-                answer = self._answer(question)
-        if "failed" in answer:
-            raise RuntimeError(answer["failed"])
-        if "busy" in answer:
+        if not self._places.acquire(blocking=False):
             raise Busy
-        if "refused" in answer:
-            raise Refused(answer.get("field", ""), answer["refused"])
+        try:
+            answer = self._answer(asked)
+        except Ended:  # killed, perhaps by the system for want of memory: once more
+            answer = self._answer(asked)
+        finally:
+            self._places.release()
+        if isinstance(answer, Exception):
+            raise answer
         return answer
 
-    def _answer(self, question: str) -> dict[str, Any]:
+    def _answer(self, asked: dict[str, Any]) -> Any:
         """Return what the process answers; if there is nothing, another takes its place."""
-        self.start()
-        process = self._process
+        if not self._turn.acquire(timeout=WAITING_SECONDS):
+            raise Busy
         try:
-            if self._closed or process is None:
-                raise Busy
+            process = self.start()
             if not self._ready:
-                self._ready = _exchanged(process, START_SECONDS) == READY
-            return _exchanged(process, self._seconds, question)
-        except (TimeoutError, Ended) as error:
-            if self._closed or process is None:
-                raise Busy from None
-            _end(process)
+                _exchanged(process, START_SECONDS)
+                self._ready = True
+            return _exchanged(process, self._seconds, asked)
+        except TimeoutError:
             self.start()
-            if isinstance(error, TimeoutError):
-                raise Refused("", LATE[self._task].format(self._seconds)) from None
-            raise
+            raise Refused("", LATE[self._task].format(self._seconds)) from None
+        finally:
+            self._turn.release()
 
 
 class Worker:
     """What the page leaves to others: fits in one process, files in another."""
 
     def __init__(self, fit_seconds: float = FIT_SECONDS, file_seconds: float = FILE_SECONDS):
-        self._fits = Desk("fit", fit_seconds)
-        self._files = Desk("file", file_seconds)
+        self._folder = TemporaryDirectory(prefix="carom-")
+        self._fits = Desk("fit", fit_seconds, self._folder.name)
+        self._files = Desk("file", file_seconds, self._folder.name)
 
     def start(self) -> None:
         """Let both processes start, without waiting until they are ready."""
@@ -140,22 +145,23 @@ class Worker:
         """End both processes; none is started any more."""
         self._files.close()
         self._fits.close()
+        self._folder.cleanup()
 
     def fit(self, **asked: str) -> dict[str, Any]:
         """Return a fit as `uploads.answer` does; raises as `Desk.ask`."""
-        return self._fits.ask(**asked)
+        found: dict[str, Any] = self._fits.ask(**asked)
+        return found
 
     def file(self, name: str, query: str, time: float) -> bytes:
         """Return a file of the view of a query; raises as `Desk.ask`."""
-        return b64decode(self._files.ask(name=name, query=query, time=time)["content"])
+        found: bytes = self._files.ask(name=name, query=query, time=time)
+        return found
 
 
-def _exchanged(
-    process: subprocess.Popen[str], seconds: float, question: str = ""
-) -> dict[str, Any]:
-    """Return what the process writes next.
+def _exchanged(process: subprocess.Popen[bytes], seconds: float, asked: Any = None) -> Any:
+    """Return what a process says next, after it is asked something; end it if that fails.
 
-    Raises TimeoutError if it was killed after that time, Ended if it ended before.
+    Raises TimeoutError if there was nothing after that time, Ended if the process ended before.
     """
     assert process.stdin is not None
     assert process.stdout is not None
@@ -164,21 +170,86 @@ def _exchanged(
     limit.daemon = True
     limit.start()
     try:
-        process.stdin.write(question)
-        process.stdin.flush()
-        found: dict[str, Any] = json.loads(process.stdout.readline())
-    except (OSError, ValueError):
-        if monotonic() < end:
-            raise Ended from None
-        raise TimeoutError from None
+        if asked is not None:
+            pickle.dump(asked, process.stdin)
+            process.stdin.flush()
+        return pickle.load(process.stdout)
+    except (OSError, EOFError, ValueError, pickle.UnpicklingError):  # ValueError: it was closed
+        _end(process)
+        raise (Ended if monotonic() < end else TimeoutError) from None
     finally:
         limit.cancel()
-    return found
 
 
-def _end(process: subprocess.Popen[str]) -> None:
+def _end(process: subprocess.Popen[bytes]) -> None:
     process.kill()
     process.wait()
     for pipe in (process.stdin, process.stdout):
         with suppress(OSError):  # there is nobody to take what is left
             pipe.close()  # type: ignore[union-attr]
+
+
+def work(task: str, seconds: float) -> None:
+    """Do a kind of work in this process, for each question on standard input until that ends."""
+    if hasattr(os, "nice"):
+        os.nice(10)  # answers of the page go first
+    answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # nobody else writes among the answers
+    do, asked = TASKS[task]
+    answer = do(**asked)  # loads all that it needs
+    _limit_memory()
+    with suppress(EOFError):
+        while True:
+            pickle.dump(answer, answers)
+            answers.flush()
+            asked = pickle.load(sys.stdin.buffer)
+            faulthandler.dump_traceback_later(ORPHAN * seconds, exit=True)
+            answer = _done(do, asked)
+            faulthandler.cancel_dump_traceback_later()
+
+
+def _done(do: Callable[..., Any], asked: dict[str, Any]) -> Any:
+    """Return what comes of a question, or the error that it ends with."""
+    try:
+        return do(**asked)
+    except (Refused, Busy) as error:
+        return error
+    except InputError as error:
+        return Refused("", str(error))
+    except MemoryError:
+        return Refused("", f"file: it takes more than {WORK_MEMORY >> 20} MB of memory")
+    except Exception as error:
+        return RuntimeError(f"{type(error).__name__}: {error}")
+
+
+def _fit(**asked: str) -> dict[str, Any]:
+    from carom.explorer import uploads
+
+    return uploads.answer(asked)
+
+
+def _file(name: str, query: str, time: float) -> bytes:
+    from carom.explorer import files
+    from carom.explorer.views import View
+
+    file = files.write(name, View.of(query), time, Path.cwd())
+    content = file.read_bytes()
+    file.unlink()
+    return content
+
+
+TASKS: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {  # each with a first question
+    "fit": (_fit, {"data": "kharaz2001"}),
+    "file": (_file, {"name": "history.png", "query": "", "time": 0.5}),
+}
+
+
+def _limit_memory() -> None:
+    try:
+        import resource
+    except ImportError:  # on Windows
+        return
+    if PAGES.exists():
+        now = int(PAGES.read_text().split()[0]) * resource.getpagesize()
+        with suppress(OSError, ValueError):  # a stricter limit may be there already
+            resource.setrlimit(resource.RLIMIT_AS, (now + WORK_MEMORY, resource.RLIM_INFINITY))

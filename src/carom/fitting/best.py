@@ -10,7 +10,7 @@ import numpy as np
 from carom.fitting import errors
 from carom.fitting.least_squares import Minimum, descend, jacobian
 from carom.fitting.model import Model
-from carom.fitting.problem import Mask
+from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 
 WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell

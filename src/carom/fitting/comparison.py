@@ -15,8 +15,8 @@ from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT, OFFSET, RIVALS, FittedLaw
 from carom.fitting.least_squares import descend
 from carom.fitting.model import Model
-from carom.fitting.problem import Mask
 from carom.fitting.starts import scan
+from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import or_none

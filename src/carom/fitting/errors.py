@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import gammaln
 
-from carom.fitting.problem import FitProblem, Mask
+from carom.fitting.problem import FitProblem
+from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 
 NORMAL = np.linspace(-10.0, 10.0, 2001)  # where means over a normal distribution are taken

@@ -8,9 +8,9 @@ from carom.fitting import errors
 from carom.fitting.best import Best, information, normalization
 from carom.fitting.least_squares import descend
 from carom.fitting.model import Model
-from carom.fitting.problem import Mask
 from carom.fitting.starts import scan
 from carom.io.extras import extra
+from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 
 TURNS = 8  # times that errors are estimated and the fit is made anew

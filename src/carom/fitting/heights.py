@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.io.columns import ERROR, Results
+from carom.io.columns import ERROR
+from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError
 
@@ -16,7 +17,7 @@ MOST = 1.5  # speed after over speed before that scatter may reach
 DRAG, AIR = 0.45, 1.2  # drag coefficient of a sphere at Reynolds numbers of 1e3 to 1e5; kg/m^3
 
 
-def with_speeds(rows: Results) -> Results:
+def with_speeds(rows: UserTable) -> UserTable:
     """Return the columns with the speeds of drops, V = sqrt(2 g h) and V' = sqrt(2 g h').
 
     Heights are those of the lowest point of the ball. Adds faults for heights that cannot be, and

@@ -14,7 +14,7 @@ from carom.fitting.estimation import estimate
 from carom.fitting.laws import OFFSET
 from carom.fitting.least_squares import descend
 from carom.fitting.model import Model
-from carom.fitting.problem import Mask
+from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 
 TRIES = 4  # fits of which the ends are searched for, each better than the one before

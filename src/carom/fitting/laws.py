@@ -9,7 +9,6 @@ import numpy as np
 from carom.bodies.kinematics import Rebound, Tangential
 from carom.bodies.pairs import Pair
 from carom.dimensionless.rebound_tables import STORED_CHI, STORED_E, psi_out, stored
-from carom.laws.rigid import rigid_rebound
 from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # of parameters by name, each of shape (batch, 1)
@@ -109,7 +108,7 @@ def rigid(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
     stuck = 1.0 + values.get("tangential_restitution", 0.0)
     whole = values["friction"] * (1.0 + values["restitution"]) * normal_speed
     bound = 2.0 * half_ratio(pair) * whole
-    return rigid_rebound(velocity, stuck, bound)
+    return velocity - np.copysign(np.minimum(stuck * np.abs(velocity), bound), velocity)
 
 
 FRICTION = Parameter("friction", 1e-3, 10.0, None)

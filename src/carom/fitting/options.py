@@ -8,7 +8,7 @@ from carom.fitting.laws import EXACT, OFFSET, half_ratio, ranged
 from carom.fitting.model import offset_parameter
 from carom.fitting.problem import FitProblem
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, clipped, nearest, refusal
+from carom.quantities.refusals import InputError, checked_type, clipped, nearest, refusal
 from carom.quantities.units import number
 
 NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
@@ -101,8 +101,7 @@ def _varied(vary: Collection[str] | str) -> list[str]:
 
 def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
     """Return the parameters that are held, in SI units; chi becomes kappa."""
-    if not isinstance(fixed, Mapping):
-        raise refusal("fixed", fixed, "must be values by name, e.g. {'restitution': 0.98}")
+    checked_type("fixed", fixed, Mapping, "must be values by name, e.g. {'restitution': 0.98}")
     ranges = {each.name: ranged(each, problem.pair) for each in EXACT.parameters}
     held: dict[str, float] = {}
     for name, value in fixed.items():
@@ -123,8 +122,6 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
 
 def _check_name(where: str, name: Any) -> None:
     known = f"parameters are {', '.join(NAMES)}"
-    if not isinstance(name, str):
-        raise refusal(where, name, known)
+    shown = clipped(checked_type(where, name, str, known))
     if name not in NAMES:
-        shown = clipped(name)
         raise InputError(f"{where}: {shown!r} is no parameter; {nearest(shown, NAMES) or known}")

@@ -5,16 +5,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carom.bodies.pairs import Pair
-from carom.datasets.observables import convert
+from carom.datasets.observables import convert_observables
 from carom.fitting.laws import IncomingMotion
-from carom.io.columns import Results
+from carom.io.user_table import Mask, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-
-Mask = NDArray[np.bool_]
 
 ONE = np.radians(0.1)  # incidences that are one
 NOTHING = 1e-9  # part of the speed that is no tangential speed
@@ -35,7 +32,7 @@ class FitProblem:
     responses: tuple[str, ...]
     measured: Array
     errors: Array
-    rows: Results
+    rows: UserTable
     ignored: tuple[str, ...] = ()
     knows_friction: bool = True
     doi: str = ""
@@ -107,7 +104,7 @@ class FitProblem:
         if not self.has_speeds:
             known["normal_speed"] = np.ones(len(self.measured))
         speeds = (
-            convert(self.pair, known=known, wanted=name)
+            convert_observables(self.pair, known=known, wanted=name)
             for name in ("normal_speed", "tangential_speed")
         )
         spins = (known.get(name, np.zeros(len(self.measured))) for name in ("spin", "spin2"))

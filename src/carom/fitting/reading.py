@@ -7,22 +7,32 @@ import numpy as np
 
 from carom.bodies.cases import check_case, pair_of
 from carom.bodies.kinematics import Tangential
-from carom.bodies.pairs import Pair, alike
-from carom.datasets.observables import BEFORE, FASTEST, INCIDENCE, OBSERVABLES, SCALED, SLOWEST
+from carom.bodies.pairs import Pair, alike, checked_pair
+from carom.datasets.observables import (
+    BEFORE,
+    FASTEST,
+    INCIDENCE,
+    OBSERVABLES,
+    RELATIVE,
+    SCALED,
+    SLOWEST,
+)
 from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting.heights import HEIGHTS, with_speeds
 from carom.fitting.laws import IncomingMotion
 from carom.fitting.problem import NOTHING, FitProblem
-from carom.io.columns import ERROR, Results, entry, in_units, others, with_errors
-from carom.io.tables import Cells, read_table
+from carom.io.columns import ERROR, entry, in_units, others, with_errors
+from carom.io.tables import read_table
+from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError
+from carom.quantities.units import WHY_POSITIVE
 
 MOST = 1.5  # restitution that scatter may reach; beyond it is a percentage, or another unit
 LARGEST = 1e9  # of what has no unit
-RELATIVE = ("tangential_restitution", "contact_restitution", "contact_beta")
+NO_LARGER = "must be positive and, apart from scatter, no larger than {}"
 START = 0.3  # friction of bodies of which none is known, to begin with
 
 
@@ -38,25 +48,30 @@ def read_problem(
         return _problem(table, pair, faults)
 
 
-def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
+def read_measurements(
+    table: UserTable, faults: Faults | None = None
+) -> tuple[UserTable, tuple[str, ...]]:
+    """Return a table of measurements in SI units, with speeds of drops, and what it holds besides.
+
+    Adds to the faults what no bodies make right: cells, units and names of columns.
+    """
     known = with_errors((*BEFORE, *OBSERVABLES, *HEIGHTS))
     ignored = others(table, known, faults)
-    present = [name for name in known if name in table.names]
-    rows = with_speeds(
-        in_units(table, present, gaps=(*OBSERVABLES, "rebound_height"), faults=faults)
-    )
+    rows = in_units(table, known, (*OBSERVABLES, "rebound_height"), faults)
+    return with_speeds(rows), ignored
+
+
+def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
+    rows, ignored = read_measurements(table, faults)
     measured = tuple(name for name in OBSERVABLES if name in rows.columns)
     responses = tuple(name for name in measured if np.isfinite(rows[name]).any())
-    if not measured:
-        faults.settle()
-        raise InputError(
-            f"data: no measured response among the columns {', '.join(table.names)}; there must be "
-            f"one or more of {', '.join(OBSERVABLES)}, or drop_height and rebound_height"
-        )
     if not responses:
         faults.settle()
         raise InputError(
             f"data: there is no value in {', '.join(measured)}; '-' means not measured"
+            if measured
+            else f"data: no measured response among the columns {', '.join(table.names)}; there "
+            f"must be one or more of {', '.join(OBSERVABLES)}, or drop_height and rebound_height"
         )
     empty = (f"{name} (no value in it)" for name in measured if name not in responses)
     bodies, knows_friction = _bodies(pair, table.case)
@@ -86,8 +101,7 @@ def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
         knows_friction=knows_friction,
         doi=table.comments.get("doi", ""),
     )
-    _check_responses(problem.rows, problem.motion, problem.contact_velocity)
-    _check_speed(problem)
+    _check_responses(bodies, rows, problem.motion, problem.contact_velocity)
     return problem
 
 
@@ -95,8 +109,7 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
     """Return the bodies, and whether their friction is known; otherwise it is a guess."""
     own = None if case is None else _bodies_of(case)
     if pair is not None:
-        if not isinstance(pair, Pair):
-            raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+        checked_pair(pair)
         if own is not None and not alike(pair, own):
             raise InputError(
                 "pair: its bodies differ from those in the data; leave it, or --case, out"
@@ -125,7 +138,7 @@ def _bodies_of(case: Mapping[str, Any]) -> Pair:
     return pair_of({"friction": 0.0, **case})
 
 
-def _errors(rows: Results, name: str) -> Array:
+def _errors(rows: UserTable, name: str) -> Array:
     """Return the standard deviations of a response, NaN where they are not given."""
     if name + ERROR not in rows.columns:
         return np.full(len(rows), np.nan)
@@ -140,7 +153,7 @@ def _errors(rows: Results, name: str) -> Array:
     return np.where(measured, errors, np.nan)
 
 
-def _check_sizes(rows: Results, pair: Pair) -> None:
+def _check_sizes(rows: UserTable, pair: Pair) -> None:
     """Raise InputError for numbers, or errors of them, in a unit that cannot be theirs."""
     most = {"m/s": FASTEST, "rad/s": FASTEST / pair.first.radius}
     for name in rows.columns:
@@ -148,71 +161,57 @@ def _check_sizes(rows: Results, pair: Pair) -> None:
         rows.refuse(name, np.abs(rows[name]) > most.get(unit, LARGEST), "check its unit")
 
 
-def _check_before(rows: Results, before: Mapping[str, Array], responses: Collection[str]) -> None:
+def _check_before(rows: UserTable, before: Mapping[str, Array], responses: Collection[str]) -> None:
     """Raise InputError if the motion before is missing, said twice, or out of range."""
     ways = [name for name in INCIDENCE if name in before]
+    needing = sorted(set(SCALED) & {*before, *responses})
     if not ways:
         rows.require("angle")
     if len(ways) > 1:
         raise InputError(
             f"data: {' and '.join(ways)} give the same twice; leave all but one of them out"
         )
-    for name in ("speed", "normal_speed"):
-        if name in before:
-            rows.refuse(name, before[name] <= 0.0, "must be positive: the bodies must approach")
-            rows.refuse(name, before[name] < SLOWEST, "check its unit")
-    needing = sorted(set(SCALED) & {*before, *responses})
-    if needing and not {"speed", "normal_speed"} & set(before):
+    if needing and not {*WHY_POSITIVE} & {*before}:
         raise InputError(
             f"speed: column missing; {needing[0]} needs speed and angle, or normal_speed"
         )
+    for name in filter(before.__contains__, WHY_POSITIVE):
+        rows.refuse(name, before[name] < SLOWEST, "check its unit")
     for name in before:
-        if name + ERROR in rows.columns:
-            negative = rows[name + ERROR] < 0.0
-            rows.refuse(name + ERROR, negative, "a standard deviation is zero or positive")
-            if name in ("speed", "normal_speed"):
-                too_large = rows[name + ERROR] >= before[name]
-                rows.refuse(name + ERROR, too_large, f"must be smaller than the {name} itself")
+        if (error := name + ERROR) in rows.columns:
+            rows.refuse(error, rows[error] < 0.0, "a standard deviation is zero or positive")
+            if name in WHY_POSITIVE:
+                too_large = rows[error] >= before[name]
+                rows.refuse(error, too_large, f"must be smaller than the {name} itself")
 
 
-def _check_responses(rows: Results, motion: IncomingMotion, velocity: Array) -> None:
+def _check_responses(pair: Pair, rows: UserTable, motion: IncomingMotion, velocity: Array) -> None:
     """Raise InputError for responses that contradict the motion before, or are out of range."""
-    for name in RELATIVE:
-        if name in rows.columns:
-            basis = motion.tangential_speed if name == RELATIVE[0] else velocity
-            rested = np.abs(basis) <= NOTHING * motion.normal_speed
-            allowed = (
-                "the tangential velocity before is zero; write '-', or give tangential_speed_out"
-            )
-            rows.refuse(name, rested & np.isfinite(rows[name]), allowed)
-    if "normal_restitution" in rows.columns:
-        values = rows["normal_restitution"]
-        rows.refuse(
-            "normal_restitution",
-            (values < 0.0) | (values > MOST),
-            "must lie between 0 and 1, 0.98 for 98 percent",
-        )
-    if "normal_speed_out" in rows.columns:
-        ratio = rows["normal_speed_out"] / motion.normal_speed
-        allowed = "must be positive and, apart from scatter, no larger than the normal speed before"
-        rows.refuse("normal_speed_out", (ratio < 0.0) | (ratio > MOST), allowed)
+    for name in filter(rows.columns.__contains__, RELATIVE):
+        basis = velocity if name.startswith("contact") else motion.tangential_speed
+        rested = np.abs(basis) <= NOTHING * motion.normal_speed
+        allowed = "the tangential velocity before is zero; write '-', or give tangential_speed_out"
+        rows.refuse(name, rested & np.isfinite(rows[name]), allowed)
+    most = {
+        "normal_restitution": (1.0, "must lie between 0 and 1, 0.98 for 98 percent"),
+        "normal_speed_out": (motion.normal_speed, NO_LARGER.format("the normal speed before")),
+        "rebound_speed": (_most_speed(pair, motion), NO_LARGER.format("the energy before allows")),
+    }
+    for name in filter(rows.columns.__contains__, most):
+        ratio = rows[name] / most[name][0]
+        rows.refuse(name, (ratio < 0.0) | (ratio > MOST), most[name][1])
     _check_sense(rows, motion, velocity)
 
 
-def _check_speed(problem: FitProblem) -> None:
-    """Raise InputError for a speed after that takes more energy than there was before."""
-    if "rebound_speed" not in problem.responses:
-        return
-    pair, motion, rows = problem.pair, problem.motion, problem.rows
+def _most_speed(pair: Pair, motion: IncomingMotion) -> Array:
+    """Return the speed of the centre that would take all of the energy before."""
     spins: Any = Tangential(*motion[1:])  # type: ignore[arg-type]
     turning = spins.spin_energy(pair) / (0.5 * pair.normal_mass)
-    most = np.sqrt(motion.normal_speed**2 + motion.tangential_speed**2 + turning)
-    ratio = rows["rebound_speed"] / most
-    allowed = "must be positive and, apart from scatter, no larger than the energy before allows"
-    rows.refuse("rebound_speed", (ratio < 0.0) | (ratio > MOST), allowed)
+    most: Array = np.sqrt(motion.normal_speed**2 + motion.tangential_speed**2 + turning)
+    return most
 
 
-def _check_sense(rows: Results, motion: IncomingMotion, velocity: Array) -> None:
+def _check_sense(rows: UserTable, motion: IncomingMotion, velocity: Array) -> None:
     """Raise InputError if friction drove the spin on in every row: its sign is another's."""
     if "spin_out" not in rows.columns:
         return

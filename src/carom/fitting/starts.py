@@ -6,7 +6,8 @@ import numpy as np
 
 from carom.fitting import errors
 from carom.fitting.model import Model
-from carom.fitting.problem import FitProblem, Mask
+from carom.fitting.problem import FitProblem
+from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 
 STARTS = 6  # starting points that are followed to the end

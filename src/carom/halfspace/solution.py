@@ -8,18 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.halfspace import motion
 from carom.halfspace.compliance import Materials
 from carom.halfspace.influence import Field
 from carom.halfspace.ledger import LedgerEntry, entry
-from carom.halfspace.motion import (
-    DURATION,
-    NO_SPIN,
-    NORMAL,
-    BodyMotion,
-    NormalSpin,
-    move,
-    responses,
-)
 from carom.halfspace.quasistatic import ContactStep, Patch
 from carom.halfspace.refinement import STANDARD, Resolution
 from carom.halfspace.stages import SlipStage, stages
@@ -75,7 +67,7 @@ class HalfspaceSolution:
     psi_in: float
     chi: float
     materials: Materials
-    spin: NormalSpin
+    spin: motion.NormalSpin
     resolution: Resolution
     ledger: Field  # a row a LedgerEntry
     snapshots: tuple[Snapshot, ...]
@@ -136,14 +128,14 @@ class HalfspaceSolution:
 
         Of spin about the normal what it loses counts: all of it may be as large as one likes.
         """
-        response = responses(self.chi, self.materials.kappa, self.spin.lightness)
+        response = motion.responses(self.chi, self.materials.kappa, self.spin.lightness)
         along, across, around = (
             0.5 * self.column(name) ** 2 / each if each > 0.0 else np.zeros(len(self.ledger))
             for name, each in zip(VELOCITIES, response, strict=True)
         )
         lost = np.cumsum(self.column("lost"))
         tangential = along + across + around - around[-1] + self.column("tangential_stored") + lost
-        normal = 0.5 * self.column("approach") ** 2 / NORMAL + self.column("normal_stored")
+        normal = 0.5 * self.column("approach") ** 2 / motion.NORMAL + self.column("normal_stored")
         total = normal + self.materials.friction**2 * tangential
         return float(np.abs(total - total[0]).max() / total[0])
 
@@ -187,7 +179,8 @@ class HalfspaceSolution:
     def _columns(self) -> tuple[Field, ...]:
         """Return all columns of a history but the time, in its units."""
         kappa = self.materials.kappa
-        energy = kappa * 2.0 * NORMAL * self.chi  # of psi^2/2 in those of the tangential motion
+        of_normal = 2.0 * motion.NORMAL
+        energy = kappa * of_normal * self.chi  # of psi^2/2 in those of the tangential motion
         return (
             self.column("depth"),
             self.column("approach"),
@@ -200,7 +193,7 @@ class HalfspaceSolution:
             energy * np.cumsum(self.column("lost")),
             np.zeros(len(self.ledger)),
             self.column("normal_force"),
-            2.0 * NORMAL * self.column("normal_stored"),
+            of_normal * self.column("normal_stored"),
             np.zeros(len(self.ledger)),
             self.column("slip_angle"),
             self.column("slip_angle_max"),
@@ -213,7 +206,7 @@ def solve(
     materials: Materials,
     resolution: Resolution = STANDARD,
     *,
-    spin: NormalSpin = NO_SPIN,
+    spin: motion.NormalSpin = motion.NO_SPIN,
     progress: Progress | None = None,
 ) -> HalfspaceSolution:
     """Return the impact with psi_1 = psi, the motion along x.
@@ -227,7 +220,7 @@ def solve(
     rows: list[LedgerEntry] = []
     snapshots: list[Snapshot] = []
     every = ceil(max(resolution) / SNAPSHOTS)
-    motions = move(patch, np.array([psi, 0.0]), chi, resolution.steps, spin)
+    motions = motion.move(patch, np.array([psi, 0.0]), chi, resolution.steps, spin)
     for count, (before, now) in enumerate(pairwise(motions)):
         if not rows:
             rows.append(entry(patch, before, before))
@@ -242,8 +235,8 @@ def solve(
     )
 
 
-def _steps_until(now: BodyMotion, resolution: Resolution) -> int:
+def _steps_until(now: motion.BodyMotion, resolution: Resolution) -> int:
     """Return how many steps of equal length an instant is worth; all of them at the end."""
     apart = now.approach < 0.0 and now.force == 0.0
-    passed = 1.0 if apart else min(now.time / DURATION, 1.0)
+    passed = 1.0 if apart else min(now.time / motion.DURATION, 1.0)
     return round(passed * resolution.steps)

@@ -1,24 +1,19 @@
 """Stick, slip and gross slip as a solution on a grid shows them."""
 
-from itertools import groupby
+from itertools import groupby, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from carom.halfspace.influence import Field
+from carom.quantities.causes import Cause, cause_between
 
 SHARE = 0.02  # of the contact: as little as this of a zone is the grid's
 SHORTEST = 0.02  # of the contact time
 
-CAUSES = {
-    "stick": "everything sticks",
-    "slip": "stick and slip side by side",
-    "gross slip": "everything slips",
-}
-
 
 class SlipStage(NamedTuple):
-    """A stretch of time in which all sticks, all slips, or both; `cause` is what comes next."""
+    """A stretch of time in which all sticks, all slips, or both; `cause` is what ends it."""
 
     kind: str
     sign: int  # of slip along the direction of the motion before
@@ -44,7 +39,8 @@ def stages(time: Field, slipping: Field, sign: Field) -> tuple[SlipStage, ...]:
     kept = [next(group) for _, group in groupby(long, key=lambda item: item[0])]
     begins = [0.0, *(start for _, start in kept[1:])]
     ends = [*begins[1:], float(time[-1])]
-    causes = [*(CAUSES[kind] for (kind, _), _ in kept[1:]), "separation"]
+    changes = pairwise(kind for (kind, _), _ in kept)
+    causes = [*(cause_between(*change).message for change in changes), Cause.SEPARATION.message]
     return tuple(
         SlipStage(kind, sign, begin, end, cause)
         for ((kind, sign), _), begin, end, cause in zip(kept, begins, ends, causes, strict=True)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.bodies.kinematics import Tangential, normal_inertia
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, with_friction
 from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless import solution as theory
 from carom.dimensionless.states import SlipAngle
@@ -24,7 +24,7 @@ from carom.impacts.validity import WEAK_COUPLING, judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted
 
 if TYPE_CHECKING:
@@ -293,11 +293,7 @@ def solve_by_elements(
     progress: Progress,
 ) -> HalfspaceImpact:
     """Return an impact solved by boundary elements, on three grids; see `carom.impact`."""
-    if pair.friction == 0.0:
-        raise InputError(
-            "friction: without it there is no tangential force to solve for; leave method out, the "
-            "theory is exact then"
-        )
+    with_friction(pair, "without friction the theory is exact; leave method out")
     if pair.chi > LARGEST_CHI:
         allowed = f"boundary elements solve chi up to {LARGEST_CHI:g}; leave method out"
         raise refusal("chi", pair.chi, allowed)

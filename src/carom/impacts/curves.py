@@ -17,7 +17,7 @@ from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, finite_line, positive_line
-from carom.quantities.keywords import known_keywords, renamed_keyword
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 
 if TYPE_CHECKING:
@@ -62,7 +62,6 @@ def borders(chi: float) -> tuple[float, float, float]:
     return first, second, third
 
 
-@renamed_keyword("normal", "losses")
 @known_keywords
 def curve(
     chi: float | Sequence[float], psi: ArrayLike, *, losses: ScaleFreeLaw | None = None

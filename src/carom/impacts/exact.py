@@ -16,9 +16,10 @@ from carom.bodies.pairs import Pair
 from carom.contacts.contact import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import LossNumbers, checked_law
+from carom.dimensionless.lossy.law import Loss, LossNumbers, checked_law
 from carom.dimensionless.lossy.marched_solution import MarchedSolution
 from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
 from carom.impacts.peaks import judge_strength, peaks_dataset, struck_bodies
@@ -112,6 +113,7 @@ class Impact(ImpactResult, InContact):
         points: ArrayLike | None = None,
         body: str = "second",
     ) -> xr.Dataset:
+        self._refuse_yielded()
         return super().stress(time, x, z, points=points, body=body)
 
     def radial(self, time: Value, n: int = 401) -> xr.Dataset:
@@ -152,15 +154,15 @@ class Impact(ImpactResult, InContact):
             distance max_wear_radius; and work_error, the relative difference between it and the
             work per area summed over the contact. It is 1e-8 for elastic bodies up to chi = 6
             and 2e-7 beyond; for viscous ones it is about 1e-5, and more near normal incidence, as
-            their energies are known to some 1e-7 only. With a coefficient also mean_wear_depth,
+            their energies are known to some 1e-7 only; for those that yield or relax it is some
+            1e-3. With a coefficient also mean_wear_depth,
             wear_depth, max_wear_depth in m and worn_volume in m^3, which is computed from the work
             per area where work_error is above 1e-4.
 
         Raises
         ------
         InputError
-            If n is out of range, the coefficient is negative, positions are not finite, or the
-            bodies yield or are standard linear solids, whose pressure is not known.
+            If n is out of range, the coefficient is negative, or positions are not finite.
 
         Examples
         --------
@@ -223,8 +225,9 @@ class Impact(ImpactResult, InContact):
         >>> round(float(peaks.peak_tension) / 1e6), round(float(peaks.toughness_ratio), 2)  # MPa
         (1234, 6.92)
         """
+        self._refuse_yielded()
         from_depth = None if depth is None else not_negative("depth", depth, "m")
-        if from_depth == 0.0 and isinstance(self.solution, LossySolution):
+        if from_depth == 0.0 and isinstance(self.solution, ViscoelasticSolution):
             allowed = "viscous bodies have infinite stresses at the surface; give a positive depth"
             raise refusal("depth", depth, allowed)
         deepest = FARTHEST * self.max_radius
@@ -233,6 +236,12 @@ class Impact(ImpactResult, InContact):
             raise refusal("depth", depth, allowed)
         bodies = struck_bodies(self.pair, self.scales, self.solution, from_depth)
         return peaks_dataset(self.pair, bodies, {"inputs": self.inputs()})
+
+    def _refuse_yielded(self) -> None:
+        if isinstance(self.solution, LossySolution) and self.solution.losses.loss == Loss.PLASTIC:
+            unknown = "what stress a yielded contact leaves below it is not known"
+            cure = "take KelvinVoigt, or leave losses out"
+            raise refusal("losses", self.losses, f"{unknown}; {cure}")
 
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.

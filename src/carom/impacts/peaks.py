@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.bodies.pairs import Pair, Scales
 from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.strength.searching import Contacts, Peak
 from carom.impacts.strength import BODIES, MEASURES, StruckBody, strengths_of, units_of
@@ -48,7 +49,8 @@ def struck_bodies(
     pair: Pair, scales: Scales, solution: Solution | LossySolution, depth: float | None = None
 ) -> dict[str, StruckBody]:
     """Return the bodies of an impact that deform, by name; `depth` as of `Impact.peaks`, in m."""
-    usual = 0.0 if isinstance(solution, Solution) else DEPTH * solution.max_radius
+    singular = isinstance(solution, ViscoelasticSolution)
+    usual = DEPTH * solution.max_radius if singular else 0.0
     contacts = Contacts(solution, pair.friction, usual if depth is None else depth / scales.radius)
     bodies = {}
     for name, side in zip(BODIES, (-1.0, 1.0), strict=True):

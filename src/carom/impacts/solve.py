@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING, Literal, TypedDict, Unpack, overload
 
 from carom.bodies.kinematics import Tangential, approach
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, checked_scales
-from carom.bodies.shapes import Sphere
+from carom.bodies.pairs import Pair, check_second_spin, checked_pair, checked_scales
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
-from carom.quantities.keywords import known_keywords, renamed_keyword
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, finite
 
@@ -57,7 +56,6 @@ def impact(
     progress: Progress = None,
     **motion: Unpack[MotionInputs],
 ) -> Impact | HalfspaceImpact: ...
-@renamed_keyword("normal", "losses")
 @known_keywords
 def impact(
     pair: Pair,
@@ -135,13 +133,11 @@ def impact(
     >>> round(hit.rebound_angle * 180 / 3.141592653589793, 2)
     18.6
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    checked_pair(pair)
     approaching, tangential = approach(speed, angle, normal_speed, tangential_speed)
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
     about_normal = finite("normal_spin", normal_spin)
-    if second_spin and not isinstance(pair.second, Sphere):
-        raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
+    check_second_spin(pair, spin2, spins=second_spin != 0.0)
     motion = Tangential(tangential, first_spin, second_spin)
     velocity = motion.contact_velocity(pair)
     checked_scales(pair, approaching, velocity, tangential, *motion.carried(pair))

@@ -7,24 +7,20 @@ friction it is the work per area, times the coefficient of wear the depth (Archa
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
-from carom.dimensionless.solution import Solution
+from carom.dimensionless.states import Trajectory
 from carom.impacts.outcome import Outcome
 from carom.impacts.result import ImpactResult
 from carom.io.labels import labelled_dataset
 from carom.quantities.arrays import Array, places
-from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted, not_negative
 
 if TYPE_CHECKING:
     import xarray as xr
-
-Known = Solution | ViscoelasticSolution  # solutions of which the pressure is known
 
 MOST_RADII = 100_000
 EVEN = 101  # radii at least among which the largest wear is sought
@@ -131,7 +127,7 @@ def read_coefficient(given: Value) -> float:
 def rubbing(hit: ImpactResult, radii: Array) -> Rubbing:
     """Return the integral of pressure times slip rate at radii in m, and at more of them."""
     unit = hit.scales.radius
-    nodes, areas = _quadrature(known_contact(hit))
+    nodes, areas = _quadrature(_trajectory(hit))
     inner = np.union1d(nodes * unit, hit.max_radius * np.linspace(0.0, 1.0, EVEN))
     apart = np.append(np.diff(inner) > ALIKE * hit.max_radius, True)
     asked = np.union1d(radii, inner)
@@ -142,7 +138,7 @@ def rubbing(hit: ImpactResult, radii: Array) -> Rubbing:
 
 def rubbed_at(hit: ImpactResult, radii: Array) -> tuple[Array, Array]:
     """Return the integral of pressure times slip rate at radii in m, mean and lateral, in Pa m."""
-    solution, scales = known_contact(hit), hit.scales
+    solution, scales = _trajectory(hit), hit.scales
     within = radii / scales.radius
     if hit.pair.friction > FRICTIONLESS:
         work = scales.pressure * scales.tangential_length * solution.friction_work(within)
@@ -162,15 +158,11 @@ def rubbed(outcome: Outcome) -> Any:
     return abs(outcome.contact_velocity) * impulse
 
 
-def known_contact(hit: ImpactResult) -> Known:
-    """Return the solution of an impact, or raise InputError if it does not tell the pressure."""
-    if isinstance(hit.solution, Known):
-        return hit.solution
-    allowed = "wear needs the pressure over the contact, which such a solid does not give"
-    raise refusal("losses", hit.losses, f"{allowed}; take KelvinVoigt, or leave losses out")
+def _trajectory(hit: ImpactResult) -> Trajectory:
+    return cast(Trajectory, hit.solution)
 
 
-def _quadrature(solution: Known) -> tuple[Array, Array]:
+def _quadrature(solution: Trajectory) -> tuple[Array, Array]:
     """Return radii and the areas for which they stand, by Gauss's rule between the borders."""
     borders = solution._slip_borders()
     cuts = [borders[:1]]

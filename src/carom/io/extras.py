@@ -7,10 +7,13 @@ from carom.quantities.refusals import InputError
 
 
 def extra(name: str, purpose: str, group: str = "cluster") -> ModuleType:
-    """Return a package of an extra, or raise InputError that says how to get it."""
+    """Return a package of an extra, or a module that needs one, or say how to get it.
+
+    Raises InputError if a package is missing.
+    """
     try:
         return import_module(name)
-    except ImportError:
-        package = name.partition(".")[0]
+    except ImportError as error:
+        package = (error.name or name).partition(".")[0]
         hint = f"pip install 'carom[{group}]'"
         raise InputError(f"{purpose} needs the package {package}; {hint}") from None

@@ -1,14 +1,12 @@
-"""Storing results as NetCDF or CSV and reading them; files are replaced whole or not at all."""
+"""Storing results as NetCDF, exporting them as CSV, reading them; files are replaced whole."""
 
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from carom.io.csv_format import as_csv, from_csv
+from carom.io.extras import extra
 from carom.io.netcdf_format import read_netcdf, write_netcdf
 from carom.io.paths import checked_output, checked_path, ending_of, opened, replace_whole
-from carom.io.storable import storable
-from carom.io.stores import read_store
 from carom.quantities.refusals import InputError, refusal
 
 if TYPE_CHECKING:
@@ -16,6 +14,10 @@ if TYPE_CHECKING:
 
 TABLES = (".nc", ".csv")
 STORE = ".zarr"  # of a sweep
+EXPORTED = (
+    "CSV is an export; store a dataset as .nc to read it again, "
+    "one of Carom 0.2 there by carom.save(carom.read('x.csv'), 'x.nc')"
+)
 LONGEST_TEXT = 1_000_000  # characters
 FIGURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".mp4")
@@ -29,11 +31,13 @@ class Storable(Protocol):
 
 
 def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
-    """Store a dataset or a result as .nc or .csv and return its path; `carom.read` reads it.
+    """Store a dataset or a result as .nc, or export it as .csv, and return its path.
 
-    An existing file is replaced whole or not at all, and of a link the file to which it points. The
-    data are written into a pipe or a device, as CSV if its name has no ending. A CSV file is one
-    table with everything else in comments, which `pandas.read_csv(path, comment="#")` reads, too.
+    `carom.read` reads a NetCDF file, which holds everything. A CSV file is one table for other
+    programs, which is not read as a dataset again: one row a point, along the dimensions of the
+    first variable that has most of them, with units in the header. An existing file is replaced
+    whole or not at all, and of a link the file to which it points. The data are written into a pipe
+    or a device, as CSV if its name has no ending.
 
     Parameters
     ----------
@@ -51,25 +55,25 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     ------
     InputError
         If the name has another ending, the file cannot be written, there is no dataset to store, or
-        it holds something that could not be read exactly, such as dates, names that are not texts,
-        or attributes that are neither texts nor numbers.
+        NetCDF would not give it back as it is: dates, names that are not texts, attributes that are
+        neither texts nor numbers.
 
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
     >>> import carom
     >>> with TemporaryDirectory() as folder:
-    ...     carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv").name
-    'curve.csv'
+    ...     carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.nc").name
+    'curve.nc'
     """
-    target, dataset = checked_output(path, TABLES), storable(_dataset(result))
+    target, dataset = checked_output(path, TABLES), _dataset(result)
     ending = ending_of(target, TABLES)
 
     def write(where: Path) -> None:
         if ending == ".nc":
             write_netcdf(dataset, where)
         else:
-            where.write_text(as_csv(dataset), encoding="utf-8", newline="\n")
+            where.write_text(_table(dataset), encoding="utf-8", errors="replace", newline="\n")
 
     return replace_whole(target, write, ending)
 
@@ -86,31 +90,48 @@ def _dataset(result: "xr.Dataset | Storable") -> "xr.Dataset":
     return result.to_dataset()
 
 
+def _table(dataset: "xr.Dataset") -> str:
+    """Return a dataset as CSV: what runs along its rows, or, if nothing does, its numbers."""
+    import pandas as pd
+
+    table = max((tuple(item.dims) for item in dataset.data_vars.values()), key=len, default=())
+    along = {dim: dataset.sizes[dim] for dim in table}
+    coords = sorted(dataset.coords, key=lambda name: [*table, name].index(name))
+    columns = {}
+    for name in [*coords, *dataset.data_vars]:
+        item: Any = dataset.variables[name].to_base_variable()
+        if set(item.dims) <= along.keys() and bool(item.dims) == bool(table):
+            unit = item.attrs.get("units", "1")
+            head = f"{name}" if unit == "1" else f"{name} [{unit}]"
+            columns[head] = item.set_dims(along).values.ravel()
+    frame: Any = pd.DataFrame(columns)  # whose methods have no types
+    return str(frame.to_csv(index=False, na_rep="nan", lineterminator="\n"))
+
+
 def read_dataset(source: Path) -> "xr.Dataset":
     """Return the dataset of a file or store, or raise InputError if it is not one of Carom's."""
-    if source.suffix.lower() == STORE and source.is_dir():
-        return read_store(source)
-    if source.suffix.lower() not in TABLES:
-        allowed = f"must end in {' or '.join(TABLES)}, or be the store of a sweep, {STORE}"
-        raise refusal("file", str(source), allowed)
+    ending = source.suffix.lower()
+    if ending == STORE and source.is_dir():
+        sweep: xr.Dataset = extra("carom.io.stores", "a store").read_store(source)
+        return sweep
+    if ending == ".csv":
+        raise refusal("file", str(source), EXPORTED)
+    if ending != ".nc":
+        raise refusal("file", str(source), f"must end in .nc, or be the store of a sweep, {STORE}")
     if not source.is_file():
         raise refusal("file", str(source), "there is no such file")
     try:
-        with warnings.catch_warnings():  # of xarray and h5netcdf, at what is odd or damaged
+        with warnings.catch_warnings():  # of xarray and h5netcdf, at what is odd
             warnings.simplefilter("ignore")
-            if source.suffix.lower() == ".nc":
-                return read_netcdf(source)
-            return from_csv(source.read_bytes().decode("utf-8-sig"))
+            return read_netcdf(source)
     except OSError as error:
         reason = f"cannot be read; {error.strerror or error}"
-    except UnicodeDecodeError:
-        reason = "it is not text"
     except InputError as error:
         reason = str(error)
     raise refusal("file", str(source), reason)
 
 
-def read_text(what: str, path: Path) -> str:
+def read_text(what: str, path: str | Path) -> str:
     """Return the text of a file that a user names, with line ends of Unix.
 
     Raises InputError if it cannot be read or is too long, and UnicodeDecodeError if it is not in

@@ -12,29 +12,21 @@ from numpy.polynomial import chebyshev
 
 from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair
-from carom.dimensionless.elastic.batch import solved
+from carom.dem.base import Law
+from carom.dem.status import Codes
+from carom.dimensionless import rebound_tables as tables
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.patches import Patches
-from carom.dimensionless.rebound_tables import (
-    SMALLEST,
-    SMALLEST_LOSSY,
-    Accuracy,
-    panels,
-    psi_out,
-    tabulated,
-)
-from carom.dimensionless.rebounds import regime_borders
+from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.io.citations import IMPACT, VISCOUS, bibtex
 from carom.io.progress import advancing
-from carom.laws.base import Law
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
-from carom.laws.status import Codes
 from carom.quantities.arrays import Array, pure_numbers
-from carom.quantities.keywords import renamed_keyword
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import positive
@@ -42,9 +34,7 @@ from carom.quantities.units import positive
 LARGEST_CHI = 100.0  # tables of larger ones would take minutes
 RANGE = (0.5, 5.0)  # of chi, in which a table over a range takes minutes at most
 RETURNING = 3.0  # chi above which the front of slip returns, with losses
-ELASTIC, ELASTIC_RANGE = Accuracy((8, 8, DEGREE), 4e-10), Accuracy((8, 8, 8), 3e-8)
-VISCOUS_SOLID, ROUGH = Accuracy((8, 8, DEGREE), 1e-8), Accuracy((8, 8, DEGREE), 2e-7)
-LARGEST_GAP = 1e-6  # of psi_2 between panels
+ELASTIC, ELASTIC_RANGE, VISCOUS_SOLID, ROUGH = 4e-10, 3e-8, 1e-8, 2e-7  # tolerances of tables
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,14 +77,14 @@ class ReboundLaw(Law):
     Examples
     --------
     >>> import carom
-    >>> law = carom.ReboundLaw(1.44)
+    >>> law = carom.laws.ReboundLaw(1.44)
     >>> law([0.5, 1.5, -3.5, 6.0]).round(6)
     array([ 0.047131, -0.429967,  1.477247,  0.24    ])
     >>> law.nbytes < 4000
     True
-    >>> carom.ReboundLaw((1.2, 1.5))([0.5, 1.5, -3.5], [1.25, 1.44, 1.5]).round(6)
+    >>> carom.laws.ReboundLaw((1.2, 1.5))([0.5, 1.5, -3.5], [1.25, 1.44, 1.5]).round(6)
     array([-0.079793, -0.429967,  1.471999])
-    >>> lossy = carom.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
+    >>> lossy = carom.laws.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
     (array([0.00384, 0.528  ]), 2.9186)
     """
@@ -109,13 +99,12 @@ class ReboundLaw(Law):
     coefficients: Array
     _table: Patches | None  # over a range
 
-    @renamed_keyword("normal", "losses")
+    @known_keywords
     def __init__(
         self, chi: float | tuple[float, float], *, losses: KelvinVoigt | None = None
     ) -> None:
-        e, ends = _restitution_of(losses), (chi, chi)
-        if wide := isinstance(chi, tuple | list) and len(chi) == 2:
-            ends = chi
+        e, wide = _restitution_of(losses), isinstance(chi, tuple | list) and len(chi) == 2
+        ends: Any = chi if wide else (chi, chi)
         low, high = (positive("chi", each) for each in ends)
         if wide and not RANGE[0] <= low < high <= RANGE[1]:
             allowed = "must be a range within {:g} to {:g}; carom.rebound takes any chi"
@@ -123,35 +112,27 @@ class ReboundLaw(Law):
         if high > LARGEST_CHI:
             allowed = f"must be at most {LARGEST_CHI:g} in a table; carom.rebound takes any chi"
             raise refusal("chi", chi, allowed)
-        accuracy = ELASTIC_RANGE if wide else ELASTIC
+        degrees = (8, 8, 8 if wide and e == 1.0 else DEGREE)
+        tolerance = ELASTIC_RANGE if wide else ELASTIC
         if e < 1.0:
-            accuracy = ROUGH if wide or high > RETURNING else VISCOUS_SOLID
+            tolerance = ROUGH if wide or high > RETURNING else VISCOUS_SOLID
         with advancing("tabulating the rebounds", None, unit="impacts") as advance:
-            table = tabulated((low, high), (e, e), accuracy, advance)
+            table = tables.tabulated((low, high), (e, e), tolerance, advance, degrees=degrees)
         if wide:
             self._hold((low, high), e, np.empty(0), np.empty((0, 0)), table)
         else:
-            self._hold(low, e, *panels(table, low, e))
+            self._hold(low, e, *tables.panels(table, low, e), None)
 
-    def _hold(
-        self,
-        chi: float | tuple[float, float],
-        restitution: float,
-        edges: Array,
-        coefficients: Array,
-        table: Patches | None = None,
-    ) -> None:
-        for values in (edges, coefficients):
-            values.setflags(write=False)
-        held = (chi, restitution, edges, coefficients, table)
-        for field, value in zip(fields(self), held, strict=True):
+    def _hold(self, *values: Any) -> Self:
+        for field, value in zip(fields(self), values, strict=True):
             object.__setattr__(self, field.name, value)
+        for array in (self.edges, self.coefficients):
+            array.setflags(write=False)
+        return self
 
     @classmethod
-    def _of(cls, *held: Any) -> Self:
-        law = object.__new__(cls)
-        law._hold(*held)
-        return law
+    def _of(cls, *values: Any) -> Self:
+        return object.__new__(cls)._hold(*values)
 
     def __call__(self, psi: Any, chi: Any = None, *, return_status: bool = False) -> Any:
         """Return psi_2 for an array of any library that follows the array API standard.
@@ -160,12 +141,12 @@ class ReboundLaw(Law):
         and takes NumPy arrays; where chi is outside of the range, impacts are solved, and
         `return_status` asks for a `Status` of each.
         """
-        if chi is not None or return_status:
-            own = self._one_chi() if chi is None else chi
-            found = self.rebound(psi, own, return_status=return_status)
-            return found if return_status else np.asarray(found)[()]
-        rule = self._rule
-        return applied(lambda incoming, xp: incoming - lost(incoming, rule, xp), "psi", psi)
+        if chi is None and not return_status:
+            rule = self._rule
+            return applied(lambda incoming, xp: incoming - lost(incoming, rule, xp), "psi", psi)
+        own = self._one_chi() if chi is None else chi
+        outgoing = self.rebound(psi, own, return_status=return_status)
+        return outgoing if return_status else np.asarray(outgoing)[()]
 
     def _solved(
         self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
@@ -173,19 +154,15 @@ class ReboundLaw(Law):
         result, status = np.empty(psi.size), np.zeros(psi.size, dtype=np.int8)
         low, high = self._ends
         inside = (low <= chi) & (chi <= high) & (np.abs(psi) < np.inf)
-        some, other = np.flatnonzero(inside), np.flatnonzero(~inside)
         if self._table is None:
-            result[some] = psi[some] - lost(psi[some], self._rule, np)
+            result[inside] = psi[inside] - lost(psi[inside], self._rule, np)
         else:
-            e = np.full(some.size, self.restitution)
-            result[some] = psi_out(self._table, psi[some, np.newaxis], chi[some], e)[:, 0]
-        if not other.size:
-            return result, status
-        if self.restitution == 1.0:
-            result[other], status[other], _ = solved(psi[other], chi[other], threads)
-        else:
-            exact = lossy_rebounds(psi[other], chi[other], self._losses.scale_free(), threads)
-            result[other], status[other] = exact.psi_out, exact.status
+            some = psi[inside, np.newaxis], chi[inside], np.full(inside.sum(), self.restitution)
+            result[inside] = tables.psi_out(self._table, *some)[:, 0]
+        if not np.all(inside):
+            result[~inside], status[~inside] = rebound(
+                psi[~inside], chi[~inside], losses=self._losses, threads=threads, return_status=True
+            )
         return result, status
 
     _rebound = None  # type: ignore[assignment]  # of one chi; impacts are looked up together
@@ -200,21 +177,8 @@ class ReboundLaw(Law):
         return self.chi
 
     @property
-    def _losses(self) -> KelvinVoigt:
-        return KelvinVoigt(restitution=self.restitution)
-
-    def _at(self, chi: float) -> ReboundLaw:
-        """Return the law at one chi, of a range without solving an impact, or raise InputError."""
-        low, high = self._ends
-        if self._table is not None and low <= chi <= high:
-            return _section(self, chi)
-        if self._table is not None or abs(chi - low) > 1e-9 * low:
-            own = f"{low:.10g}" if low == high else f"{low:.10g} to {high:.10g}"
-            raise InputError(
-                f"law: it is for chi = {own}, but the pair has chi = {chi:.10g}; "
-                "make the law with pair.chi"
-            )
-        return self
+    def _losses(self) -> KelvinVoigt | None:
+        return None if self.restitution == 1.0 else KelvinVoigt(restitution=self.restitution)
 
     def damped(self, restitution: float) -> ReboundLaw:
         """Return the law of another restitution, which is tabulated anew."""
@@ -245,7 +209,7 @@ class ReboundLaw(Law):
         Examples
         --------
         >>> import carom
-        >>> carom.ReboundLaw(1.44).impulse([0.5, 6.0]).round(3)
+        >>> carom.laws.ReboundLaw(1.44).impulse([0.5, 6.0]).round(3)
         array([0.079, 1.   ])
         """
         bound = self._rule.sliding
@@ -273,7 +237,7 @@ class ReboundLaw(Law):
         Examples
         --------
         >>> import carom
-        >>> carom.ReboundLaw(1.44).dissipation([0.5, 6.0]).round(3)
+        >>> carom.laws.ReboundLaw(1.44).dissipation([0.5, 6.0]).round(3)
         array([ 0.248, 35.942])
         """
 
@@ -289,10 +253,10 @@ class ReboundLaw(Law):
 
         d_max is the largest penetration of the elastic impact.
         """
-        if self.restitution == 1.0:
+        if self._losses is None:
             return float(hertz.DURATION)
-        one = np.ones(1)
-        return float(lossy_rebounds(0.0 * one, one, self._losses.scale_free()).duration[0])
+        psi, chi = np.zeros(1), np.ones(1)
+        return float(lossy_rebounds(psi, chi, self._losses.scale_free()).duration[0])
 
     @property
     def nbytes(self) -> int:
@@ -302,7 +266,14 @@ class ReboundLaw(Law):
 
     def rule(self, pair: Pair) -> Rule:
         """Return the numbers that a collision of this pair needs; its chi must be the law's."""
-        rule = self._at(pair.chi)._rule
+        chi, (low, high) = pair.chi, self._ends
+        if not (low <= chi <= high or abs(chi - low) <= 1e-9 * low == 1e-9 * high):
+            own = f"{low:.10g}" if low == high else f"{low:.10g} to {high:.10g}"
+            raise InputError(
+                f"law: it is for chi = {own}, but the pair has chi = {chi:.10g}; "
+                "make the law with pair.chi"
+            )
+        rule = self._rule if self._table is None else _section(self, chi)._rule
         if pair.friction == 0.0:
             return rule._replace(sliding=0.0)
         return rule._replace(scale=pair.kappa / pair.friction)
@@ -368,8 +339,8 @@ class ReboundLaw(Law):
         Examples
         --------
         >>> import carom
-        >>> law = carom.ReboundLaw(1.44)
-        >>> carom.ReboundLaw.from_dict(law.to_dict())(0.5) == law(0.5)
+        >>> law = carom.laws.ReboundLaw(1.44)
+        >>> carom.laws.ReboundLaw.from_dict(law.to_dict())(0.5) == law(0.5)
         True
         """
         try:
@@ -381,7 +352,7 @@ class ReboundLaw(Law):
             whole = False
         if not whole:
             raise InputError("table: it is not a table of ReboundLaw; give what to_dict returned")
-        return cls._of(chi, e, edges, rows)
+        return cls._of(chi, e, edges, rows, None)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self)._of, tuple(getattr(self, field.name) for field in fields(self))
@@ -394,8 +365,10 @@ class ReboundLaw(Law):
 
 @lru_cache(maxsize=128)
 def _section(law: ReboundLaw, chi: float) -> ReboundLaw:
+    """Return the law at one chi of a range, without solving an impact."""
     assert law._table is not None
-    return ReboundLaw._of(chi, law.restitution, *panels(law._table, chi, law.restitution))
+    panels = tables.panels(law._table, chi, law.restitution)
+    return ReboundLaw._of(chi, law.restitution, *panels, None)
 
 
 @lru_cache(maxsize=128)
@@ -406,13 +379,9 @@ def law_of(chi: float, losses: KelvinVoigt | None = None) -> ReboundLaw:
 
 def _is_whole(chi: float, restitution: float, edges: Array, rows: Array) -> bool:
     """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
+    first = tables.SMALLEST if restitution == 1.0 else tables.SMALLEST_LOSSY
     last, sliding = regime_borders(chi, restitution)[-1], 2.0 * chi * (1.0 + restitution)
-    first = SMALLEST if restitution == 1.0 else SMALLEST_LOSSY
-    if (
-        edges.ndim != 1
-        or rows.shape[:1] != (edges.size - 1,)
-        or not 1 <= rows.shape[1] <= DEGREE + 1
-    ):
+    if rows.shape != (edges.size - 1, DEGREE + 1) or edges.ndim != 1:
         return False
     if not np.all(np.isfinite(edges)) or [edges[0], edges[-1]] != [first, last]:
         return False
@@ -420,7 +389,7 @@ def _is_whole(chi: float, restitution: float, edges: Array, rows: Array) -> bool
     starts = rows @ (-1.0) ** np.arange(rows.shape[1])
     after = np.append(starts[1:], 1.0 - sliding / places[-1])
     gaps = np.abs(rows.sum(axis=1) - after) * places
-    return bool(np.all(np.diff(edges) > 0.0) and np.all(gaps < LARGEST_GAP))
+    return bool(np.all(np.diff(edges) > 0.0) and np.all(gaps < 1e-8))
 
 
 def _restitution_of(losses: KelvinVoigt | None) -> float:

@@ -93,7 +93,7 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
     --------
     >>> import carom
     >>> from carom.laws.header import c_header
-    >>> text = c_header([carom.ReboundLaw(0.5), carom.ReboundLaw(1.44)])
+    >>> text = c_header([carom.laws.ReboundLaw(0.5), carom.laws.ReboundLaw(1.44)])
     >>> "double carom_rebound_0_5(double psi)" in text
     True
     """

@@ -19,7 +19,7 @@ class MixtureLaw(ReboundLaw):
     Examples
     --------
     >>> import carom
-    >>> law = carom.MixtureLaw(1.2, 1.5)
+    >>> law = carom.laws.MixtureLaw(1.2, 1.5)
     >>> law([0.5, 1.5, -3.5], [1.25, 1.44, 1.5]).round(6)
     array([-0.079793, -0.429967,  1.471999])
     """

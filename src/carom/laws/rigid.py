@@ -4,34 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf
-from typing import Any
-
-import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.laws.rules import Rule, constant_rule
-from carom.quantities.arrays import Array
-from carom.quantities.refusals import refusal
-from carom.quantities.units import not_negative, number
-
-
-def rigid_rebound(before: Array, stuck: Any, sliding: Any) -> Array:
-    """Return the tangential velocity after an impact of rigid spheres, in any unit.
-
-    It loses its part `stuck`, 1 + beta_0, but not more than in sliding (Walton 1993).
-    """
-    lost = np.minimum(stuck * np.abs(before), sliding)
-    return np.asarray(before - np.copysign(lost, before))
+from carom.quantities.units import not_negative, within
 
 
 def _check_ratios(law: object, **least: float) -> None:
     """Read the coefficients of a frozen law; raise InputError unless they lie from these to 1."""
     for name, low in least.items():
-        given = getattr(law, name)
-        value = number(name, given, "1")
-        if not low <= value <= 1.0:
-            raise refusal(name, given, f"must lie between {low:g} and 1")
-        object.__setattr__(law, name, value)
+        object.__setattr__(law, name, within(name, getattr(law, name), low, 1.0, "1"))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +33,7 @@ class SmoothLaw:
     Examples
     --------
     >>> import carom
-    >>> carom.SmoothLaw(restitution=0.9)
+    >>> carom.laws.SmoothLaw(restitution=0.9)
     SmoothLaw(restitution=0.9)
     """
 
@@ -82,7 +64,7 @@ class RoughLaw:
     Examples
     --------
     >>> import carom
-    >>> carom.RoughLaw()
+    >>> carom.laws.RoughLaw()
     RoughLaw(restitution=1.0)
     """
 
@@ -122,7 +104,7 @@ class WaltonLaw:
     Examples
     --------
     >>> import carom
-    >>> law = carom.WaltonLaw(friction=0.2, restitution=1.0, tangential_restitution=0.4)
+    >>> law = carom.laws.WaltonLaw(friction=0.2, restitution=1.0, tangential_restitution=0.4)
     >>> law.tangential_restitution
     0.4
     """

@@ -8,12 +8,11 @@ from math import inf
 import numpy as np
 from scipy.optimize import least_squares
 
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, with_friction
 from carom.laws.exact import law_of
-from carom.laws.rigid import WaltonLaw, rigid_rebound
+from carom.laws.rigid import WaltonLaw
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import refusal
-from carom.quantities.units import positive
+from carom.quantities.units import within
 
 POINTS = 2001
 SHORTEST, LONGEST = 1e-6, 1e9  # spans
@@ -31,7 +30,7 @@ class WaltonFit:
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> fit = carom.fit_walton(pair)
+    >>> fit = carom.laws.fit_walton(pair)
     >>> round(fit.law.friction, 3), round(fit.max_error, 2), round(fit.span, 2)
     (0.199, 0.35, 5.76)
     """
@@ -73,23 +72,18 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> fit = carom.fit_walton(pair)
+    >>> fit = carom.laws.fit_walton(pair)
     >>> round(fit.law.tangential_restitution, 2), round(fit.rms_error, 2)
     (0.41, 0.16)
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    if pair.friction == 0.0:
-        raise refusal("friction", pair.friction, "must be positive, or there is nothing to fit")
-    reach = 4.0 * pair.chi if span is None else positive("span", span, "1")
-    if not SHORTEST <= reach <= LONGEST:
-        raise refusal("span", span, f"must lie between {SHORTEST:g} and {LONGEST:g}")
+    with_friction(pair, "without friction there is nothing to fit")
+    reach = within("span", 4.0 * pair.chi if span is None else span, SHORTEST, LONGEST, "1")
     psi = np.linspace(0.0, reach, POINTS)
     exact, limit = law_of(pair.chi)(psi), 4.0 * pair.chi
 
     def residual(parameters: Array) -> Array:
         one_plus_beta, ratio = parameters
-        return np.asarray(rigid_rebound(psi, one_plus_beta, limit * ratio) - exact)
+        return np.asarray(psi - np.minimum(one_plus_beta * psi, limit * ratio) - exact)
 
     found = least_squares(residual, (1.3, 1.0), bounds=((0.0, 0.0), (2.0, inf)), x_scale=0.1)
     beta, ratio = float(found.x[0]) - 1.0, float(found.x[1])

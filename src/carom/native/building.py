@@ -20,11 +20,11 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from hashlib import sha256
 from importlib import import_module
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from carom.dimensionless.numerics.kernels import ENTRIES, VARIABLE
+from carom.dimensionless.numerics.kernels import ENTRIES, INSTALL, VARIABLE
 from carom.dimensionless.numerics.shared_library import CONTENTS, FOLDER, PACKAGE, digest
 from carom.native.c_header import kernels_h
 
@@ -60,6 +60,7 @@ def build(folder: Path, levels: Sequence[int] = ()) -> None:
         name: str(each) for kernel in ENTRIES for name, each in kernel.signatures().items()
     }
     contents = {
+        "compiled_by": f"numba {_numba()}",
         "sources": known,
         "files": [path.relative_to(PACKAGE).as_posix() for path in files],
         "signatures": signatures,
@@ -99,7 +100,7 @@ def processor_level(scratch: Path) -> int:
 
 def _kept(known: str, modules: Sequence[str], level: int, scratch: Path) -> Path:
     """Return the library for a level, built now or before."""
-    recipe = [known, digest(OWN_FILES), str(level), version("numba"), version("llvmlite")]
+    recipe = [known, digest(OWN_FILES), str(level), _numba(), version("llvmlite")]
     name = f"libcarom{'' if level == 0 else f'-{level}'}{_ending()}"
     folder = kept_in() / sha256(" ".join(recipe).encode()).hexdigest()[:16]
     if (folder / name).is_file():
@@ -110,6 +111,13 @@ def _kept(known: str, modules: Sequence[str], level: int, scratch: Path) -> Path
         folder.mkdir(parents=True, exist_ok=True)
         _put(scratch / name, folder)
     return scratch / name
+
+
+def _numba() -> str:
+    try:
+        return version("numba")
+    except PackageNotFoundError:
+        raise NotBuilt(f"numba is not installed; {INSTALL}") from None
 
 
 def _put(path: Path, folder: Path) -> None:

@@ -5,9 +5,10 @@ from typing import Any
 
 from carom.dimensionless.elastic import phases, record as elastic
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.panels import record as lossy, work
-from carom.dimensionless.lossy.panels.plans import TOLERANCE
+from carom.dimensionless.lossy.panels import work
 from carom.dimensionless.lossy.rebounds import NEARLY_ELASTIC
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
+from carom.dimensionless.lossy.viscoelastic.record import new_record
 
 ELASTIC = "carom_dimensionless_elastic_batch_fill"
 LOSSY = "carom_dimensionless_lossy_rebounds_fill"
@@ -19,7 +20,7 @@ def kernels_h() -> str:
         "CAROM_ELASTIC": ELASTIC,
         "CAROM_LOSSY": LOSSY,
         "CAROM_ELASTIC_SCRATCH": _shapes((*phases.new_work(), *elastic.new_record(False))),
-        "CAROM_LOSSY_SCRATCH": _shapes((*work.new_work(), *lossy.new_record(False))),
+        "CAROM_LOSSY_SCRATCH": _shapes((*work.new_work(), *new_record(False))),
         "CAROM_NUMBERS": layout.NUMBERS,
         "CAROM_PSI_OUT": layout.PSI_OUT,
         "CAROM_RESTITUTION": layout.RESTITUTION,

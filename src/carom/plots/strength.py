@@ -26,7 +26,7 @@ TITLES = {
 SPEEDS = tuple(f"{name}_{body}" for name in TITLES for body in ("first", "second"))
 
 
-@draws("speeds that bodies bear, what carom.strength returns", "friction", "angle", "status")
+@draws("speeds that bodies bear, what carom.bearable_speeds returns", "friction", "angle", "status")
 def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the speeds from which on bodies yield or crack: lines, or maps of many frictions.
 
@@ -52,7 +52,7 @@ def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
-    >>> figure = carom.plots.plot_strength(carom.strength(pair, angle=["0 deg", "60 deg"]))
+    >>> figure = carom.plots.plot_strength(carom.bearable_speeds(pair, angle=["0 deg", "60 deg"]))
     >>> len(figure.axes)
     2
     """

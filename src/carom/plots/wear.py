@@ -18,7 +18,7 @@ WORK, DEPTH = "friction_work", "wear_depth"
 
 
 @draws(
-    "the wear of one spot, what Impact.wear, or carom.wear without an area, returns",
+    "the wear of one spot, what Impact.wear, or carom.wear_of_many without an area, returns",
     *("mean_friction_work", "distance", "max_wear_radius"),
     along="distance",
     take="wear",
@@ -29,8 +29,8 @@ def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     Parameters
     ----------
     dataset : xarray.Dataset or result
-        What `Impact.wear` returns, or `carom.wear` for impacts on one spot, of which there is no
-        map.
+        What `Impact.wear` returns, or `carom.wear_of_many` for impacts on one spot, of which there
+        is no map.
     **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 

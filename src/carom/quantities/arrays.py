@@ -20,6 +20,7 @@ WIDE = 2**63  # integers that NumPy holds
 AT_ONCE = 10**8  # points of a batch
 PLACES = 1_000_000  # points of fields, which take half a minute
 AXES = {"x", "y", "z"}
+IN_METRES = "must be a list of finite numbers in m"
 ASCII = re.compile(r"[0-9.+\-eE \t]*")  # of which NumPy reads the numbers of the grammar alone
 
 
@@ -227,20 +228,16 @@ def scattered(name: str, given: ArrayLike, columns: int) -> Array:
     return points
 
 
-def line(name: str, given: ArrayLike) -> Array:
-    """Return positions along an axis as an array of shape (n,), or raise InputError."""
-    allowed = "must be a list of finite numbers in m"
+def finite_line(
+    name: str,
+    given: ArrayLike,
+    allowed: str = "must be a list of finite numbers",
+    *,
+    above: float = -np.inf,
+) -> Array:
+    """Return one finite number or more as an array of shape (n,), or raise InputError."""
     values = np.atleast_1d(numbers(name, given, allowed))
-    if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)):
-        raise refusal(name, given, allowed)
-    return values
-
-
-def finite_line(name: str, given: ArrayLike) -> Array:
-    """Return a list of finite numbers as an array of shape (n,), or raise InputError."""
-    allowed = "must be a list of finite numbers"
-    values = np.atleast_1d(numbers(name, given, allowed))
-    bad = ~np.isfinite(values)
+    bad = ~(np.isfinite(values) & (values > above))
     if values.size == 0 or values.ndim > 1 or bad.any():
         raise refusal(name, values[bad][0].item() if bad.any() else given, allowed)
     return values
@@ -248,12 +245,7 @@ def finite_line(name: str, given: ArrayLike) -> Array:
 
 def positive_line(name: str, given: ArrayLike) -> Array:
     """Return one positive number or more as an array of shape (n,), or raise InputError."""
-    allowed = "must be one or more positive finite numbers"
-    values = np.atleast_1d(numbers(name, given, allowed))
-    bad = ~((values > 0.0) & (values < np.inf))
-    if values.size == 0 or values.ndim > 1 or bad.any():
-        raise refusal(name, values[bad][0].item() if bad.any() else given, allowed)
-    return values
+    return finite_line(name, given, "must be one or more positive finite numbers", above=0.0)
 
 
 def places(
@@ -273,7 +265,8 @@ def places(
         at = scattered("points", points, len(space))
         return Places(("point",), {name: ("point", at[:, i]) for i, name in enumerate(space)}, at)
     lines = {
-        name: default[name] if given is None else line(name, given) for name, given in grid.items()
+        name: default[name] if given is None else finite_line(name, given, IN_METRES)
+        for name, given in grid.items()
     }
     if prod(values.size for values in lines.values()) > PLACES:
         sizes = " by ".join(f"{values.size}" for values in lines.values())

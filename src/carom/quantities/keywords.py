@@ -1,6 +1,5 @@
-"""Keywords that a function does not know, or knows by a new name."""
+"""Keywords that a function does not know, refused with the name that is meant."""
 
-import warnings
 from collections.abc import Callable
 from functools import wraps
 from inspect import Parameter, signature
@@ -38,37 +37,3 @@ def known_keywords(function: Callable[Given, Found]) -> Callable[Given, Found]:
         return function(*args, **kwargs)
 
     return called
-
-
-def renamed_keyword(
-    old: str, new: str
-) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
-    """Return a decorator: a keyword by its old name still works, with a DeprecationWarning.
-
-    Examples
-    --------
-    >>> import warnings
-    >>> from carom.quantities.keywords import renamed_keyword
-    >>> @renamed_keyword("mu", "friction")
-    ... def slide(*, friction):
-    ...     return friction
-    >>> with warnings.catch_warnings():
-    ...     warnings.simplefilter("ignore")
-    ...     slide(mu=0.2)
-    0.2
-    """
-
-    def decorate(function: Callable[Given, Found]) -> Callable[Given, Found]:
-        @wraps(function)
-        def called(*args: Given.args, **kwargs: Given.kwargs) -> Found:
-            if old in kwargs:
-                if new in kwargs:
-                    raise InputError(f"{old}: this is the old name of {new}; give only {new}")
-                message = f"{old}= is now called {new}=; the old name will be removed"
-                warnings.warn(message, DeprecationWarning, stacklevel=2)
-                kwargs[new] = kwargs.pop(old)
-            return function(*args, **kwargs)
-
-        return called
-
-    return decorate

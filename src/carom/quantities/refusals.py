@@ -3,9 +3,11 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 from reprlib import Repr
-from typing import Any
+from typing import Any, TypeVar
 
 from carom.quantities.symbols import meant, remark
+
+Kind = TypeVar("Kind")
 
 LONGEST = 120  # characters of a value that a refusal shows
 
@@ -53,8 +55,18 @@ def one_of(name: str, value: Any, known: Iterable[str]) -> str:
     if isinstance(value, str) and value in words:
         return value
     near = nearest(value, words) if isinstance(value, str) else ""
-    choice = " or ".join(words) if len(words) == 2 else f"one of {', '.join(words)}"
-    raise refusal(name, value, f"must be {choice}{near and f'; {near}'}")
+    choice = " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+    which = "one of " if len(words) > 2 else ""
+    raise refusal(name, value, f"must be {which}{choice}{near and f'; {near}'}")
+
+
+def checked_type(
+    name: str, value: Any, kind: type[Kind] | tuple[type[Kind], ...], allowed: str
+) -> Kind:
+    """Return a value that is of a kind, or raise InputError."""
+    if isinstance(value, kind):
+        return value
+    raise refusal(name, value, allowed)
 
 
 def flag(name: str, value: Any) -> bool:

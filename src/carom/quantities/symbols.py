@@ -42,6 +42,7 @@ SYMBOLS: dict[str, tuple[str, ...]] = {  # the first that is known where one is 
     "e": ("normal_restitution", "restitution"),
     "e_n": ("normal_restitution", "restitution"),
     "restitution": ("normal_restitution", "losses"),
+    "normal": ("losses",),  # its name in 0.1
     "e_t": ("tangential_restitution",),
     "beta": ("contact_beta",),
     "e_c": ("contact_restitution",),

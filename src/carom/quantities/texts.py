@@ -66,25 +66,18 @@ COMMON = {  # of most texts: for these pint, which takes a quarter of a second, 
     "Hz": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6},
     "kg/m^3": {"kg/m^3": 1.0, "g/cm^3": 1e3},
     "1": {"%": 1e-2},
+    "Pa m^0.5": {"Pa m^0.5": 1.0, "MPa m^0.5": 1e6},
+    "m^2/N": {"m^2/N": 1.0, "mm^3/(N m)": 1e-9},
 }
 TOUGHNESS = "Pa m^0.5"  # the only unit with half a power: read as it is usually written, no other
-SIZES = {"": 1.0, "k": 1e3, "M": 1e6}
-JOINTS = (" ", "*", "·", ".")
-ROOTS = ("m^0.5", "m^(1/2)", "m^1/2", "m1/2", "m½", "m**0.5", "sqrt(m)", "√m")
 WEAR = "m^2/N"
-CUBES = {"mm^3": 1e-9, "mm³": 1e-9, "mm3": 1e-9, "m^3": 1.0, "m³": 1.0, "m3": 1.0}
-WORKS = ("/(N m)", "/(N*m)", "/(N·m)", "/(N.m)", "/(Nm)", "/Nm", "/N/m")
-SPELT_OUT = {  # as people write them, which the grammar has no words for
-    TOUGHNESS: {
-        f"{k}Pa{joint}{root}": size
-        for k, size in SIZES.items()
-        for root in ROOTS
-        for joint in (*JOINTS, *([""] if root == "√m" else []))
-    },
-    WEAR: {
-        **{f"{cube}{work}": size for cube, size in CUBES.items() for work in WORKS},
-        **{"1/Pa": 1.0, "1/MPa": 1e-6, "1/GPa": 1e-9},
-    },
+ROOT = r"(?:m(?:\^0\.5|\^\(1/2\)|\^1/2|1/2|½|\*\*0\.5)|sqrt\(m\)|√m)"
+SPELT_OUT = {  # as people write them, which the grammar has no words for; sizes by what is captured
+    TOUGHNESS: (re.compile(rf"([kM]?)Pa(?:[ *·.]{ROOT}|√m)"), {"": 1.0, "k": 1e3, "M": 1e6}),
+    WEAR: (
+        re.compile(r"(m?m)(?:\^3|³|3)/(?:\(N[ *·.]?m\)|N/?m)|(1/[MG]?Pa)"),
+        {"mm": 1e-9, "m": 1.0, "1/Pa": 1.0, "1/MPa": 1e-6, "1/GPa": 1e-9},
+    ),
 }
 FOLDED = str.maketrans("", "", BLANKS + "^*·⋅.(){}")
 
@@ -181,9 +174,11 @@ def factor(expression: str, unit: str) -> Factor:
 
 @lru_cache(maxsize=4096)
 def _factor(expression: str, unit: str) -> Factor | Unreadable:
-    known = COMMON.get(unit, {}).get(expression, SPELT_OUT.get(unit, {}).get(expression))
-    if known is not None:
-        return as_factor(known)
+    if expression in COMMON.get(unit, {}):
+        return as_factor(COMMON[unit][expression])
+    pattern, sizes = SPELT_OUT.get(unit, (NUMBER, {}))
+    if sizes and (spelt := pattern.fullmatch(expression)):
+        return as_factor(sizes[spelt[spelt.lastindex or 0]])
     if unit == TOUGHNESS:
         return Unreadable(f"{expression!r} is not a unit of fracture toughness")
     try:
@@ -250,7 +245,7 @@ def _refuse_doubled(terms: tuple[tuple[str, int], ...]) -> None:
 def _spelling(expression: str, unit: str) -> str:
     """Return how a common unit is written that stands here in other letters, or nothing."""
     plain = expression.lower().translate(LOWERED).translate(FOLDED)
-    known = (*COMMON.get(unit, ()), *SPELT_OUT.get(unit, ()))
+    known = COMMON.get(unit, ())
     return next((each for each in known if each.lower().translate(FOLDED) == plain), "")
 
 

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from decimal import Decimal
 from numbers import Integral, Real
@@ -29,6 +29,8 @@ WHOLE = re.compile(r"[+-]?[0-9]{1,40}")
 REAL = "iuf"  # kinds of NumPy's types
 BEARING = ("unit", "units", "Units", "dimension", "dimensionality")  # attributes of quantities
 PACKED = ("scale_factor", "add_offset")  # attributes by which numbers of files are still to change
+APPROACH = ": the bodies must approach"
+WHY_POSITIVE = dict.fromkeys(("speed", "normal_speed"), APPROACH)
 PURE = ("1", "-", "dimensionless")  # how tables and attributes call the unit of pure numbers
 
 HINTS = {
@@ -66,16 +68,18 @@ def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHAN
     """
     unit = unit or GLOSSARY[name].unit
     plain, told = told_unit(name, value, unit)
-    if isinstance(plain, str):
-        if told is not None:
-            allowed = f"it is a text, and has the unit {told}, too; {_expected(unit)}"
-            raise refusal(name, plain, allowed)
-        return _of_text(name, plain, unit, bare)
-    result = as_float(name, plain) if is_real(plain) else math.nan
-    if math.isnan(result):
-        raise refusal(name, value, _expected(unit))
-    own = bare if told is None else factor_of(name, told, unit)
-    return _scaled(name, value, result, own)
+    reason, enough = "", False
+    try:
+        if isinstance(plain, str):
+            if told is None:
+                return read_text(plain, unit, bare)
+            reason = f"it is a text, and has the unit {told}, too"
+        elif is_real(plain) and not math.isnan(real := as_float(name, plain)):
+            return (bare if told is None else factor_of(name, told, unit)).apply(real)
+    except Unreadable as error:
+        reason, enough = str(error), error.enough
+    words = filter(None, (reason, "" if enough else _expected(unit)))
+    raise refusal(name, plain if isinstance(plain, str) else value, "; ".join(words))
 
 
 def pure_number(name: str, value: Any, allowed: str = "give one number") -> float:
@@ -86,8 +90,8 @@ def pure_number(name: str, value: Any, allowed: str = "give one number") -> floa
     plain, told = told_unit(name, value, "1")
     if not is_real(plain):
         raise refusal(name, value, allowed)
-    own = UNCHANGED if told is None else factor_of(name, told, "1")
-    return _scaled(name, value, as_float(name, plain), own)
+    own, real = UNCHANGED if told is None else factor_of(name, told, "1"), as_float(name, plain)
+    return real if math.isnan(real) else number(name, real, "1", own)
 
 
 def is_real(value: Any) -> bool:
@@ -187,27 +191,40 @@ def factor_of(name: str, own: Any, unit: str) -> Factor:
 
 def positive(name: str, value: Any, unit: str | None = None) -> float:
     """Return a positive finite value in SI units, or raise InputError."""
-    result = number(name, value, unit)
-    if not 0.0 < result < math.inf:
-        raise refusal(name, value, f"must be positive and finite, e.g. {_example(name, unit)}")
-    return result
+    allowed = f"must be positive and finite{WHY_POSITIVE.get(name, '')}"
+    return _checked(name, value, unit, lambda x: x > 0.0, allowed)
 
 
 def not_negative(name: str, value: Any, unit: str | None = None) -> float:
     """Return a finite value >= 0 in SI units, or raise InputError."""
-    result = number(name, value, unit)
-    if not 0.0 <= result < math.inf:
-        allowed = f"must be zero or positive and finite, e.g. {_example(name, unit)}"
-        raise refusal(name, value, allowed)
-    return result
+    return _checked(name, value, unit, lambda x: x >= 0.0, "must be zero or positive and finite")
 
 
 def finite(name: str, value: Any, unit: str | None = None) -> float:
     """Return a finite value in SI units, or raise InputError."""
+    return _checked(name, value, unit, math.isfinite, "must be finite")
+
+
+def within(name: str, value: Any, least: float, most: float, unit: str | None = None) -> float:
+    """Return a value in SI units that is from `least` to `most`, or raise InputError."""
     result = number(name, value, unit)
-    if not math.isfinite(result):
-        raise refusal(name, value, "must be finite")
-    return result
+    if least <= result <= most:
+        return result
+    raise refusal(name, value, f"must be from {least:g} to {most:g}")
+
+
+def _checked(
+    name: str, value: Any, unit: str | None, is_allowed: Callable[[float], bool], allowed: str
+) -> float:
+    unit = unit or GLOSSARY[name].unit
+    result = number(name, value, unit)
+    if math.isfinite(result) and is_allowed(result):
+        return result
+    raise refusal(name, value, f"{allowed}, e.g. {_example(unit)}")
+
+
+def _example(unit: str) -> str:
+    return repr(HINTS.get(unit, f"3 {unit}"))
 
 
 def counted(name: str, value: Any, least: int, most: int = MOST) -> int:
@@ -254,29 +271,10 @@ def or_none(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def _example(name: str, unit: str | None) -> str:
-    return f"'{HINTS[unit or GLOSSARY[name].unit]}'"
-
-
 def _expected(unit: str) -> str:
     if unit == "1":
         return "give a number, e.g. 0.3 or '30 %'"
-    return f"give a number in {unit}, or text with a unit such as {HINTS.get(unit, f'3 {unit}')!r}"
-
-
-def _scaled(name: str, given: Any, found: float, own: Factor) -> float:
-    try:
-        return own.apply(found)
-    except Unreadable as error:
-        raise refusal(name, given, str(error)) from None
-
-
-def _of_text(name: str, text: str, unit: str, bare: Factor) -> float:
-    try:
-        return read_text(text, unit, bare)
-    except Unreadable as error:
-        expected = () if error.enough else (_expected(unit),)
-        raise refusal(name, text, "; ".join(filter(None, (str(error), *expected)))) from None
+    return f"give a number in {unit}, or text with a unit such as {_example(unit)}"
 
 
 def _of_pint(own: Any, unit: str) -> Factor:

@@ -8,6 +8,7 @@ from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from carom.io.extras import extra
 from carom.io.progress import Progress, advancing
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, flag
@@ -16,12 +17,13 @@ from carom.sweeps.designs import Design
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import MemoryRecord, SweepStopped
 from carom.sweeps.schedulers import team
-from carom.sweeps.stores import StoreRecord, opened
 
 if TYPE_CHECKING:
     import xarray as xr
 
-BlockRecord = MemoryRecord | StoreRecord  # where the blocks of a sweep are kept
+    from carom.sweeps.stores import StoreRecord
+
+    BlockRecord = MemoryRecord | StoreRecord  # where the blocks of a sweep are kept
 
 
 @known_keywords
@@ -56,7 +58,7 @@ def sweep(
         Continue the sweep that is in the store: what is finished is not computed again.
     scheduler : str, optional
         Address of the scheduler of a dask.distributed cluster, tcp://host:8786, whose workers have
-        the same versions of carom, numpy and numba.
+        the same versions of carom and numpy, and a solver that the same numba has compiled.
     workers : int, optional
         Number of threads of this process, by default one for each core.
     progress : bool or callable, optional
@@ -110,7 +112,10 @@ def _record(
 ) -> AbstractContextManager[BlockRecord]:
     """Return what keeps the results: a store, or memory."""
     if store is not None:
-        return opened(store, problem, resume)
+        record: AbstractContextManager[StoreRecord] = extra(
+            "carom.sweeps.stores", "a store"
+        ).opened(store, problem, resume)
+        return record
     if resume:
         raise InputError("resume: there is no store to continue; give the store, too")
     return nullcontext(MemoryRecord(problem))

@@ -35,7 +35,7 @@ class PointStatus(WordedStatus):
     Examples
     --------
     >>> import carom
-    >>> carom.PointStatus(3).message
+    >>> carom.status.PointStatus(3).message
     'bodies do not approach'
     """
 

@@ -78,7 +78,7 @@ class SweepProblem:
     >>> found = problem.block((slice(0, 3),))
     >>> found["psi_out"].round(4).tolist()
     [-0.4269, -1.4738, nan]
-    >>> [carom.PointStatus(status).message for status in found["status"]]
+    >>> [carom.status.PointStatus(status).message for status in found["status"]]
     ['solved', 'solved', 'bodies do not approach']
     """
 

@@ -9,13 +9,13 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential, components
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, check_second_spin
 from carom.bodies.shapes import Sphere
 from carom.impacts.outcome import Outcome
 from carom.impacts.wear import rubbed
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, along_the_same, numbers, together
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError
 from carom.sweeps.points import (
     BlockSolution,
     Codes,
@@ -73,8 +73,7 @@ def read_columns(pair: Pair, motion: dict[str, ArrayLike | None]) -> dict[str, A
     given = {name: 0.0 if value is None else value for name, value in motion.items()}
     along_the_same(**given)
     read = {name: numbers(name, value, REALS, gaps=True) for name, value in given.items()}
-    if read["spin2"].any() and not isinstance(pair.second, Sphere):
-        raise refusal("spin2", given["spin2"], "only a second sphere can spin; leave it out")
+    check_second_spin(pair, given["spin2"], spins=bool(read["spin2"].any()))
     shape = together(read)
     if not isinstance(pair.second, Sphere):
         del read["spin2"]

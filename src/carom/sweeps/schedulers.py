@@ -9,6 +9,7 @@ from importlib.metadata import version
 from itertools import islice
 from typing import Any, NamedTuple
 
+from carom.dimensionless.numerics.kernels import compiled_by
 from carom.dimensionless.numerics.threads import available_cores
 from carom.io.extras import extra
 from carom.io.version import __version__
@@ -127,7 +128,8 @@ def _checked_threads(client: Any, address: str) -> int:
 @lru_cache(maxsize=1)
 def versions() -> dict[str, str]:
     """Return the versions of what decides the last bit of a result."""
-    return {"carom": __version__} | {name: version(name) for name in ("numpy", "numba")}
+    own = {"carom": __version__, "numpy": version("numpy")}
+    return own | {"a solver compiled by": compiled_by()}
 
 
 def _require_same(worker: str, found: Any, expected: dict[str, str] | None = None) -> None:

@@ -1,8 +1,10 @@
 """A sweep in a Zarr store: made whole, written block by block by one process, continued.
 
-Each file is written whole or not at all, the status of a block after everything else of it. So a
+Zarr writes each file whole or not at all, the status of a block after everything else of it. So a
 block is finished exactly when no point of it has the status `NOT_RUN`, whatever happened to the
-process that wrote it; unless a file of it has been damaged since, which its checksum tells.
+process that wrote it; unless a file of it has been damaged since, which its seal tells.
+
+This needs zarr: import it by `extra`.
 """
 
 import errno
@@ -11,7 +13,7 @@ import os
 import shutil
 import uuid
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from itertools import islice
@@ -19,14 +21,15 @@ from pathlib import Path
 from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
+import filelock
 import numpy as np
-from numpy.typing import NDArray
+import zarr
+from zarr.codecs import ZstdCodec
 
 from carom.dimensionless.numerics.threads import available_cores
-from carom.io.extras import extra
 from carom.io.files import STORE
 from carom.io.paths import checked_path
-from carom.io.stores import LEVEL, STATUS, chunks_of, freeze, read_store, seal
+from carom.io.stores import CHUNK, STATUS, SealedStore, freeze, read_store
 from carom.io.version import __version__
 from carom.quantities.refusals import refusal
 from carom.sweeps.blocks import Box, Values, boxes
@@ -38,57 +41,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 LOCK = f"{STATUS}/.lock"  # a place that zarr does not list
+COMPRESSOR = ZstdCodec(level=1)  # floating-point numbers gain nothing from more
+BLANK = {"float64": np.nan, "int8": PointStatus.NOT_RUN.value}  # of points that have not been run
 FULL = (errno.ENOSPC, errno.EDQUOT)
 SHOWN = 3  # differences in a refusal
-
-
-def codecs() -> dict[str, Any]:
-    """Return the codecs of such arrays, for `zarr.Group.create_array`."""
-    zarr_codecs = extra("zarr.codecs", "a store")
-    return {
-        "serializer": zarr_codecs.BytesCodec(endian="little"),
-        "compressors": zarr_codecs.ZstdCodec(level=LEVEL, checksum=True),
-    }
-
-
-def key_of(name: str, corner: Sequence[int]) -> str:
-    """Return the place in a store of the chunk with this index of an array."""
-    return "/".join((name, "c", *map(str, corner)))
-
-
-def write_chunk(
-    array: Path,
-    corner: Sequence[int],
-    chunk: Sequence[int],
-    values: NDArray[Any],
-    store: bytes = b"",
-) -> None:
-    """Write the values of a chunk, which may be cut by the end of the array.
-
-    Parameters
-    ----------
-    array : Path
-        Folder of the array.
-    corner, chunk : sequence of int
-        Index of the chunk, and the shape that chunks have.
-    values : ndarray
-        What the chunk has inside the array.
-    store : bytes
-        What tells the store from others, for the seal.
-    """
-    zstd = extra("numcodecs.zstd", "a store").Zstd(LEVEL, checksum=True)
-    whole = np.zeros(chunk, values.dtype.newbyteorder("<"))
-    whole[tuple(slice(length) for length in values.shape)] = values
-    key, content = key_of(array.name, corner), zstd.encode(whole)
-    target = array.parent / key
-    target.parent.mkdir(parents=True, exist_ok=True)
-    partial = target.with_name(f"{target.name}.partial")
-    try:
-        partial.write_bytes(content + seal(store, key, content))
-        os.replace(partial, target)
-    except BaseException:
-        partial.unlink(missing_ok=True)
-        raise
 
 
 class StoreRecord:
@@ -96,11 +52,15 @@ class StoreRecord:
 
     def __init__(self, path: Path, names: Iterable[str]) -> None:
         self.path = path
-        self._names = list(names)
-        there = read_store(path)
-        self._chunks = chunks_of(there, path)
-        self._shape = there[STATUS].encoding["chunks"]
-        blocks = list(boxes(there[STATUS].shape, self._shape))
+        self._store = SealedStore(path, read_only=False)
+        with zarr.config.set({"array.write_empty_chunks": True}):
+            group = zarr.open_consolidated(self._store, mode="r+")
+            self._arrays: dict[str, Any] = {name: group[name] for name in names}
+        status = self._arrays[STATUS]
+        self._chunks = status.chunks
+        for partial in path.rglob("*.partial"):  # of a process that was killed
+            partial.unlink()
+        blocks = list(boxes(status.shape, self._chunks))
         with ThreadPoolExecutor(available_cores()) as pool:
             finished = list(pool.map(self._is_finished, blocks))
         self.todo = [box for box, whole in zip(blocks, finished, strict=True) if not whole]
@@ -108,27 +68,16 @@ class StoreRecord:
 
     def _is_finished(self, box: Box) -> bool:
         """Tell whether a block is there as a whole, and none of its files is damaged."""
-        status = self._read(STATUS, box)
-        if status is None or PointStatus.NOT_RUN in np.frombuffer(status, np.int8):
+        corner = "/".join(str(p.start // n) for p, n in zip(box, self._chunks, strict=True))
+        if not all(self._store.is_sound(f"{name}{CHUNK}{corner}") for name in self._arrays):
             return False
-        return all(self._read(name, box) is not None for name in self._names)
-
-    def _read(self, name: str, box: Box) -> bytes | None:
-        key = key_of(name, self._corner(box))
-        try:
-            return self._chunks.decoded(key, (self.path / key).read_bytes())
-        except OSError:
-            return None
-
-    def _corner(self, box: Box) -> list[int]:
-        return [part.start // size for part, size in zip(box, self._shape, strict=True)]
+        return PointStatus.NOT_RUN not in self._arrays[STATUS][box]
 
     def write(self, box: Box, values: Values) -> None:
         """Write a block, its status last; raises SweepStopped if that fails."""
-        corner, store = self._corner(box), self._chunks.store
         try:
             for name in sorted(values, key=STATUS.__eq__):
-                write_chunk(self.path / name, corner, self._shape, values[name], store)
+                self._arrays[name][box] = values[name]
         except OSError as error:
             advice = "; free some space" if error.errno in FULL else ""
             raise SweepStopped(f"{self.path}: {error.strerror}{advice}") from None
@@ -141,7 +90,7 @@ class StoreRecord:
 
     def dataset(self) -> "xr.Dataset":
         """Return the sweep, its values read when they are used."""
-        return read_store(self.path)[self._names]
+        return read_store(self.path)[list(self._arrays)]
 
 
 @contextmanager
@@ -175,7 +124,6 @@ def _checked(folder: str | Path) -> Path:
 
 @contextmanager
 def _locked(path: Path) -> Iterator[None]:
-    filelock = extra("filelock", "a store")
     lock = filelock.FileLock(path / LOCK, blocking=False)
     try:
         lock.acquire()
@@ -209,29 +157,20 @@ def _create(path: Path, problem: SweepProblem) -> None:
 
 
 def _fill(path: Path, problem: SweepProblem) -> None:
-    zarr = extra("zarr", "a store")
     blank_dataset(problem).to_zarr(path, zarr_format=3, consolidated=False)
     group = zarr.open_group(path, mode="r+")
-    shape, dims = problem.design.shape, problem.design.dims
-    layout = {"shape": shape, "chunks": problem.chunks(), "dimension_names": dims, **codecs()}
     for name, info in problem.variables().items():
-        told = {"fill_value": _blank(name, info.dtype), "attributes": _jsonable(info.attributes)}
-        group.create_array(name, dtype=info.dtype, **layout, **told)
+        group.create_array(
+            name,
+            dtype=info.dtype,
+            shape=problem.design.shape,
+            chunks=problem.chunks(),
+            compressors=COMPRESSOR,
+            dimension_names=problem.design.dims,
+            fill_value=BLANK[info.dtype],
+            attributes=json.loads(json.dumps(info.attributes, default=np.ndarray.tolist)),
+        )
     zarr.consolidate_metadata(path)
-
-
-def _blank(name: str, dtype: Any) -> Any:
-    """Return what stands for a point that has not been run."""
-    if name == STATUS:
-        return PointStatus.NOT_RUN.value
-    return np.nan if np.dtype(dtype).kind == "f" else None
-
-
-def _jsonable(attributes: Mapping[str, Any]) -> dict[str, Any]:
-    return {
-        name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
-        for name, value in attributes.items()
-    }
 
 
 def _check(path: Path, problem: SweepProblem) -> None:

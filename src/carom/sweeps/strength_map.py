@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, checked_pair
 from carom.impacts.peaks import UNCOUPLED
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
 from carom.sweeps.strength import speeds_known, unit_case
@@ -26,7 +25,7 @@ ANGLES = np.linspace(0.0, 85.0, 18) * (pi / 180.0)  # where none are given
 
 
 @known_keywords
-def strength(
+def bearable_speeds(
     pair: Pair,
     *,
     angle: ArrayLike | None = None,
@@ -80,12 +79,11 @@ def strength(
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
-    >>> found = carom.strength(pair, angle=["0 deg", "60 deg"])
+    >>> found = carom.bearable_speeds(pair, angle=["0 deg", "60 deg"])
     >>> found.yield_speed_second.round(2).values
     array([[0.87, 1.62]])
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    checked_pair(pair)
     outputs = speeds_known(pair)
     axes = {
         "friction": pair.friction if friction is None else friction,

@@ -13,7 +13,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from carom.io.columns import column_in_si
-from carom.io.tables import Cells, read_table
+from carom.io.tables import read_table
+from carom.io.user_table import UserTable
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, refusal
@@ -97,7 +98,7 @@ def _read(
         for name in table.names:
             try:
                 checked_names([name])
-                unit, cells = table.column(name)
+                _, cells, unit, _ = table.column(name)
                 if name in CHOSEN:
                     inputs[name], choices[name] = _chosen(name, cells)
                 else:
@@ -112,9 +113,9 @@ def _read(
     return choices, inputs
 
 
-def _refuse_units(table: Cells, name: str, values: NDArray[Any]) -> None:
+def _refuse_units(table: UserTable, name: str, values: NDArray[Any]) -> None:
     """Raise InputError for a cell that is a unit: what stands below it would be read without."""
-    cells = table.columns[name].cells
+    cells = table.cells[name].cells
     for place in np.flatnonzero(np.isnan(values)) if isinstance(cells, list) else ():
         text = str(cells[place]).strip("[]() ")
         with suppress(Unreadable):
@@ -125,9 +126,9 @@ def _refuse_units(table: Cells, name: str, values: NDArray[Any]) -> None:
                 )
 
 
-def _refuse_words(table: Cells, names: list[str]) -> None:
+def _refuse_words(table: UserTable, names: list[str]) -> None:
     """Raise InputError if the first row is none: words where there are numbers below."""
-    first = [table.columns[name].cells[0] for name in names]
+    first = [table.cells[name].cells[0] for name in names]
     words = [cell for cell in first if isinstance(cell, str) and cell.strip().lower() not in GAPS]
     if words and not re.search(r"\d", "".join(map(str, first))):
         allowed = "it has no number; leave it out, and write units into the head, 'speed [mm/s]'"

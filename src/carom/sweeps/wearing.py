@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential
-from carom.bodies.losses import KelvinVoigt, LossLaw
-from carom.bodies.pairs import Pair
+from carom.bodies.losses import LossLaw
+from carom.bodies.pairs import Pair, checked_pair
 from carom.bodies.shapes import describe
 from carom.dimensionless.lossy.law import checked_law
 from carom.impacts.exact import solve_exactly
@@ -32,7 +32,7 @@ STATUS = {
 
 
 @known_keywords
-def wear(
+def wear_of_many(
     pair: Pair,
     *,
     speed: ArrayLike | None = None,
@@ -72,7 +72,7 @@ def wear(
     area : float or str, optional
         Area in m^2 over which the impacts are spread evenly; without it they all hit one spot.
     losses : KelvinVoigt, StandardLinearSolid or ElasticPlastic, optional
-        How the impacts lose energy besides friction; on one spot only KelvinVoigt.
+        How the impacts lose energy besides friction.
     n : int
         Number of distances from the centre of the spot, from 2 to 100,000.
     progress : bool or callable, optional
@@ -89,34 +89,32 @@ def wear(
         spread_friction_work and spread_wear_depth. Without an area mean_friction_work and
         mean_wear_depth along `distance`, means around the centre, and max_friction_work and
         max_wear_depth at the deepest place, at the distance max_wear_radius. On one spot an elastic
-        impact takes some 2 ms, a viscous one 0.2 s. The work of each viscous impact is known to
-        some 1e-7 of its energy.
+        impact takes some 2 ms, one with losses 0.2 s and more. The work of each viscous impact is
+        known to some 1e-7 of its energy.
 
     Raises
     ------
     InputError
-        If arrays do not fit each other, a number is given twice or cannot be read, or wear on a
-        spot is asked for a solid whose pressure is not known. An impact that is out of range or not
-        solved raises nothing; its status says so.
+        If arrays do not fit each other, or a number is given twice or cannot be read. An impact
+        that is out of range or not solved raises nothing; its status says so.
 
     Examples
     --------
     >>> import carom
     >>> ball = carom.Sphere(radius="2 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> mill = carom.wear(
+    >>> mill = carom.wear_of_many(
     ...     pair, speed="3 m/s", angle=["20 deg", "45 deg", "70 deg"], counts=[5e5, 3e5, 1e5],
     ...     coefficient="1e-13 m^2/N", area="1 cm^2",
     ... )
     >>> f"{float(mill.spread_wear_depth) * 1e9:.1f} nm"
     '219.2 nm'
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    checked_pair(pair)
     count = counted("n", n, 2, MOST_RADII)
     per_load = None if coefficient is None else read_coefficient(coefficient)
     spread = None if area is None else positive("area", area)
-    _checked(losses, pair, spread is None)
+    _checked(losses, pair)
     motion = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
     motion |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2, "counts": counts}
     many = solve_all(pair, read_columns(pair, motion), losses, progress)
@@ -202,15 +200,12 @@ def _of_spot(
     return found
 
 
-def _checked(losses: LossLaw | None, pair: Pair, on_spot: bool) -> None:
+def _checked(losses: LossLaw | None, pair: Pair) -> None:
     """Raise InputError for losses that many impacts cannot have, before any is solved."""
     if losses is None:
         return
     if any(map(np.ndim, checked_law(losses, "loss")(pair, 1.0))):
         raise refusal("losses", losses, "wear takes one number; carom.sweep takes many")
-    if on_spot and not isinstance(losses, KelvinVoigt):
-        allowed = "wear on a spot needs the pressure, which such a solid does not give"
-        raise refusal("losses", losses, f"{allowed}; take KelvinVoigt, or give the area")
 
 
 def _inputs(pair: Pair, losses: LossLaw | None) -> dict[str, Any]:

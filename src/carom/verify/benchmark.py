@@ -11,14 +11,14 @@ from numpy.typing import ArrayLike
 from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace, Sphere
+from carom.dem.base import ContactLaw, Law
 from carom.io.progress import Progress, advancing
-from carom.io.tables import CASE
-from carom.laws.dem import ContactLaw, Law
+from carom.io.user_table import CASE
 from carom.quantities.arrays import finite_line
-from carom.quantities.refusals import InputError, refusal
-from carom.verify.catalogue import CATALOGUE, EXACT, Entry, as_entry
+from carom.quantities.refusals import InputError, checked_type, refusal
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
+from carom.verify.entries import CATALOGUE, EXACT, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
     exact_rebound,
@@ -161,8 +161,7 @@ def bench(
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
     """
     bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
-    if not isinstance(engine, Engine):
-        raise refusal("engine", engine, "must be a DEM program, e.g. carom.verify.Lammps()")
+    checked_type("engine", engine, Engine, "must be a DEM program, e.g. carom.verify.Lammps()")
     if engine.executable() is None:
         raise InputError(f"{engine.name}: {engine.remedy}")
     known = _supported(engine, [as_entry(given) for given in laws_of("entries", entries)])

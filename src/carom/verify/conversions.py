@@ -7,17 +7,17 @@ from collections.abc import Callable
 from math import exp, pi, sqrt
 from typing import NamedTuple
 
-from carom.bodies.pairs import Pair, checked_scales
-from carom.dimensionless.numerics.hertz import DURATION
-from carom.laws import dem
-from carom.laws.dem.damping import (
+from carom import dem
+from carom.bodies.pairs import Pair, checked_pair, checked_scales
+from carom.dem.damping import (
     SMALLEST,
     damped_restitution,
     damping_ratio,
     thornton_damping,
     tsuji_damping,
 )
-from carom.quantities.refusals import one_of, refusal
+from carom.dimensionless.numerics.hertz import DURATION
+from carom.quantities.refusals import checked_type, one_of, refusal
 from carom.quantities.units import Value, not_negative, positive
 
 SPRING, MINDLIN = dem.LinearSpring(), dem.LammpsMindlin("mindlin_rescale/force")
@@ -75,8 +75,7 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
     >>> f"{found.normal:.4g} N/m, k_t/k_n = {found.ratio:.4f}"
     '2.982e+07 N/m, k_t/k_n = 0.8235'
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    checked_pair(pair)
     scales = checked_scales(pair, positive("normal_speed", normal_speed))
     normal = 0.8 * scales.force / scales.length
     return Stiffnesses(
@@ -129,7 +128,7 @@ CONVENTIONS: dict[str, tuple[str, Callable[[float], float]]] = {
 }
 
 
-def damping(restitution: float, convention: str = "critical") -> float:
+def damping_from_restitution(restitution: float, convention: str = "critical") -> float:
     """Return the damping, a pure number, that DEM codes need for a restitution.
 
     "critical" is the fraction zeta = -ln e/sqrt(pi^2 + ln^2 e) of critical damping: c = 2 zeta
@@ -158,15 +157,15 @@ def damping(restitution: float, convention: str = "critical") -> float:
     Examples
     --------
     >>> import carom
-    >>> zeta = carom.verify.damping(0.5)
-    >>> round(zeta, 4), round(carom.verify.restitution(zeta), 12)
+    >>> zeta = carom.verify.damping_from_restitution(0.5)
+    >>> round(zeta, 4), round(carom.verify.restitution_from_damping(zeta), 12)
     (0.2155, 0.5)
     """
     value = damped_restitution("restitution", restitution)
     return _rule(convention)(value) + 0.0  # no -0 at e = 1
 
 
-def restitution(value: float, convention: str = "critical") -> float:
+def restitution_from_damping(value: float, convention: str = "critical") -> float:
     """Return the restitution of a damping, the inverse of `damping`.
 
     Parameters
@@ -189,8 +188,8 @@ def restitution(value: float, convention: str = "critical") -> float:
     Examples
     --------
     >>> import carom
-    >>> alpha = carom.verify.damping(0.7, "lammps tsuji")
-    >>> round(carom.verify.restitution(alpha, "lammps tsuji"), 10)
+    >>> alpha = carom.verify.damping_from_restitution(0.7, "lammps tsuji")
+    >>> round(carom.verify.restitution_from_damping(alpha, "lammps tsuji"), 10)
     0.7
     """
     from scipy.optimize import brentq
@@ -254,16 +253,15 @@ def recipes(
         ("spring", spring, dem.LinearSpring),
         ("mindlin", mindlin, dem.LammpsMindlin),
     ):
-        if not isinstance(law, kind):
-            raise refusal(name, law, f"must be a {kind.__name__}, e.g. carom.{kind.__name__}()")
+        checked_type(name, law, kind, f"must be a {kind.__name__}, e.g. carom.{kind.__name__}()")
     e = damped_restitution("restitution", wanted)
-    k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping(e)
+    k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping_from_restitution(e)
     ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio
     k_n, k_t, dashpot = k.normal, ratio * k.normal, 2.0 * zeta * sqrt(k.normal * pair.normal_mass)
     loss, sideways, rule = 0.0, 0.0, "velocity"
     if e < 1.0:
         loss, sideways, rule = e, mindlin.tangential_damping, "coeff_restitution"
-    beta = damping(e, "thornton")
+    beta = damping_from_restitution(e, "thornton")
     return {
         "LAMMPS Hertz": f"hertz {k.hertz:.4e} {loss:g} tangential {mindlin.variant}"
         f" {mindlin.stiffness * k.mindlin:.4e} {sideways:g} {mu:g} damping {rule}",

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.losses import KelvinVoigt
+from carom.dem import FunctionLaw
+from carom.dem.base import SOLID, ContactLaw, Law
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
-from carom.laws.base import SOLID
-from carom.laws.dem import ContactLaw, FunctionLaw, Law
 from carom.quantities.arrays import Array, finite_line, positive_line
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import finite, positive
@@ -48,7 +48,7 @@ def as_law(law: object) -> Law:
         return law
     if callable(law) and is_function(law):
         return FunctionLaw(law)
-    raise refusal("law", law, "must be a contact law, e.g. carom.LinearSpring()")
+    raise refusal("law", law, "must be a contact law, e.g. carom.dem.LinearSpring()")
 
 
 def laws_of(name: str, given: Any) -> Sequence[Any]:
@@ -57,7 +57,7 @@ def laws_of(name: str, given: Any) -> Sequence[Any]:
         return [given]
     if isinstance(given, list | tuple) and given:
         return given
-    raise refusal(name, given, "give at least one law, e.g. [carom.LinearSpring()]")
+    raise refusal(name, given, "give at least one law, e.g. [carom.dem.LinearSpring()]")
 
 
 def law_rebound(
@@ -169,7 +169,7 @@ def error_map(
     Parameters
     ----------
     law : Law or callable
-        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
+        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     psi, chi : array_like, optional
         Values along both axes, chi positive. By default chi goes over solid spheres, from 7/6
         (nu = 1/2) to 7/4 (nu = 0), and psi_1 up to where all of these slide throughout.
@@ -190,7 +190,7 @@ def error_map(
     Examples
     --------
     >>> import carom
-    >>> found = carom.verify.error_map(carom.LinearSpring(), [1.0, 6.0], [1.4412])
+    >>> found = carom.verify.error_map(carom.dem.LinearSpring(), [1.0, 6.0], [1.4412])
     >>> found.error.values.round(3)
     array([[0.176, 0.   ]])
     """
@@ -242,7 +242,7 @@ def force_error(
     Parameters
     ----------
     law : Law or callable
-        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
+        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     psi : float
         Incidence psi_1.
     chi : float
@@ -263,7 +263,7 @@ def force_error(
     Examples
     --------
     >>> import carom
-    >>> round(carom.verify.force_error(carom.LammpsMindlin("mindlin"), 0.75, 1.4412).rms, 2)
+    >>> round(carom.verify.force_error(carom.dem.LammpsMindlin("mindlin"), 0.75, 1.4412).rms, 2)
     0.16
     """
     law = as_law(law)

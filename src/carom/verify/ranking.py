@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom import plots
+from carom.dem.base import ContactLaw
+from carom.dem.damping import damped_restitution
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.laws.dem import ContactLaw
-from carom.laws.dem.damping import damped_restitution
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.units import or_none
-from carom.verify.catalogue import CATALOGUE, Entry, as_entry
+from carom.verify.entries import CATALOGUE, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
     LawOrFunction,
@@ -79,7 +79,8 @@ class Ranking(Result):
     Examples
     --------
     >>> import carom
-    >>> ranking = carom.verify.rank([carom.LinearSpring(), carom.HardSphere()], psi=[1.0, 6.0])
+    >>> laws = [carom.dem.LinearSpring(), carom.dem.HardSphere()]
+    >>> ranking = carom.verify.rank(laws, psi=[1.0, 6.0])
     >>> [round(one.max_error, 2) for one in ranking.standings]
     [0.06, 0.18]
     """
@@ -187,8 +188,8 @@ def rank(
     Parameters
     ----------
     entries : sequence of Entry, Law or callable
-        Laws, functions as of `carom.FunctionLaw`, or entries with a label and the programs that use
-        the law; by default the whole catalogue.
+        Laws, functions as of `carom.dem.FunctionLaw`, or entries with a label and the programs that
+        use the law; by default the whole catalogue.
     chi : float
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
@@ -218,10 +219,11 @@ def rank(
     Examples
     --------
     >>> import carom
-    >>> best = carom.verify.rank(carom.verify.CATALOGUE[:2]).standings[0]
+    >>> best = carom.verify.rank(carom.verify.catalogue()[:2]).standings[0]
     >>> best.entry.label, round(best.max_error, 3)
     ('linear spring, k_t/k_n = kappa', 0.176)
-    >>> damped = carom.verify.rank(carom.LammpsMindlin("mindlin"), psi=[0.5, 2.0], restitution=0.7)
+    >>> law = carom.dem.LammpsMindlin("mindlin")
+    >>> damped = carom.verify.rank(law, psi=[0.5, 2.0], restitution=0.7)
     >>> round(damped.standings[0].max_error, 2)
     0.27
     """

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from carom.bodies.cases import Case, losses_of, motion_of, pair_of
 from carom.bodies.kinematics import approach, slope
 from carom.bodies.losses import KelvinVoigt, LossLaw
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, with_friction
+from carom.dem.damping import damped_restitution
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.laws.dem.damping import damped_restitution
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import finite, positive
 
@@ -64,10 +64,7 @@ def setting_of(
     if restitution is None and (told := constant_restitution(losses_of(case))) is not None:
         wanted = damped_restitution("restitution", told)
     pair, motion = pair_of(case), motion_of(case)
-    if pair.friction == 0.0:
-        raise refusal(
-            "friction", 0.0, "must be positive; without friction there is nothing to tune"
-        )
+    with_friction(pair, "without friction there is nothing to tune")
     given = {name: motion.get(name) for name in SPEEDS}
     speed = approach(**given)[0] if any(value is not None for value in given.values()) else SPEED
     per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu

@@ -50,7 +50,7 @@ def step_error(
     Parameters
     ----------
     law : Law or callable
-        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
+        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     steps : int
         Time steps per t_c, from 10 to two million.
     psi : array_like
@@ -73,7 +73,7 @@ def step_error(
     Examples
     --------
     >>> import carom
-    >>> carom.verify.step_error(carom.LammpsMindlin("mindlin"), 100) < 1e-3
+    >>> carom.verify.step_error(carom.dem.LammpsMindlin("mindlin"), 100) < 1e-3
     True
     """
     counted("steps", steps, FEWEST, MOST)
@@ -100,7 +100,7 @@ def advised_steps(
     Parameters
     ----------
     law : Law or callable
-        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
+        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     allowed : float
         Largest |error in psi_2| that the steps may cause.
     psi : array_like
@@ -123,7 +123,7 @@ def advised_steps(
     Examples
     --------
     >>> import carom
-    >>> carom.verify.advised_steps(carom.LinearSpring(), 0.01).steps
+    >>> carom.verify.advised_steps(carom.dem.LinearSpring(), 0.01).steps
     28
     """
     bound = positive("allowed", allowed, "1")

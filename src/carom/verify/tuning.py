@@ -7,12 +7,13 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom import dem
+from carom.dem.base import ContactLaw, Law
 from carom.io.progress import Progress, advancing
-from carom.laws import dem
 from carom.plots.result import card
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import one_of
-from carom.verify.catalogue import CATALOGUE, called
+from carom.verify.entries import CATALOGUE, called
 from carom.verify.errors import (
     LawOrFunction,
     as_law,
@@ -30,7 +31,7 @@ from carom.verify.errors import (
 )
 from carom.verify.steps import TimeSteps, advised_steps, told_steps
 
-AnyLaw = TypeVar("AnyLaw", bound=dem.Law)
+AnyLaw = TypeVar("AnyLaw", bound=Law)
 
 FREE = {  # the parameter that can be chosen, and its range; of a stiffness_ratio in units of kappa
     dem.LinearSpring: ("stiffness_ratio", 0.05, 2.5),
@@ -40,7 +41,7 @@ FREE = {  # the parameter that can be chosen, and its range; of a stiffness_rati
     dem.WaltonBraunLaw: ("stiffness_ratio", 0.05, 2.5),
     dem.HardSphere: ("tangential_restitution", -1.0, 1.0),
 }
-TUNED: tuple[dem.Law, ...] = tuple(  # of each kind the first in the catalogue
+TUNED: tuple[Law, ...] = tuple(  # of each kind the first in the catalogue
     entry.law
     for place, entry in enumerate(CATALOGUE)
     if called(entry.law) not in [called(other.law) for other in CATALOGUE[:place]]
@@ -56,7 +57,7 @@ class TunedLaw(NamedTuple):
     that cost less than a tenth of what remains.
     """
 
-    law: dem.Law
+    law: Law
     parameter: str | None
     value: float | None
     max_error: float
@@ -75,7 +76,7 @@ class Tuning:
     Examples
     --------
     >>> import carom
-    >>> found = carom.verify.tune([carom.HardSphere(), carom.LinearSpring()], chi=1.4412)
+    >>> found = carom.verify.tune([carom.dem.HardSphere(), carom.dem.LinearSpring()], chi=1.4412)
     >>> [round(one.max_error, 2) for one in found.advice]
     [0.07, 0.3]
     """
@@ -91,7 +92,7 @@ class Tuning:
         Parameters
         ----------
         kind : type
-            A class of laws, e.g. `carom.LinearSpring`.
+            A class of laws, e.g. `carom.dem.LinearSpring`.
 
         Returns
         -------
@@ -101,8 +102,8 @@ class Tuning:
         Examples
         --------
         >>> import carom
-        >>> tuning = carom.verify.tune([carom.HardSphere()], chi=1.4412)
-        >>> round(tuning.best(carom.HardSphere).tangential_restitution, 2)
+        >>> tuning = carom.verify.tune([carom.dem.HardSphere()], chi=1.4412)
+        >>> round(tuning.best(carom.dem.HardSphere).tangential_restitution, 2)
         0.36
         """
         return next((one.law for one in self.advice if isinstance(one.law, kind)), None)
@@ -169,7 +170,8 @@ def tune(
     Parameters
     ----------
     laws : Law, callable, or sequence of them
-        Contact laws, or functions as of `carom.FunctionLaw`; only the tuned parameter is changed.
+        Contact laws, or functions as of `carom.dem.FunctionLaw`; only the tuned parameter is
+        changed.
     chi : float
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
@@ -197,7 +199,7 @@ def tune(
     Examples
     --------
     >>> import carom
-    >>> found = carom.verify.tune([carom.HertzLinearHistory()], chi=1.4412).advice[0]
+    >>> found = carom.verify.tune([carom.dem.HertzLinearHistory()], chi=1.4412).advice[0]
     >>> found.parameter, round(found.value, 2), round(found.before, 2), round(found.max_error, 2)
     ('stiffness', 0.7, 0.61, 0.17)
     """
@@ -217,13 +219,11 @@ def tune(
     return Tuning(ratio, own, (float(psis.min()), float(psis.max())), tuple(ordered))
 
 
-def _advice(
-    law: dem.Law, psi: Array, exact: Array, chi: float, kappa: float, measure: str
-) -> TunedLaw:
-    def error(candidate: dem.Law) -> Array:
+def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measure: str) -> TunedLaw:
+    def error(candidate: Law) -> Array:
         return law_rebound(candidate, psi, chi, kappa) - exact
 
-    def cost(candidate: dem.Law) -> float:
+    def cost(candidate: Law) -> float:
         value = MEASURES[measure](error(candidate))
         return value if np.isfinite(value) else np.inf
 
@@ -236,20 +236,18 @@ def _advice(
     left, step = error(best), None
     refuse_failure(law, psi, chi, kappa, left)
     most = largest(left)
-    if isinstance(best, dem.ContactLaw) and most > 0.0:
+    if isinstance(best, ContactLaw) and most > 0.0:
         step = advised_steps(best, 0.1 * most, psi, chi, kappa=kappa)
     value = None if name is None else float(getattr(best, name) or kappa)
     before = largest(error(law))
     return TunedLaw(best, name, value, most, root_mean_square(left), before, step)
 
 
-def _closest(
-    law: dem.Law, name: str, low: float, high: float, cost: Callable[[dem.Law], float]
-) -> dem.Law:
+def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law], float]) -> Law:
     """Return the law with the parameter of least cost: the minima of a scan, refined."""
     from scipy.optimize import minimize_scalar
 
-    def changed(value: float) -> dem.Law:
+    def changed(value: float) -> Law:
         return replace(law, **{name: float(value)})
 
     scan = np.geomspace(low, high, TRIALS) if low > 0.0 else np.linspace(low, high, TRIALS)

@@ -8,13 +8,11 @@ from carom.cli.verify.score import score_command
 from carom.cli.verify.tune import tune_command
 
 app = Commands(
-    name="verify",
-    help="Test contact laws and DEM codes against the exact impact.\n\n"
+    "verify",
+    "Test contact laws and DEM codes against the exact impact.\n\n"
     "Begin with carom verify laws, which ranks the contact laws in use. carom verify score judges "
     "your own results, and carom verify tune finds the least wrong stiffness of a law.\n\n\b\n"
     "Example: carom verify laws",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 app.command("laws")(laws_command)
 for name, words in COMMANDS.items():

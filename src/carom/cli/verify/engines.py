@@ -1,13 +1,19 @@
 """`carom verify lammps`, `liggghts`, `yade`: DEM programs against the exact impact."""
 
 import json
-from pathlib import Path
-from typing import Annotated
 
 import typer
 
 import carom
-from carom.cli.cases import Json, check_outputs, file_option, stored, told_case, whole_option
+from carom.cli.cases import (
+    Json,
+    check_outputs,
+    described,
+    file_option,
+    stored,
+    told_case,
+    whole_option,
+)
 from carom.quantities.refusals import InputError
 from carom.quantities.units import positive, whole
 
@@ -32,37 +38,38 @@ COMMANDS = {
 COMMANDS["lammps"] += VERDICT
 
 
+OPTIONS = {
+    "case": file_option(
+        "Case file, as for carom impact, with the bodies (default: a steel ball on a steel "
+        "plate, chi = 1.4412)."
+    ),
+    "law": "Run only this law, by its name in carom verify laws.",
+    "steps": whole_option("Time steps per duration of Hertz's contact."),
+    "time_limit": "Time limit of each run, e.g. '60 s'.",
+    "program": "Path of the executable (default: Carom looks for it).",
+    "output": "Store the results of the one --law as .csv, for carom verify score.",
+}
+
+
+@described(OPTIONS)
 def engine_command(
     context: typer.Context,
-    case: Annotated[
-        Path | None,
-        file_option(
-            "Case file, as for carom impact, with the bodies (default: a steel ball on a steel "
-            "plate, chi = 1.4412)."
-        ),
-    ] = None,
-    law: Annotated[
-        str | None, typer.Option(help="Run only this law, by its name in carom verify laws.")
-    ] = None,
-    steps: Annotated[str, whole_option("Time steps per duration of Hertz's contact.")] = "2000",
-    time_limit: Annotated[str, typer.Option(help="Time limit of each run, e.g. '60 s'.")] = "120 s",
-    program: Annotated[
-        str | None, typer.Option(help="Path of the executable (default: Carom looks for it).")
-    ] = None,
-    output: Annotated[
-        str | None,
-        typer.Option(help="Store the results of the one --law as .csv, for carom verify score."),
-    ] = None,
+    case: str | None = None,
+    law: str | None = None,
+    steps: str = "2000",
+    time_limit: str = "120 s",
+    program: str | None = None,
+    output: str | None = None,
     as_json: Json = False,
 ) -> None:
     """Run the program that the command is named after, and print how it has done."""
     from carom.bodies.cases import pair_of
     from carom.io.paths import checked_output, replace_whole
-    from carom.verify.catalogue import named
     from carom.verify.engines.experiments import MOST_STEPS
+    from carom.verify.entries import named
 
     count = whole("steps", steps, 10, MOST_STEPS)
-    check_outputs((output, (".csv",)))
+    check_outputs({"output": (output, (".csv",))})
     if output is not None and law is None:
         raise InputError("output: it stores the results of one law; give --law, e.g. --law mindlin")
     engine = getattr(carom.verify, str(context.command.name).capitalize())

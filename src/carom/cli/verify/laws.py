@@ -2,61 +2,48 @@
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store, stored
+from carom.cli.cases import Json, Plot, check_outputs, described, store, stored
 from carom.quantities.refusals import InputError
 from carom.quantities.units import finite, positive
 
 if TYPE_CHECKING:
-    from carom.laws.dem import Law
+    from carom.dem.base import Law
 
 
+OPTIONS = {
+    "chi": "Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; the default is "
+    "that of solid spheres with Poisson's ratio 0.3.",
+    "kappa": "Stiffness ratio kappa = G*/E* (default: that of solid spheres, 4 chi/7).",
+    "psi": "Incidence psi_1 = kappa V_x/(mu V_1) at which laws are compared (default: 15 from 0.1 "
+    "to 6). You can repeat this option.",
+    "law": "Rank only this law, e.g. mindlin_rescale.",
+    "restitution": "Give all laws the damping for this normal coefficient of restitution, e.g. "
+    "0.9 (default: no damping).",
+    "output": "Store the ranking: .csv or .nc.",
+    "error_map": typer.Option(
+        "--map",
+        help="Store a map of the errors of the one --law, for solid spheres of any Poisson's "
+        "ratio: a figure or a table.",
+    ),
+}
+
+
+@described(OPTIONS)
 def laws_command(
-    chi: Annotated[
-        str,
-        typer.Option(
-            help="Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; the default "
-            "is that of solid spheres with Poisson's ratio 0.3."
-        ),
-    ] = "1.4412",
-    kappa: Annotated[
-        str | None,
-        typer.Option(
-            help="Stiffness ratio kappa = G*/E* (default: that of solid spheres, 4 chi/7)."
-        ),
-    ] = None,
-    psi: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Incidence psi_1 = kappa V_x/(mu V_1) at which laws are compared (default: 15 "
-            "from 0.1 to 6). You can repeat this option."
-        ),
-    ] = None,
-    law: Annotated[
-        str | None, typer.Option(help="Rank only this law, e.g. mindlin_rescale.")
-    ] = None,
-    restitution: Annotated[
-        str | None,
-        typer.Option(
-            help="Give all laws the damping for this normal coefficient of restitution, e.g. 0.9 "
-            "(default: no damping)."
-        ),
-    ] = None,
+    chi: str = "1.4412",
+    kappa: str | None = None,
+    psi: list[str] | None = None,
+    law: str | None = None,
+    restitution: str | None = None,
     as_json: Json = False,
     plot: Plot = None,
-    output: Annotated[str | None, typer.Option(help="Store the ranking: .csv or .nc.")] = None,
-    error_map: Annotated[
-        str | None,
-        typer.Option(
-            "--map",
-            help="Store a map of the errors of the one --law, for solid spheres of any Poisson's "
-            "ratio: a figure or a table.",
-        ),
-    ] = None,
+    output: str | None = None,
+    error_map: str | None = None,
 ) -> None:
     """Rank contact laws of DEM codes by their largest error.
 
@@ -70,17 +57,17 @@ def laws_command(
     Thin shells on a wall: carom verify laws --chi 1.0294 --kappa 0.8235 --plot laws.png
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
+    from carom.dem.damping import damped_restitution
     from carom.io.files import FIGURES, TABLES
-    from carom.laws.dem.damping import damped_restitution
-    from carom.verify.catalogue import named
+    from carom.verify.entries import named
     from carom.verify.errors import INCIDENCES
 
     if error_map is not None and law is None:
         raise InputError("map: it shows one law; give --law, e.g. --law mindlin")
     if error_map is not None and (kappa is not None or psi):
         raise InputError("map: it shows solid spheres at all psi_1; leave --kappa and --psi out")
-    refuse_same({"plot": plot, "output": output, "map": error_map})
-    check_outputs((plot, FIGURES), (output, TABLES), (error_map, (*FIGURES, *TABLES)))
+    outputs = {"plot": (plot, FIGURES), "output": (output, TABLES)}
+    check_outputs({**outputs, "map": (error_map, (*FIGURES, *TABLES))})
     incidences = [finite("psi_in", value) for value in psi or INCIDENCES]
     ratio = None if kappa is None else positive("kappa", kappa)
     e = None if restitution is None else damped_restitution("restitution", restitution)

@@ -1,17 +1,19 @@
 """`carom verify pack`: the benchmark pack for developers of DEM codes."""
 
 import json
-from typing import Annotated
 
 import typer
 
+from carom.cli.cases import described
 
-def pack_command(
-    folder: Annotated[str, typer.Argument(help="New or empty folder for the pack, e.g. bench.")],
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print JSON instead of a summary.")
-    ] = False,
-) -> None:
+OPTIONS = {
+    "folder": typer.Argument(help="New or empty folder for the pack, e.g. bench."),
+    "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
+}
+
+
+@described(OPTIONS)
+def pack_command(folder: str, as_json: bool = False) -> None:
     """Write the benchmark pack for developers of DEM codes.
 
     Use this command to test a DEM code that you write. The pack holds reference impacts with error

@@ -1,8 +1,6 @@
 """`carom verify score`: a user's own results against the exact answer."""
 
 import json
-from pathlib import Path
-from typing import Annotated
 
 import typer
 
@@ -12,58 +10,46 @@ from carom.cli.cases import (
     Json,
     Plot,
     check_outputs,
+    described,
     file_argument,
     file_option,
     named_values,
-    refuse_same,
     store,
     told_case,
 )
 
+OPTIONS = {
+    "results": file_argument(
+        "CSV file with the names of its columns in a head; # starts a comment."
+    ),
+    "case": file_option(
+        "Case file, as for carom impact, with the bodies; to score forces it must have the "
+        "speeds, too."
+    ),
+    "chi": "Ratio of inertia to stiffness chi of psi_1 and psi_2, e.g. 1.44, if there is no "
+    "column chi.",
+    "restitution": "Normal coefficient of restitution of the exact impact, e.g. 0.9, if your "
+    "contact is damped (default: that of the case, or 1).",
+    "tolerance": "Largest |error in psi_2| that passes, and the limit of every finding of the "
+    "audit; tuned laws of DEM codes reach 0.05 at best.",
+    "code": "Name of the program, for the report and the figure, e.g. LAMMPS.",
+    "law": "Name of its contact law, for the report and the figure, e.g. mindlin.",
+    "output": "Store the score: .csv or .nc.",
+}
 
+
+@described(OPTIONS)
 def score_command(
-    results: Annotated[
-        Path, file_argument("CSV file with the names of its columns in a head; # starts a comment.")
-    ],
-    case: Annotated[
-        Path | None,
-        file_option(
-            "Case file, as for carom impact, with the bodies; to score forces it must have the "
-            "speeds, too."
-        ),
-    ] = None,
-    chi: Annotated[
-        str | None,
-        typer.Option(
-            help="Ratio of inertia to stiffness chi of psi_1 and psi_2, e.g. 1.44, if there is no "
-            "column chi."
-        ),
-    ] = None,
-    restitution: Annotated[
-        str | None,
-        typer.Option(
-            help="Normal coefficient of restitution of the exact impact, e.g. 0.9, if your contact "
-            "is damped (default: that of the case, or 1)."
-        ),
-    ] = None,
-    tolerance: Annotated[
-        str,
-        typer.Option(
-            help="Largest |error in psi_2| that passes, and the limit of every finding of the "
-            "audit; tuned laws of DEM codes reach 0.05 at best."
-        ),
-    ] = "0.01",
+    results: str,
+    case: str | None = None,
+    chi: str | None = None,
+    restitution: str | None = None,
+    tolerance: str = "0.01",
     column: Column = None,
-    code: Annotated[
-        str | None,
-        typer.Option(help="Name of the program, for the report and the figure, e.g. LAMMPS."),
-    ] = None,
-    law: Annotated[
-        str | None,
-        typer.Option(help="Name of its contact law, for the report and the figure, e.g. mindlin."),
-    ] = None,
+    code: str | None = None,
+    law: str | None = None,
     plot: Plot = None,
-    output: Annotated[str | None, typer.Option(help="Store the score: .csv or .nc.")] = None,
+    output: str | None = None,
     as_json: Json = False,
 ) -> None:
     """Score your own results against the exact impact.
@@ -91,8 +77,8 @@ def score_command(
     """
     from carom.io.files import FIGURES, TABLES
 
-    refuse_same({"results": results, "case": case, "plot": plot, "output": output})
-    check_outputs((plot, FIGURES), (output, TABLES))
+    outputs = {"plot": (plot, FIGURES), "output": (output, TABLES)}
+    check_outputs(outputs, results=results, case=case)
     score = carom.verify.score(
         results,
         case=None if case is None else told_case(case, losses=True),

@@ -2,13 +2,12 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 import carom
-from carom.cli.cases import Json, file_argument, told_case
+from carom.cli.cases import Json, described, file_argument, told_case
 from carom.quantities.glossary import GLOSSARY
 
 if TYPE_CHECKING:
@@ -16,43 +15,32 @@ if TYPE_CHECKING:
     from carom.verify.tuning import Tuning
 
 
+OPTIONS = {
+    "case": file_argument("Case file, as for carom impact, with bodies, friction and speed."),
+    "chi": "Ratio of inertia to stiffness chi, instead of a case file.",
+    "kappa": "Stiffness ratio kappa = G*/E*, only with --chi (default: that of solid spheres, 4 "
+    "chi/7).",
+    "start": typer.Option("--from", help="First incidence: an angle with a case file, else psi_1."),
+    "stop": typer.Option(
+        "--to",
+        help="Last incidence: an angle, e.g. '60 deg', with a case file, else psi_1 (default: "
+        "psi_1 = 4 chi).",
+    ),
+    "restitution": "Normal coefficient of restitution that the dampings shall give (default: that "
+    "of the case, or 1).",
+    "measure": "Error in psi_2 to minimise over the incidences: its max or its rms.",
+}
+
+
+@described(OPTIONS)
 def tune_command(
-    case: Annotated[
-        Path | None,
-        file_argument("Case file, as for carom impact, with bodies, friction and speed."),
-    ] = None,
-    chi: Annotated[
-        str | None, typer.Option(help="Ratio of inertia to stiffness chi, instead of a case file.")
-    ] = None,
-    kappa: Annotated[
-        str | None,
-        typer.Option(
-            help="Stiffness ratio kappa = G*/E*, only with --chi (default: that of solid spheres, "
-            "4 chi/7)."
-        ),
-    ] = None,
-    start: Annotated[
-        str, typer.Option("--from", help="First incidence: an angle with a case file, else psi_1.")
-    ] = "0",
-    stop: Annotated[
-        str | None,
-        typer.Option(
-            "--to",
-            help="Last incidence: an angle, e.g. '60 deg', with a case file, else psi_1 (default: "
-            "psi_1 = 4 chi).",
-        ),
-    ] = None,
-    restitution: Annotated[
-        str | None,
-        typer.Option(
-            help="Normal coefficient of restitution that the dampings shall give (default: that of "
-            "the case, or 1)."
-        ),
-    ] = None,
-    measure: Annotated[
-        str,
-        typer.Option(help="Error in psi_2 to minimise over the incidences: its max or its rms."),
-    ] = "max",
+    case: str | None = None,
+    chi: str | None = None,
+    kappa: str | None = None,
+    start: str = "0",
+    stop: str | None = None,
+    restitution: str | None = None,
+    measure: str = "max",
     as_json: Json = False,
 ) -> None:
     """Find the least wrong stiffness of every contact law.
@@ -85,8 +73,8 @@ def _inputs(setting: "Setting", tuning: "Tuning") -> dict[str, str]:
 
     if setting.pair is None or setting.normal_speed is None:
         return {}
-    spring = tuning.best(carom.LinearSpring) or SPRING
-    mindlin = tuning.best(carom.LammpsMindlin) or MINDLIN
+    spring = tuning.best(carom.dem.LinearSpring) or SPRING
+    mindlin = tuning.best(carom.dem.LammpsMindlin) or MINDLIN
     bodies, speed, restitution = setting.pair, setting.normal_speed, setting.restitution
     if restitution < 1.0:  # softened so, the law comes closest if it damps sideways as well
         mindlin = replace(mindlin, tangential_damping=1.0)

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from carom.dimensionless.elastic import motion as at
 from carom.dimensionless.elastic.integration import evaluate, value_and_slope
-from carom.dimensionless.elastic.motion import FRONT, PSI, SLOWER, STICK, A, B, Q, Series, V
+from carom.dimensionless.elastic.motion import Series
 from carom.dimensionless.elastic.phases import GROSS, RETRACED
 from carom.dimensionless.elastic.record import AT_B, AT_V as CHANGE_V, CLOCK, MODE, SIGN, STEP
 from carom.dimensionless.numerics import hertz
@@ -33,7 +34,7 @@ def tabulate(
     for i in range(changes.shape[0]):
         change_times[i] = hertz.time(changes[i, AT_B] ** 2, changes[i, CHANGE_V])
     for i in range(nodes.shape[0]):
-        b, v = series[i, 0, B], series[i, 0, V]
+        b, v = series[i, 0, at.B], series[i, 0, at.V]
         times[i] = hertz.time(b * b, v) if i > 0 else 0.0
         if i > 0:
             u, w = progress(nodes[i - 1], series[i - 1], chi, nodes[i - 1, STEP], b, v)
@@ -51,14 +52,14 @@ def progress(
     u, w = 0.0, 0.0
     for i in range(ABSCISSAS.size):
         x = 0.5 * h * (1.0 + ABSCISSAS[i])
-        rate = evaluate(series[:, SLOWER], x) if node[CLOCK] == FRONT else 1.0
-        radius, psi = evaluate(series[:, B], x), evaluate(series[:, PSI], x)
+        rate = evaluate(series[:, at.SLOWER], x) if node[CLOCK] == at.FRONT else 1.0
+        radius, psi = evaluate(series[:, at.B], x), evaluate(series[:, at.PSI], x)
         weight = h * WEIGHTS[i] * radius * rate
         u += weight * psi
-        if node[MODE] != STICK:
-            front = evaluate(series[:, A], x)
+        if node[MODE] != at.STICK:
+            front = evaluate(series[:, at.A], x)
             limit = (radius - front) ** 2 * (2.0 * radius + front) / 3.0
-            w += weight * limit * (node[SIGN] * psi - evaluate(series[:, V], x))
+            w += weight * limit * (node[SIGN] * psi - evaluate(series[:, at.V], x))
     return u, w
 
 
@@ -67,7 +68,7 @@ def gross_progress(
     node: Array, series: Series, chi: float, b: float, v: float
 ) -> tuple[float, float]:
     """Return displacement and frictional work from the start of gross slip to b and v."""
-    b0, v0, psi0, sign = series[0, B], series[0, V], series[0, PSI], node[SIGN]
+    b0, v0, psi0, sign = series[0, at.B], series[0, at.V], series[0, at.PSI], node[SIGN]
     duration = hertz.time(b * b, v) - hertz.time(b0 * b0, v0)
     u = (psi0 - 2.0 * chi * sign * v0) * duration + 2.0 * chi * sign * (b * b - b0 * b0)
     drop = v0 - v
@@ -109,7 +110,7 @@ def sample(
     out: Matrix,
 ) -> None:
     """Write one row of `out` for each wanted time."""
-    psi_in = series[0, 0, PSI]
+    psi_in = series[0, 0, at.PSI]
     for row in range(wanted.size):
         t = wanted[row]
         i = np.searchsorted(times, t, side="right") - 1
@@ -139,16 +140,16 @@ def write_sample(
     b = np.sqrt(d)
     h = 0.0
     if node[MODE] == GROSS:
-        psi = series[0, PSI] - 2.0 * chi * node[SIGN] * (series[0, V] - v)
+        psi = series[0, at.PSI] - 2.0 * chi * node[SIGN] * (series[0, at.V] - v)
         q = node[SIGN] * (2.0 / 3.0) * d * b
         stick = 0.0
     else:
         if abs(v) < 0.7:
-            h = position(node, series, V, v, True)
+            h = position(node, series, at.V, v, True)
         else:
-            h = position(node, series, B, b, v < 0.0)
-        psi, q = evaluate(series[:, PSI], h), evaluate(series[:, Q], h)
-        stick = b if node[MODE] == STICK else evaluate(series[:, A], h)
+            h = position(node, series, at.B, b, v < 0.0)
+        psi, q = evaluate(series[:, at.PSI], h), evaluate(series[:, at.Q], h)
+        stick = b if node[MODE] == at.STICK else evaluate(series[:, at.A], h)
     u, w = progress(node, series, chi, h, b, v)
     out[AT_D], out[AT_V], out[AT_PSI], out[AT_Q] = d, v, psi, q
     out[AT_U], out[AT_DISSIPATED] = moved[0] + u, 3.75 * chi * (moved[1] + w)
@@ -164,15 +165,15 @@ def loading_state(nodes: Array, series: Array, moved: Array, radius: float) -> t
     """Return g and U when stick laid new contact at this radius, or next to it at its rim."""
     nearest, best = 0, np.inf
     for i in range(nodes.shape[0]):
-        if nodes[i, MODE] == STICK:
-            outer = evaluate(series[i, :, B], nodes[i, STEP])
-            away = max(series[i, 0, B] - radius, radius - outer, 0.0)
+        if nodes[i, MODE] == at.STICK:
+            outer = evaluate(series[i, :, at.B], nodes[i, STEP])
+            away = max(series[i, 0, at.B] - radius, radius - outer, 0.0)
             if away < best:
                 nearest, best = i, away
     node, steps = nodes[nearest], series[nearest]
-    h = position(node, steps, B, radius, False)
-    psi, psi_slope = value_and_slope(steps[:, PSI], h)
-    v, v_slope = value_and_slope(steps[:, V], h)
+    h = position(node, steps, at.B, radius, False)
+    psi, psi_slope = value_and_slope(steps[:, at.PSI], h)
+    v, v_slope = value_and_slope(steps[:, at.V], h)
     u, _w = progress(node, steps, 0.0, h, radius, v)
     g = psi / v if v > 1e-9 else psi_slope / v_slope  # at the turning point both vanish
     return g, moved[nearest, 0] + u

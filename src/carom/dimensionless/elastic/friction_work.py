@@ -13,20 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.dimensionless.elastic import motion as at
 from carom.dimensionless.elastic.dense_output import position
 from carom.dimensionless.elastic.integration import evaluate, value_and_slope
-from carom.dimensionless.elastic.motion import (
-    FLAT,
-    FRONT,
-    LAID,
-    PSI,
-    SLOWER,
-    STICK,
-    A,
-    B,
-    Series,
-    V,
-)
+from carom.dimensionless.elastic.motion import Series
 from carom.dimensionless.elastic.phases import GROSS, RETRACED
 from carom.dimensionless.elastic.record import CLOCK, MODE, SIGN, STEP, STRETCH
 from carom.dimensionless.elastic.slip import touch
@@ -110,20 +100,20 @@ def work_in_gross_slip(
 def slipping(node: Array, series: Series, r: float) -> tuple[float, float]:
     """Return from where to where in a step points at r are in the slip ring."""
     low, high = 0.0, node[STEP]
-    if series[0, A] > r:
-        if evaluate(series[:, A], high) >= r:
+    if series[0, at.A] > r:
+        if evaluate(series[:, at.A], high) >= r:
             return 0.0, 0.0
-        low = position(node, series, A, r, True)
-    outer, speed = evaluate(series[:, B], high), evaluate(series[:, V], high)
-    if series[0, B] < r:
-        if series[0, V] <= 0.0 or (outer < r and speed > 0.0):
+        low = position(node, series, at.A, r, True)
+    outer, speed = evaluate(series[:, at.B], high), evaluate(series[:, at.V], high)
+    if series[0, at.B] < r:
+        if series[0, at.V] <= 0.0 or (outer < r and speed > 0.0):
             return 0.0, 0.0
         low = max(low, touch(node, series, r))
     if outer < r and speed < 0.0:
         if r < 0.8:
-            high = position(node, series, B, r, True)
+            high = position(node, series, at.B, r, True)
         else:
-            high = position(node, series, V, -np.sqrt(max(1.0 - r**5, 0.0)), True)
+            high = position(node, series, at.V, -np.sqrt(max(1.0 - r**5, 0.0)), True)
     return low, high
 
 
@@ -134,9 +124,9 @@ def room(node: Array, series: Series, r: float, h: float, side: float, own: floa
     On the side of the start the front passes r, or the edge touches r; on that of the end the front
     as it would go on beyond the centre passes -r, or the edge leaves r.
     """
-    a, a_rate = value_and_slope(series[:, A], h)
-    b, v = evaluate(series[:, B], h), evaluate(series[:, V], h)
-    pace = evaluate(series[:, SLOWER], h) if node[CLOCK] == FRONT else 1.0
+    a, a_rate = value_and_slope(series[:, at.A], h)
+    b, v = evaluate(series[:, at.B], h), evaluate(series[:, at.V], h)
+    pace = evaluate(series[:, at.SLOWER], h) if node[CLOCK] == at.FRONT else 1.0
     to_front = (r - side * a) / max(-a_rate, 1.0 / NEVER)
     if r < 0.8:
         to_edge = (b - r) / max(side * v * pace, 1.0 / NEVER)
@@ -179,10 +169,10 @@ def work_in_ring(node: Array, series: Series, r: float) -> tuple[float, float]:
 @kernel
 def power(node: Array, series: Series, r: float, h: float) -> tuple[float, float]:
     """Return the radial functions of the work per area and per h, at a place of a step."""
-    b = evaluate(series[:, B], h)
-    rate = evaluate(series[:, SLOWER], h) if node[CLOCK] == FRONT else 1.0
-    excess = node[SIGN] * evaluate(series[:, PSI], h) - evaluate(series[:, V], h)
-    one, two = slip_shape(evaluate(series[:, A], h), r)
+    b = evaluate(series[:, at.B], h)
+    rate = evaluate(series[:, at.SLOWER], h) if node[CLOCK] == at.FRONT else 1.0
+    excess = node[SIGN] * evaluate(series[:, at.PSI], h) - evaluate(series[:, at.V], h)
+    one, two = slip_shape(evaluate(series[:, at.A], h), r)
     unit = 2.0 * b * rate * excess * np.sqrt(max((b - r) * (b + r), 0.0))
     return unit * one, unit * two
 
@@ -190,15 +180,15 @@ def power(node: Array, series: Series, r: float, h: float) -> tuple[float, float
 @kernel
 def work_in_step(nodes: Matrix, series: Cube, chi: float, i: int, r: float) -> tuple[float, float]:
     """Return the radial functions of the work per area in a step, none in stick."""
-    if nodes[i, MODE] in (STICK, RETRACED):
+    if nodes[i, MODE] in (at.STICK, RETRACED):
         return 0.0, 0.0
     if nodes[i, MODE] != GROSS:
         return work_in_ring(nodes[i], series[i], r)
-    b, v, sign = series[i, 0, B], series[i, 0, V], nodes[i, SIGN]
-    rate_at = SlipRate(sign * series[i, 0, PSI] - v, v, 2.0 * chi - 1.0)
+    b, v, sign = series[i, 0, at.B], series[i, 0, at.V], nodes[i, SIGN]
+    rate_at = SlipRate(sign * series[i, 0, at.PSI] - v, v, 2.0 * chi - 1.0)
     if i + 1 == nodes.shape[0]:
         return work_in_gross_slip(rate_at, r, b, v, 0.0, -1.0), 0.0
-    return work_in_gross_slip(rate_at, r, b, v, series[i + 1, 0, B], series[i + 1, 0, V]), 0.0
+    return work_in_gross_slip(rate_at, r, b, v, series[i + 1, 0, at.B], series[i + 1, 0, at.V]), 0.0
 
 
 @entry_point()
@@ -227,10 +217,10 @@ def borders(nodes: Array, series: Array) -> Array:
 
     Steps are short where the front is about to stop, beside which the work has a steep flank.
     """
-    rings = np.flatnonzero((nodes[:, MODE] == LAID) | (nodes[:, MODE] == FLAT))
+    rings = np.flatnonzero((nodes[:, MODE] == at.LAID) | (nodes[:, MODE] == at.FLAT))
     new = np.flatnonzero(np.diff(nodes[:, STRETCH], prepend=-1.0))
-    found = [0.0, 1.0, *series[new, 0, B], *series[rings, 0, A]]
+    found = [0.0, 1.0, *series[new, 0, at.B], *series[rings, 0, at.A]]
     for i in np.intersect1d(rings, np.append(new[1:], len(nodes)) - 1):
-        found += [evaluate(series[i][:, column], nodes[i, STEP]) for column in (A, B)]
+        found += [evaluate(series[i][:, column], nodes[i, STEP]) for column in (at.A, at.B)]
     radii = np.unique(np.clip(found, 0.0, 1.0))
     return np.asarray(radii[np.append(np.diff(radii) > ALIKE, True)])

@@ -4,23 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.elastic.motion import (
-    CONTACT,
-    FLAT,
-    FRONT,
-    ORDER,
-    PSI,
-    PSI_A,
-    START,
-    STATE_SIZE,
-    STICK,
-    V_A,
-    A,
-    B,
-    Series,
-    V,
-    expand,
-)
+from carom.dimensionless.elastic import motion as at
+from carom.dimensionless.elastic.motion import ORDER, Series
 from carom.dimensionless.elastic.record import Record, is_full, note_node
 from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.kernels import kernel
@@ -72,7 +57,7 @@ def value_and_slope(coefficients: Series, h: float) -> tuple[float, float]:
 @kernel
 def move(s: Series, h: float) -> None:
     """Put the state at h into row 0."""
-    for c in range(STATE_SIZE):
+    for c in range(at.STATE_SIZE):
         total = s[ORDER, c]
         for k in range(ORDER - 1, -1, -1):
             total = total * h + s[k, c]
@@ -82,17 +67,17 @@ def move(s: Series, h: float) -> None:
 @kernel
 def choose_clock(s: Series, mode: int, sign: int, starts: bool) -> int:
     """Return the clock that runs faster at the state in row 0."""
-    if mode == STICK or starts:
-        return START if starts else CONTACT
-    n = s[0, B] * (sign * s[0, PSI] - s[0, V])
-    d = 2.0 * s[0, A] if mode == FLAT else s[0, A] * (s[0, V_A] - sign * s[0, PSI_A])
-    return FRONT if n > d else CONTACT
+    if mode == at.STICK or starts:
+        return at.START if starts else at.CONTACT
+    n = s[0, at.B] * (sign * s[0, at.PSI] - s[0, at.V])
+    d = 2.0 * s[0, at.A] if mode == at.FLAT else s[0, at.A] * (s[0, at.V_A] - sign * s[0, at.PSI_A])
+    return at.FRONT if n > d else at.CONTACT
 
 
 @kernel
 def reach(s: Series, mode: int, tolerance: float) -> float:
     """Return the step up to which the series are good to the tolerance."""
-    used = A if mode == STICK else STATE_SIZE
+    used = at.A if mode == at.STICK else at.STATE_SIZE
     h = 1.0
     for k in range(ORDER - PERIOD + 1, ORDER + 1):
         largest = 0.0
@@ -107,15 +92,15 @@ def reach(s: Series, mode: int, tolerance: float) -> float:
 def write_gap(s: Series, mode: int, sign: int, inner: float, event: int, gap: Series) -> None:
     """Write the series of how far the state is from an event; negative beyond it."""
     for k in range(ORDER + 1):
-        if mode == STICK:
-            gap[k] = s[k, V] - (1 - 2 * event) * s[k, PSI]
+        if mode == at.STICK:
+            gap[k] = s[k, at.V] - (1 - 2 * event) * s[k, at.PSI]
         elif event == SLIP_STOPS:
-            gap[k] = sign * s[k, PSI] - s[k, V]
+            gap[k] = sign * s[k, at.PSI] - s[k, at.V]
         elif event == FRONT_AT_BORDER:
-            gap[k] = s[k, A]
+            gap[k] = s[k, at.A]
         else:
-            gap[k] = s[k, B] - s[k, A]
-    if mode == STICK:
+            gap[k] = s[k, at.B] - s[k, at.A]
+    if mode == at.STICK:
         gap[0] += SLACK
     elif event == FRONT_AT_BORDER:
         gap[0] -= inner
@@ -198,7 +183,7 @@ def first_closing(gap: Series, h: float) -> float:
 def first_event(work: Work, mode: int, sign: int, inner: float, h: float) -> tuple[int, float]:
     """Return the first event within the step h, and the step that leads to it."""
     found = NOTHING
-    for event in range(2 if mode == STICK else 3):
+    for event in range(2 if mode == at.STICK else 3):
         write_gap(work.series, mode, sign, inner, event, work.gap)
         closing = first_closing(work.gap, h)
         if closing <= h:
@@ -223,7 +208,7 @@ def run_stretch(
         if is_full(record):
             break
         clock = choose_clock(s, mode, sign, starts)
-        expand(s, mode, clock, sign, chi)
+        at.expand(s, mode, clock, sign, chi)
         event, h = first_event(work, mode, sign, inner, reach(s, mode, tolerance))
         note_node(record, mode, clock, sign, h, s)
         move(s, h)

@@ -8,7 +8,8 @@ Slip enters at the edge and takes annuli off the top; nothing else ever changes 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.elastic.motion import FLAT, LAID, PSI, PSI_A, Q_A, V_A, A, B, Q, Series, V
+from carom.dimensionless.elastic import motion as at
+from carom.dimensionless.elastic.motion import Series
 from carom.dimensionless.numerics.kernels import kernel
 
 Stack = NDArray[np.float64]
@@ -23,10 +24,10 @@ COLUMNS = 6
 def push_laid(stack: Stack, depth: int, s: Series, made: int) -> int:
     """Add the annulus laid in the stick phase that has just ended at the state s."""
     stack[depth, SLIP_SIGN] = 0.0
-    stack[depth, OUTER] = s[0, B]
-    stack[depth, OUTER_V] = s[0, V]
-    stack[depth, OUTER_PSI] = s[0, PSI]
-    stack[depth, OUTER_Q] = s[0, Q]
+    stack[depth, OUTER] = s[0, at.B]
+    stack[depth, OUTER_V] = s[0, at.V]
+    stack[depth, OUTER_PSI] = s[0, at.PSI]
+    stack[depth, OUTER_Q] = s[0, at.Q]
     stack[depth, MADE] = made
     return depth + 1
 
@@ -35,7 +36,7 @@ def push_laid(stack: Stack, depth: int, s: Series, made: int) -> int:
 def push_flat(stack: Stack, depth: int, s: Series, sign: int, made: int) -> int:
     """Add the annulus that slip of this sign leaves between its front and the edge."""
     stack[depth, SLIP_SIGN] = sign
-    stack[depth, OUTER] = s[0, B]
+    stack[depth, OUTER] = s[0, at.B]
     stack[depth, MADE] = made
     return depth + 1
 
@@ -43,10 +44,10 @@ def push_flat(stack: Stack, depth: int, s: Series, sign: int, made: int) -> int:
 @kernel
 def trim(stack: Stack, depth: int, s: Series) -> None:
     """Cut the annulus in which the front stands down to the front."""
-    stack[depth - 1, OUTER] = s[0, A]
-    stack[depth - 1, OUTER_V] = s[0, V_A]
-    stack[depth - 1, OUTER_PSI] = s[0, PSI_A]
-    stack[depth - 1, OUTER_Q] = s[0, Q_A]
+    stack[depth - 1, OUTER] = s[0, at.A]
+    stack[depth - 1, OUTER_V] = s[0, at.V_A]
+    stack[depth - 1, OUTER_PSI] = s[0, at.PSI_A]
+    stack[depth - 1, OUTER_Q] = s[0, at.Q_A]
 
 
 @kernel
@@ -62,13 +63,13 @@ def cross_flat(stack: Stack, depth: int, sign: int) -> int:
 def place_front(stack: Stack, depth: int, s: Series) -> int:
     """Put the front on the rim of the topmost annulus; return the mode of its retreat."""
     top = depth - 1
-    s[0, A] = stack[top, OUTER]
+    s[0, at.A] = stack[top, OUTER]
     if stack[top, SLIP_SIGN] == 0.0:
-        s[0, V_A] = stack[top, OUTER_V]
-        s[0, PSI_A] = stack[top, OUTER_PSI]
-        s[0, Q_A] = stack[top, OUTER_Q]
-        return LAID
-    return FLAT
+        s[0, at.V_A] = stack[top, OUTER_V]
+        s[0, at.PSI_A] = stack[top, OUTER_PSI]
+        s[0, at.Q_A] = stack[top, OUTER_Q]
+        return at.LAID
+    return at.FLAT
 
 
 @kernel

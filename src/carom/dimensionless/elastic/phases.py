@@ -8,6 +8,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from carom.dimensionless.elastic import motion as at
 from carom.dimensionless.elastic.integration import (
     FRONT_AT_BORDER,
     RING_CLOSES,
@@ -24,7 +25,7 @@ from carom.dimensionless.elastic.memory import (
     push_laid,
     trim,
 )
-from carom.dimensionless.elastic.motion import COLUMNS, CONTACT, LAID, ORDER, PSI, STICK, A, B, Q, V
+from carom.dimensionless.elastic.motion import ORDER
 from carom.dimensionless.elastic.record import (
     MAX_ANNULI,
     MAX_PHASES,
@@ -34,6 +35,7 @@ from carom.dimensionless.elastic.record import (
     note_stretch,
 )
 from carom.dimensionless.numerics.kernels import entry_point, kernel
+from carom.quantities.causes import Cause
 from carom.quantities.statuses import WordedStatus
 
 # Modes of a recorded step that need no integration.
@@ -47,18 +49,6 @@ class Kind(IntEnum):
     SLIP = 1
     GROSS_SLIP = 2
     APART = 3
-
-
-class Cause(IntEnum):
-    """What ends a phase."""
-
-    FIRST_TOUCH = 0
-    EDGE_AT_LIMIT = 1
-    SLIP_STOPS = 2
-    RING_CLOSES = 3
-    FRONT_AT_CENTRE = 4
-    SEPARATION = 5
-    UNRESOLVED = 6
 
 
 SAME, OPPOSITE, NONE, GIVEN = 1, -1, 0, 2  # sign of the next phase, seen from this one
@@ -92,7 +82,7 @@ class Status(WordedStatus):
     Examples
     --------
     >>> import carom
-    >>> carom.Status(0).message
+    >>> carom.status.Status(0).message
     'solved'
     """
 
@@ -131,18 +121,19 @@ def stick(
     """Run a stick phase; return its cause of ending, the depth of the memory, the sign of slip."""
     s = work.series
     note_stretch(record, work.stack, depth)
-    s[0, A] = s[0, B]
-    event = run_stretch(work, record, STICK, 0, chi, 0.0, False, tolerance)
+    s[0, at.A] = s[0, at.B]
+    event = run_stretch(work, record, at.STICK, 0, chi, 0.0, False, tolerance)
     if event == UNRESOLVED:
         return Cause.UNRESOLVED.value, depth, 0
     slowest = psi_in * (RETRACE_EXACTLY if is_polynomial(chi) else RETRACE)
-    if depth == 0 and s[0, V] <= slowest + 1e-15:
-        note_node(record, RETRACED, CONTACT, 0, 0.0, s)
-        s[0, B], s[0, V], s[0, PSI], s[0, Q] = 0.0, -1.0, -psi_in, 0.0
+    if depth == 0 and s[0, at.V] <= slowest + 1e-15:
+        note_node(record, RETRACED, at.CONTACT, 0, 0.0, s)
+        s[0, at.B], s[0, at.V], s[0, at.PSI], s[0, at.Q] = 0.0, -1.0, -psi_in, 0.0
         return Cause.SEPARATION.value, depth, 0
-    s[0, V] = max(s[0, V], 1e-300)  # stick ends before the turning point; only rounding passes it
+    # stick ends before the turning point; only rounding passes it
+    s[0, at.V] = max(s[0, at.V], 1e-300)
     depth = push_laid(work.stack, depth, s, record.counts[0])
-    return Cause.EDGE_AT_LIMIT.value, depth, 1 if s[0, PSI] > 0.0 else -1
+    return Cause.EDGE_AT_LIMIT.value, depth, 1 if s[0, at.PSI] > 0.0 else -1
 
 
 @kernel
@@ -165,7 +156,7 @@ def slip(
         note_stretch(record, work.stack, depth)
         inner = inner_radius(work.stack, depth)
         event = run_stretch(
-            work, record, mode, sign, chi, inner, after_stick and mode == LAID, tolerance
+            work, record, mode, sign, chi, inner, after_stick and mode == at.LAID, tolerance
         )
         after_stick = False
         if event == FRONT_AT_BORDER:
@@ -174,7 +165,7 @@ def slip(
         trim(work.stack, depth, s)
         if event == UNRESOLVED:
             break
-        if s[0, B] < TINY:
+        if s[0, at.B] < TINY:
             return Cause.SEPARATION.value, depth
         if event == RING_CLOSES:
             return Cause.RING_CLOSES.value, depth
@@ -186,20 +177,20 @@ def slip(
 def gross_slip(work: Work, record: Record, sign: int, chi: float) -> tuple[int, int]:
     """Follow gross slip, psi - 2 chi sigma v constant (33); return why it ends, and the depth."""
     s = work.series
-    s[0, A] = 0.0
+    s[0, at.A] = 0.0
     note_stretch(record, work.stack, 0)
-    note_node(record, GROSS, CONTACT, sign, 0.0, s)
-    excess = sign * s[0, PSI] - s[0, V]
+    note_node(record, GROSS, at.CONTACT, sign, 0.0, s)
+    excess = sign * s[0, at.PSI] - s[0, at.V]
     fall = 2.0 * chi - 1.0  # of the excess, per fall in speed
-    if not excess < fall * (1.0 + s[0, V]) - ROUNDING:
-        s[0, PSI] -= 2.0 * chi * sign * (1.0 + s[0, V])
-        s[0, B], s[0, V], s[0, Q] = 0.0, -1.0, 0.0
+    if not excess < fall * (1.0 + s[0, at.V]) - ROUNDING:
+        s[0, at.PSI] -= 2.0 * chi * sign * (1.0 + s[0, at.V])
+        s[0, at.B], s[0, at.V], s[0, at.Q] = 0.0, -1.0, 0.0
         return Cause.SEPARATION.value, 0
-    fallen = (1.0 - s[0, V]) + excess / fall
-    s[0, V] = 1.0 - fallen if abs(1.0 - fallen) > ROUNDING else 0.0
-    s[0, B] = (fallen * (2.0 - fallen)) ** 0.2
-    s[0, PSI] = sign * s[0, V]
-    s[0, Q] = sign * (2.0 / 3.0) * s[0, B] ** 3
+    fallen = (1.0 - s[0, at.V]) + excess / fall
+    s[0, at.V] = 1.0 - fallen if abs(1.0 - fallen) > ROUNDING else 0.0
+    s[0, at.B] = (fallen * (2.0 - fallen)) ** 0.2
+    s[0, at.PSI] = sign * s[0, at.V]
+    s[0, at.Q] = sign * (2.0 / 3.0) * s[0, at.B] ** 3
     return Cause.SLIP_STOPS.value, push_flat(work.stack, 0, s, sign, record.counts[0])
 
 
@@ -212,8 +203,8 @@ def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Rec
         return Status.CHI_NOT_POSITIVE.value
     s = work.series
     s[0] = 0.0
-    s[0, V] = 1.0
-    s[0, PSI] = psi
+    s[0, at.V] = 1.0
+    s[0, at.PSI] = psi
     # psi and Q are of the order of psi_1; errors grow with the number of oscillations
     tolerance *= min(1.0, max(psi, SMALLEST)) / max(1.0, chi)
     depth = 0
@@ -231,7 +222,7 @@ def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Rec
             cause, depth = slip(work, record, depth, sign, after_stick, chi, tolerance)
         else:
             cause, depth = gross_slip(work, record, sign, chi)
-        following = NEXT[kind, cause, 1 if s[0, V] <= 0.0 else 0]
+        following = NEXT[kind, cause, 1 if s[0, at.V] <= 0.0 else 0]
         if following[0] == Kind.APART:
             note_change(record, Kind.APART.value, 0, cause, s)
             solved = cause == Cause.SEPARATION
@@ -244,7 +235,7 @@ def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Rec
 def new_work() -> Work:
     """Return the arrays that an impact needs."""
     return Work(
-        series=np.zeros((ORDER + 1, COLUMNS)),
+        series=np.zeros((ORDER + 1, at.COLUMNS)),
         gap=np.zeros(ORDER + 1),
         stack=np.zeros((MAX_ANNULI, STACK_COLUMNS)),
     )

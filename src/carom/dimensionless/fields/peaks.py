@@ -6,22 +6,9 @@ that the largest value around a circle needs no stress but that of one point.
 
 import numpy as np
 
+from carom.dimensionless.fields import subsurface as at
 from carom.dimensionless.fields.profile import Profile
-from carom.dimensionless.fields.subsurface import (
-    C_RR,
-    C_RZ,
-    C_TT,
-    C_ZZ,
-    NEGLIGIBLE,
-    P_RR,
-    P_RZ,
-    P_TT,
-    P_ZZ,
-    S_RT,
-    S_TZ,
-    Load,
-    stress_parts,
-)
+from carom.dimensionless.fields.subsurface import Load, stress_parts
 from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
@@ -74,9 +61,9 @@ def extreme_principals(
 def measured(measure: int, parts: Array, cos: float, friction: float) -> float:
     """Return a measure of the stress at an angle of this cosine."""
     along, across = friction * cos, friction * np.sqrt(max(1.0 - cos * cos, 0.0))
-    rr, tt = parts[P_RR] + along * parts[C_RR], parts[P_TT] + along * parts[C_TT]
-    zz, rz = parts[P_ZZ] + along * parts[C_ZZ], parts[P_RZ] + along * parts[C_RZ]
-    rt, tz = across * parts[S_RT], across * parts[S_TZ]
+    rr, tt = parts[at.P_RR] + along * parts[at.C_RR], parts[at.P_TT] + along * parts[at.C_TT]
+    zz, rz = parts[at.P_ZZ] + along * parts[at.C_ZZ], parts[at.P_RZ] + along * parts[at.C_RZ]
+    rt, tz = across * parts[at.S_RT], across * parts[at.S_TZ]
     if measure == VON_MISES:
         shears = rt * rt + rz * rz + tz * tz
         normals = (rr - tt) ** 2 + (tt - zz) ** 2 + (zz - rr) ** 2
@@ -119,7 +106,7 @@ def scan(measure: int, places: Matrix, friction: float, load: Load, best: Vector
     best[VALUE] = -np.inf
     for row in range(places.shape[0]):
         r, z = places[row, 0], places[row, 1]
-        parts = stress_parts(max(r, NEGLIGIBLE), z, load)
+        parts = stress_parts(max(r, at.NEGLIGIBLE), z, load)
         value, cos = around(measure, parts, friction)
         if value > best[VALUE]:
             best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos
@@ -146,7 +133,7 @@ def climb(
         for way in range(WAYS.shape[0]):
             r = min(abs(best[RADIUS] + step * WAYS[way, 0]), farthest)
             z = min(max(best[DEPTH] + step * WAYS[way, 1], shallow), min(deepest, farthest))
-            parts = stress_parts(max(r, NEGLIGIBLE), z, load)
+            parts = stress_parts(max(r, at.NEGLIGIBLE), z, load)
             value, cos = around(measure, parts, friction)
             if value > best[VALUE]:
                 best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos

@@ -9,6 +9,8 @@ from carom.dimensionless.numerics.chebyshev import nodes, transform
 from carom.dimensionless.numerics.kernels import kernel
 
 TERMS = 17  # of a Chebyshev series on a panel
+NOTHING = np.zeros((0, TERMS))
+MOST_PANELS = 32  # of a marched contact, as stresses see it: to some 1e-3 of the largest
 
 
 class Profile(NamedTuple):
@@ -16,19 +18,42 @@ class Profile(NamedTuple):
 
     `edges` has shape (n + 1,) and runs from 0 to the contact radius; rows of `q` and `g`, shape
     (n, TERMS), are Chebyshev coefficients on a panel mapped to [-1, 1]. `rim` is q at the edge,
-    where it ends with a jump.
+    where it ends with a jump. `n` is -dN/ds of what presses, one where there is none: Hertz's.
     """
 
     edges: Vector
     q: Matrix
     g: Matrix
     rim: float = 0.0
+    n: Matrix = NOTHING
 
 
 @kernel
 def is_constant(coefficients: Array) -> bool:
     """Tell whether a series has no term but the first, as where slip or a straight step laid it."""
     return not np.any(coefficients[1:])
+
+
+def borne(profile: Profile, places: Array) -> Array:
+    """Return what springs bear in compression at radii within the contact, over the edge's."""
+    squares = profile.edges**2
+    if len(profile.n) == 0:
+        return np.asarray(squares[-1] - places**2)
+    falls = np.cumsum(profile.n[:, 0] * np.diff(squares))
+    return np.asarray(np.interp(places**2, squares, falls[-1] - np.append(0.0, falls)))
+
+
+def thinned(profile: Profile) -> Profile:
+    """Return the profile of a marched contact on fewer panels, for what lies below the surface."""
+    panels = len(profile.n)
+    if panels <= MOST_PANELS:
+        return profile
+    knots = np.append(np.arange(0, panels, -(-panels // MOST_PANELS)), panels)
+    squares, (g, n) = profile.edges**2, np.zeros((2, knots.size - 1, TERMS))
+    for slopes, whole in ((g, profile.g), (n, profile.n)):
+        sums = np.append(0.0, np.cumsum(whole[:, 0] * np.diff(squares)))
+        slopes[:, 0] = np.diff(sums[knots]) / np.diff(squares[knots])
+    return Profile(profile.edges[knots], np.zeros(g.shape), g, profile.rim, n)
 
 
 def radii(low: float, high: float) -> Array:

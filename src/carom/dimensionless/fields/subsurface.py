@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.dimensionless.fields.profile import Profile
+from carom.dimensionless.fields.profile import Profile, thinned
 from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.dimensionless.numerics.kernels import entry_point, kernel
@@ -44,6 +44,7 @@ class Load(NamedTuple):
 
     edges: Vector
     g: Matrix
+    n: Matrix  # of the pressure, none where it is Hertz's
     poisson: float
     pressed: float
     pulled: float
@@ -157,6 +158,8 @@ def add_slices(parts: Array, r: float, z: float, way: int, panel: int, load: Loa
         s, distance, rate = along(way, r, z, start + half * (2.0 * piece + 1.0 + NODES[k]))
         push = WEIGHTS[k] * half * rate * s
         pull = push * evaluate(load.g[panel], inner, outer, s)
+        if load.n.shape[0] > 0:
+            push *= evaluate(load.n[panel], inner, outer, s)
         add_point(parts, r, z, complex(z, s), distance, load.poisson, push, pull)
 
 
@@ -244,6 +247,7 @@ def stresses(
 
 def load_of(profile: Profile, poisson: float, rim: float = 0.0) -> Load:
     """Return what acts on a body, lengths in radii of the contact."""
+    profile = thinned(profile)
     b = profile.edges[-1]
     rims = 0.5 * rim / b**2, 0.5 * profile.rim / b**2
-    return Load(profile.edges / b, profile.g, float(poisson), *rims, np.empty(PARTS))
+    return Load(profile.edges / b, profile.g, profile.n, float(poisson), *rims, np.empty(PARTS))

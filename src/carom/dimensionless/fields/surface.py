@@ -157,5 +157,8 @@ def sample(
     for i in range(radii.size):
         r = radii[i]
         out[i, 0], out[i, 1] = pressure(square, rim, r), traction(profile, r)
+        if profile.n.shape[0] > 0:
+            pressed = Profile(profile.edges, profile.q, profile.n, 0.0, profile.n)
+            out[i, 0] = traction(pressed, r)
         out[i, 2] = normal_displacement(d, r)
         out[i, 3], out[i, 4] = displacement(profile, r)

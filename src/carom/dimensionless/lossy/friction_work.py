@@ -14,8 +14,8 @@ import numpy as np
 from carom.dimensionless.elastic.phases import Kind
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.panels.collocation import TO_SERIES, place
-from carom.dimensionless.lossy.panels.record import Trace
 from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay, displaced
+from carom.dimensionless.lossy.viscoelastic.record import Trace
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.chebyshev import nodes, transform
 

@@ -21,6 +21,7 @@ class Loss(IntEnum):
     VISCOUS = 1  # alpha, the loss time in units of d_max/V_1
     PLASTIC = 2  # b at yield, (V_y/V_1)^(2/5)
     RELAXING = 3  # the relaxation time in units of d_max/V_1, and the extra modulus E_0/E - 1
+    PLATE = 4  # lambda, how far a plate gives way (Zener 1941); 0 is an elastic impact
 
 
 class LossNumbers(NamedTuple):

@@ -10,13 +10,12 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, keep_energy, largest_pressure
 from carom.dimensionless.lossy.layout import PSI_OUT
-from carom.dimensionless.lossy.panels.plans import TOLERANCE
-from carom.dimensionless.lossy.panels.record import Trace, new_record
 from carom.dimensionless.lossy.panels.work import Arrays, new_work
 from carom.dimensionless.lossy.springs import rebounds as springs
-from carom.dimensionless.lossy.springs.work import new_work as new_springs
+from carom.dimensionless.lossy.springs.march import new_work as new_springs
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic
-from carom.dimensionless.lossy.viscoelastic.impacts import NEVER
+from carom.dimensionless.lossy.viscoelastic.impacts import NEVER, TOLERANCE
+from carom.dimensionless.lossy.viscoelastic.record import Trace, new_record
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array, Codes, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point

@@ -13,17 +13,7 @@ from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.law import LossNumbers, largest_pressure
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory
-
-CAUSES = {
-    ("stick", "slip"): "friction limit reached",
-    ("stick", "gross slip"): "friction limit reached",
-    ("slip", "stick"): "slip stops",
-    ("slip", "slip"): "slip reverses",
-    ("slip", "gross slip"): "stick zone vanishes",
-    ("gross slip", "stick"): "slip stops",
-    ("gross slip", "slip"): "slip reverses",
-    ("gross slip", "gross slip"): "slip reverses",
-}
+from carom.quantities.causes import Cause, cause_between
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,8 +126,7 @@ def phases_told(
             found[-1] = found[-1]._replace(end=end)
             continue
         if found:
-            stops = name == "slip" and found[-1].sign == sign
-            cause = "slip stops" if stops else CAUSES[found[-1].kind, name]
+            cause = cause_between(found[-1].kind, name).message
             found[-1] = found[-1]._replace(cause=cause)
-        found.append(Phase(name, sign, start, end, "separation"))
+        found.append(Phase(name, sign, start, end, Cause.SEPARATION.message))
     return tuple(found)

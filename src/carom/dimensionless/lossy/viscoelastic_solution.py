@@ -11,12 +11,12 @@ from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.lossy import friction_work, layout
 from carom.dimensionless.lossy.law import FAR, LossNumbers
 from carom.dimensionless.lossy.panels.collocation import NODES, TO_SERIES, place
-from carom.dimensionless.lossy.panels.plans import TOLERANCE
-from carom.dimensionless.lossy.panels.record import Trace, new_record
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LINEAR, outgoing
 from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_told
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
 from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay, displaced, replay
+from carom.dimensionless.lossy.viscoelastic.record import Trace, new_record
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.chebyshev import extrema, from_extrema
 from carom.dimensionless.states import ContactState

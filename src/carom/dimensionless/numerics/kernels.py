@@ -2,27 +2,61 @@
 
 `kernel` marks them all. Those that Python calls are entry points: they come compiled with the
 package, in one shared library, and their annotations tell how they are called. Without a library,
-and for kernels that are none of these, numba compiles on first use.
+and for kernels that are none of these, numba compiles on first use if it is installed; otherwise
+they run as they are written.
 """
 
 import os
+import sys
 from collections.abc import Callable
-from functools import cached_property, update_wrapper
+from functools import cache, cached_property, update_wrapper
+from importlib.metadata import version
+from importlib.util import find_spec
+from multiprocessing import parent_process
 from typing import Any, Generic, ParamSpec, TypeVar, cast
+
+import numpy as np
 
 from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.signatures import Signature, signature_of
-from carom.quantities.refusals import one_of
+from carom.quantities.refusals import InputError, one_of
 
 VARIABLE = "CAROM_KERNELS"  # of the environment: library, numba or python
 WAYS = ("library", "numba", "python")
+INSTALL = 'pip install "carom[jit]"'
 Given = ParamSpec("Given")
 Found = TypeVar("Found")
 
 
 def way() -> str:
     """Return how kernels are to be run, or raise InputError."""
-    return one_of(VARIABLE, os.environ.get(VARIABLE, "library"), WAYS)
+    chosen = one_of(VARIABLE, os.environ.get(VARIABLE, "library"), WAYS)
+    if chosen == "numba" and not has_numba():
+        raise InputError(f"{VARIABLE}: numba is not installed; {INSTALL}")
+    return chosen
+
+
+@cache
+def has_numba() -> bool:
+    """Tell whether kernels can be compiled here."""
+    return find_spec("numba") is not None
+
+
+def compiled_by() -> str:
+    """Return what has compiled the kernels that are run, which decides the last bit of a result."""
+    chosen = way()
+    if chosen == "library" and not shared_library.reason():
+        return shared_library.opened().compiled_by
+    compiles = chosen != "python" and has_numba()
+    return f"numba {version('numba')}" if compiles else "nothing (plain Python)"
+
+
+@cache
+def warn_of_python() -> None:
+    """Say once, in the process that the user has started, why the solver is slow."""
+    if parent_process() is None:
+        why, what = shared_library.reason(), "Carom runs its solver as plain Python"
+        print(f"{what}, a thousand times slower ({why}). To be fast: {INSTALL}", file=sys.stderr)
 
 
 class Kernel(Generic[Given, Found]):
@@ -39,12 +73,16 @@ class Kernel(Generic[Given, Found]):
 
     @cached_property
     def compiled(self) -> Callable[Given, Found]:
-        """The machine code: that of the library, or numba's."""
+        """The machine code of the library, or numba's; the function itself if there is neither."""
         if way() == "library" and self.floats:
             found = shared_library.function(self.signatures(), self.floats)
             if found is not None:
                 return cast(Callable[Given, Found], found)
-        return cast(Callable[Given, Found], self.dispatcher)
+        if has_numba():
+            return cast(Callable[Given, Found], self.dispatcher)
+        if shared_library.reason():
+            warn_of_python()
+        return as_written(self.py_func) if self.floats else self.py_func
 
     @cached_property
     def dispatcher(self) -> Any:
@@ -83,12 +121,17 @@ def entry_point(*floats: str) -> Callable[[Callable[Given, Found]], Callable[Giv
 
     def mark(function: Callable[Given, Found]) -> Callable[Given, Found]:
         if way() == "python":
-            return function
+            return as_written(function)
         found = Kernel(function, floats or ("float64",))
         ENTRIES.append(found)
         return found
 
     return mark
+
+
+def as_written(function: Callable[Given, Found]) -> Callable[Given, Found]:
+    """Return a kernel that is run as Python, and like machine code warns of no infinity."""
+    return np.errstate(all="ignore")(function)
 
 
 def plain(kernel: Callable[Given, Found]) -> Callable[Given, Found]:

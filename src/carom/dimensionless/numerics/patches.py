@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
 from carom.dimensionless.numerics.arrays import Array, Counts, CountTable, Cube, Matrix, Vector
@@ -16,6 +18,7 @@ GRADING = 0.15  # of a side that begins at a singular place
 NARROWEST = 1e-12  # of the whole: no side is cut further
 BISECTIONS = 34  # that find a kink
 DEEPEST = 100  # levels of the tree
+LEAF = -1, 0.0, 0, 0  # a node: axis, cut, children
 TAIL, TAIL_OF_ONE = 2, 3  # last terms, whose size tells the error of a series; in one variable
 
 
@@ -25,6 +28,9 @@ class Samples(NamedTuple):
     values: Array
     weights: Array
     branches: NDArray[np.int64]
+
+
+Function = Callable[..., Samples]
 
 
 class Patches(NamedTuple):
@@ -72,27 +78,21 @@ def sections(patches: Patches, *others: float) -> tuple[Array, Array]:
 
     The ends of its panels, shape (n + 1,), and the coefficients on each, shape (n, terms).
     """
-    last, ends, rows, waiting = len(others), [], [], [0]
-    while waiting:
-        node = waiting.pop()
-        axis, (low, high) = patches.axes[node], patches.children[node]
-        if axis < 0:
-            corner, series = patches.corners[low], patches.series[low].reshape(patches.terms)
-            for value, (start, end) in zip(others, corner, strict=False):
-                place = (2.0 * value - start - end) / (end - start)
-                terms = np.polynomial.chebyshev.chebvander(place, len(series) - 1)[0]
-                series = np.tensordot(terms, series, 1)
-            rows.append(series)
-            ends.append(corner[last])
-        else:
-            beyond = axis < last and others[axis] >= patches.cuts[node]
-            waiting += [high] if beyond else [low] if axis < last else [high, low]
-    edges = [low for low, _ in ends] + [ends[-1][1]]
-    return np.array(edges), np.array(rows)
+    low, high = np.moveaxis(patches.corners, -1, 0)
+    point = np.array(others)[np.newaxis]
+    beyond = (high[:, :-1] > point) | (high[:, :-1] == high[:, :-1].max(axis=0))
+    leaves = np.flatnonzero(np.all((low[:, :-1] <= point) & beyond, axis=1))
+    leaves = leaves[np.argsort(low[leaves, -1])]
+    rows = patches.series[leaves].reshape(leaves.size, *patches.terms)
+    for axis, value in enumerate(others):
+        a, b = low[leaves, axis], high[leaves, axis]
+        terms = chebvander((2.0 * value - a - b) / (b - a), rows.shape[1] - 1)
+        rows = np.einsum("ni,ni...->n...", terms, rows)
+    return np.append(low[leaves, -1], high[leaves[-1], -1]), rows
 
 
 def fitted(
-    function: Callable[..., Samples],
+    function: Function,
     box: Sequence[tuple[float, float]],
     degrees: Sequence[int],
     tolerance: float,
@@ -109,144 +109,108 @@ def fitted(
     variable is cut where its branch changes, and looked at between the outer nodes, where a weak
     kink could hide.
     """
-    tree = _Tree(np.array(box, dtype=np.float64), degrees)
-    waiting = [0]
-    for axis, values in cuts:
-        waiting = [leaf for old in waiting for leaf in tree.cut(old, axis, values)]
-    width, last = np.diff(tree.boxes[0])[:, 0], len(box) - 1
-    function = _remembering(function) if last == 0 else function
-    while waiting:
-        points = tree.points(waiting)
-        samples = function(*points)
-        series = tree.series(samples.values)
-        weights = samples.weights.reshape(points.shape[1:]).max(axis=1)
-        errors = weights * np.array([_tail(series, axis) for axis in range(last + 1)])
-        kinks: list[list[float]] = [[] for _ in waiting]
-        if last == 0:
-            _look_between(function, tree, waiting, series, errors[0], tolerance)
-            kinks = _kinks(function, points[0], samples, errors[0] > tolerance)
-        later = []
-        for leaf, row, error, inside in zip(waiting, series, errors.T, kinks, strict=True):
-            low, high = tree.boxes[leaf].T
-            error = np.where(high - low > narrowest * width, error, 0.0)
-            if error.max() <= tolerance:
-                tree.leaves[leaf] = row.ravel()
-                continue
-            axis = int(error.argmax())
-            near = GRADING if axis == last and low[axis] == singular else 0.5
-            middle = low[axis] + near * (high[axis] - low[axis])
-            later += tree.cut(leaf, axis, inside or [middle])
-        waiting = later
-    return tree.patches()
+    last, terms = len(box) - 1, tuple(degree + 1 for degree in degrees)
+    unit = np.stack([grid.ravel() for grid in np.meshgrid(*map(extrema, degrees), indexing="ij")])
+    to_series = reduce(np.kron, map(from_extrema, degrees)).T
+    boxes, nodes = [np.array(box, dtype=np.float64)], [LEAF]
+    corners: list[Array] = []
+    series: list[Array] = []
+    if last == 0:
+        function = _remembering(function)
 
-
-def _remembering(function: Callable[..., Samples]) -> Callable[..., Samples]:
-    """Return a function of one variable that is asked once for the ends that panels share."""
-    known: dict[float, tuple[float, float, int]] = {}
-
-    def recall(x: Array) -> Samples:
-        asked = x.ravel().tolist()
-        new = [each for each in dict.fromkeys(asked) if each not in known]
-        if new:
-            answers = (part.tolist() for part in function(np.array(new)))
-            known.update(zip(new, zip(*answers, strict=True), strict=True))
-        return Samples(*map(np.array, zip(*(known[each] for each in asked), strict=True)))
-
-    return recall
-
-
-class _Tree:
-    """A tree of patches that is still growing."""
-
-    def __init__(self, box: Array, degrees: Sequence[int]) -> None:
-        self.degrees = degrees
-        self.nodes: list[tuple[int, float, int, int]] = [(-1, 0.0, 0, 0)]
-        self.boxes = [box]
-        self.leaves: dict[int, Array] = {}
-
-    def cut(self, node: int, axis: int, values: Sequence[float]) -> list[int]:
-        """Cut a leaf across a side at rising values; return the new leaves."""
+    def cut(node: int, axis: int, values: Sequence[float]) -> list[int]:
         leaves = []
         for value in values:
-            first = len(self.nodes)
-            low, high = self.boxes[node].copy(), self.boxes[node].copy()
+            low, high = boxes[node].copy(), boxes[node].copy()
             low[axis, 1] = high[axis, 0] = value
-            self.boxes += [low, high]
-            self.nodes[node] = axis, value, first, first + 1
-            self.nodes += [(-1, 0.0, 0, 0)] * 2
+            first = len(nodes)
+            nodes[node] = axis, value, first, first + 1
+            nodes.extend([LEAF] * 2)
+            boxes.extend((low, high))
             leaves.append(first)
             node = first + 1
         return [*leaves, node]
 
-    def points(self, leaves: Sequence[int]) -> Array:
-        """Return the nodes of the series of some leaves, of shape (variables, leaves, points)."""
-        low, high = np.moveaxis(np.array([self.boxes[leaf] for leaf in leaves]), -1, 0)[..., None]
-        grids = np.meshgrid(*map(extrema, self.degrees), indexing="ij")
-        unit = np.array([grid.ravel() for grid in grids])
+    waiting = [0]
+    for axis, values in cuts:
+        waiting = [leaf for old in waiting for leaf in cut(old, axis, values)]
+    while waiting:
+        low, high = np.moveaxis([boxes[leaf] for leaf in waiting], -1, 0)[..., np.newaxis]
         points = 0.5 * (low + high) + 0.5 * (high - low) * unit
-        if len(self.degrees) == 1:  # to the bit, as panels share them
-            points[..., :1], points[..., -1:] = low, high
-        return np.ascontiguousarray(np.moveaxis(np.clip(points, low, high), 1, 0))
+        points = np.select([unit == -1.0, unit == 1.0], [low, high], points)  # shared to the bit
+        samples = function(*np.moveaxis(points, 1, 0))
+        rows = samples.values.reshape(len(waiting), -1) @ to_series
+        weights = samples.weights.reshape(len(waiting), -1).max(axis=1, keepdims=True)
+        errors = weights * _tails(rows.reshape(-1, *terms))
+        kinks: list[list[float]] = [[] for _ in waiting]
+        if last == 0:
+            _look_between(function, points[:, 0], rows, errors[:, 0], tolerance)
+            kinks = _kinks(function, points[:, 0], samples.branches, errors[:, 0] > tolerance)
+        errors[(high - low)[..., 0] <= narrowest * (boxes[0][:, 1] - boxes[0][:, 0])] = 0.0
+        later = []
+        for leaf, row, error, inside in zip(waiting, rows, errors, kinks, strict=True):
+            if error.max() <= tolerance:
+                nodes[leaf] = -1, 0.0, len(series), len(series)
+                corners.append(boxes[leaf])
+                series.append(row)
+                continue
+            axis = int(error.argmax())
+            start, end = boxes[leaf][axis]
+            near = GRADING if axis == last and start == singular else 0.5
+            later += cut(leaf, axis, inside or [start + near * (end - start)])
+        waiting = later
+    axes, places, *children = map(np.array, zip(*nodes, strict=True))
+    below = np.stack(children, axis=-1)
+    return Patches(axes, places, below, np.array(corners), np.array(terms), np.array(series))
 
-    def series(self, values: Array) -> Array:
-        """Return the coefficients of leaves from their values at the nodes."""
-        rows = values.reshape(-1, *(degree + 1 for degree in self.degrees))
-        for axis, degree in enumerate(self.degrees, start=1):
-            product = np.tensordot(from_extrema(degree), rows, (1, axis))
-            rows = np.moveaxis(product, 0, axis)
-        return np.asarray(rows)
 
-    def patches(self) -> Patches:
-        """Return the tree as arrays."""
-        axes, cuts, *children = map(np.array, zip(*self.nodes, strict=True))
-        leaves = np.flatnonzero(axes < 0)
-        below = np.stack(children, axis=-1)
-        below[leaves] = np.arange(leaves.size)[:, np.newaxis]
-        corners = np.array([self.boxes[leaf] for leaf in leaves])
-        series = np.array([self.leaves[leaf] for leaf in leaves.tolist()])
-        return Patches(axes, cuts, below, corners, np.array(self.degrees) + 1, series)
+def _remembering(function: Function) -> Function:
+    """Return a function of one variable that is asked once for the ends that panels share."""
+    answers: dict[float, tuple[float, float, int]] = {}
+
+    def recall(x: Array) -> Samples:
+        asked = x.ravel().tolist()
+        new = [each for each in dict.fromkeys(asked) if each not in answers]
+        if new:
+            parts = (part.tolist() for part in function(np.array(new)))
+            answers.update(zip(new, zip(*parts, strict=True), strict=True))
+        return Samples(*map(np.array, zip(*(answers[each] for each in asked), strict=True)))
+
+    return recall
 
 
-def _tail(series: Array, axis: int) -> Array:
-    """Return the size of the last terms of every leaf along a side."""
-    tail = TAIL_OF_ONE if series.ndim == 2 else TAIL
-    last = np.abs(np.moveaxis(series, axis + 1, 1)[:, -tail:])
-    return np.asarray(last.reshape(len(series), -1).max(axis=1))
+def _tails(series: Array) -> Array:
+    """Return the size of the last terms of every series along each side."""
+    tail, sides = TAIL_OF_ONE if series.ndim == 2 else TAIL, range(1, series.ndim)
+    ends = [np.abs(np.moveaxis(series, side, 1)[:, -tail:]) for side in sides]
+    return np.stack([end.reshape(len(series), -1).max(axis=1) for end in ends], axis=-1)
 
 
 def _look_between(
-    function: Callable[..., Samples],
-    tree: _Tree,
-    leaves: Sequence[int],
-    series: Array,
-    errors: Array,
-    tolerance: float,
+    function: Function, points: Array, rows: Array, errors: Array, tolerance: float
 ) -> None:
     """Raise errors that seem small to those between the outer nodes, of leaves of one variable."""
-    seem, degree = np.flatnonzero(errors <= tolerance), tree.degrees[0]
-    if not seem.size:
-        return
-    angles = np.pi * np.array([0.5, degree - 0.5]) / degree
-    low, high = np.array([tree.boxes[leaf][0] for leaf in leaves])[seem].T[..., np.newaxis]
-    between = 0.5 * (low + high) - 0.5 * (high - low) * np.cos(angles)
-    values, weights, _ = (each.reshape(between.shape) for each in function(between))
-    wanted = series[seem] @ np.polynomial.chebyshev.chebvander(-np.cos(angles), degree).T
-    off = np.max(weights * np.abs(wanted - values), axis=1)
-    errors[seem] = np.maximum(errors[seem], off)
+    seem, degree = np.flatnonzero(errors <= tolerance), rows.shape[1] - 1
+    if seem.size:
+        places = -np.cos(np.pi * np.array([0.5, degree - 0.5]) / degree)
+        low, high = points[seem, :1], points[seem, -1:]
+        samples = function(0.5 * (low + high) + 0.5 * (high - low) * places)
+        wanted, weights = (each.reshape(-1, 2) for each in samples[:2])
+        off = weights * np.abs(rows[seem] @ chebvander(places, degree).T - wanted)
+        errors[seem] = np.maximum(errors[seem], off.max(axis=1))
 
 
 def _kinks(
-    function: Callable[..., Samples], points: Array, samples: Samples, wanted: NDArray[np.bool_]
+    function: Function, points: Array, branches: NDArray[np.int64], wanted: NDArray[np.bool_]
 ) -> list[list[float]]:
     """Return where each leaf that is wanted changes its branch, by bisection."""
-    branches = samples.branches.reshape(points.shape)
+    branches = branches.reshape(points.shape)
     changes = branches[:, 1:-2] != branches[:, 2:-1]  # an end may belong to either side
     rows, place = np.nonzero(changes & wanted[:, np.newaxis])
     low, high = points[rows, place + 1], points[rows, place + 2]
-    lower = branches[rows, place + 1]
     for _ in range(BISECTIONS if rows.size else 0):
         middle = 0.5 * (low + high)
-        below = function(middle).branches == lower
+        below = function(middle).branches == branches[rows, place + 1]
         low, high = np.where(below, middle, low), np.where(below, high, middle)
     kinks: list[list[float]] = [[] for _ in points]
     for row, kink in zip(rows, 0.5 * (low + high), strict=True):

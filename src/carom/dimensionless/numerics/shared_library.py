@@ -1,7 +1,8 @@
 """The shared library of compiled kernels: found beside the package, checked, opened.
 
 A library is used if it is whole, was made from these sources, and is for a processor that this one
-can stand for. Otherwise numba does the same, more slowly at first, and `reason` says why.
+can stand for. Otherwise numba does the same, more slowly at first, or plain Python, a thousand
+times slower, and `reason` says why.
 """
 
 import ctypes
@@ -21,10 +22,11 @@ CONTENTS = "kernels.json"  # beside the libraries: what they are, from what; or 
 
 
 class Opened(NamedTuple):
-    """An open library, and the signatures of its functions as texts."""
+    """An open library, what compiled it, and the signatures of its functions as texts."""
 
     path: Path
     handle: ctypes.CDLL
+    compiled_by: str
     signatures: dict[str, str]
 
 
@@ -138,7 +140,7 @@ def _best(contents: Any) -> Opened:
         except OSError as error:
             raise Unusable(f"the compiled library cannot be opened: {error}") from None
         if handle.carom_processor_level() >= each["level"]:
-            return Opened(path, handle, contents["signatures"])
+            return Opened(path, handle, contents["compiled_by"], contents["signatures"])
     raise Unusable("there is no compiled library for this processor")
 
 

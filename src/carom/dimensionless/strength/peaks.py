@@ -5,16 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from carom.dimensionless.fields import peaks as instant
-from carom.dimensionless.fields.peaks import (
-    DEPTH,
-    FOUND,
-    MEASURES,
-    RADIUS,
-    SHEAR,
-    TENSION,
-    VALUE,
-    VON_MISES,
-)
+from carom.dimensionless.fields.peaks import MEASURES, SHEAR, TENSION, VON_MISES
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.strength.searching import LAST_STEP, Contacts, Peak, Search
 
@@ -30,7 +21,7 @@ class _StressSearch(Search):
 
     def scanned(self, time: float) -> Array:
         if self.contacts.size(time) == 0.0:
-            return np.zeros((2, FOUND))
+            return np.zeros((2, instant.FOUND))
         shallow = self.contacts.shallow(time)
         regions = instant.regions(self.contacts.at(time)[0], shallow)
         return np.array([self._best(time, places) for places in regions])
@@ -38,9 +29,9 @@ class _StressSearch(Search):
     def climbed(self, time: float, start: Array, step: float, last: float = LAST_STEP) -> Array:
         size = self.contacts.size(time)
         if size == 0.0:
-            return np.zeros(FOUND)
+            return np.zeros(instant.FOUND)
         shallow = self.contacts.shallow(time)
-        place = np.array([[start[RADIUS], max(start[DEPTH], shallow)]])
+        place = np.array([[start[instant.RADIUS], max(start[instant.DEPTH], shallow)]])
         starts = [place]
         if place[0, 1] == shallow:  # at the surface jumps move with the front
             starts.append(instant.jumps(self.contacts.at(time)[0], shallow))
@@ -48,15 +39,15 @@ class _StressSearch(Search):
         given = self.measure, self.contacts.friction, load, shallow, np.inf
         found = [self._best(time, places) for places in starts]
         for best in found:
-            best[VALUE] /= size
+            best[instant.VALUE] /= size
             instant.climb(*given, step, last, best)
-            best[VALUE] *= size
-        return max(found, key=lambda best: best[VALUE])
+            best[instant.VALUE] *= size
+        return max(found, key=lambda best: best[instant.VALUE])
 
     def _best(self, time: float, places: Array) -> Array:
-        best, load = np.zeros(FOUND), self.contacts.load(time, self.poisson)
+        best, load = np.zeros(instant.FOUND), self.contacts.load(time, self.poisson)
         instant.scan(self.measure, places, self.contacts.friction, load, best)
-        best[VALUE] *= self.contacts.size(time)
+        best[instant.VALUE] *= self.contacts.size(time)
         return best
 
 

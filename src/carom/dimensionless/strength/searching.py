@@ -1,6 +1,7 @@
 """A search through the contacts of one impact: for the instant, and the place at that instant."""
 
 from abc import ABC, abstractmethod
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -79,12 +80,14 @@ class Contacts:
             radii = np.minimum(self.depth * FIRST_RADII, self.solution.max_radius)
             spread = [_spread(phase) for phase in phases]
             return np.unique(np.concatenate([self.solution.touched(radii), *spread]))
-        if self.friction == 0.0:
+        keeps_shape = isinstance(self.solution, Solution)
+        if self.friction == 0.0 and keeps_shape:
             return np.array([widest])
-        return np.unique(np.concatenate([_of_elastic(phase, widest) for phase in phases]))
+        of_phase = partial(_of_elastic, widest) if keeps_shape else _spread
+        return np.unique(np.concatenate([of_phase(phase) for phase in phases]))
 
 
-def _of_elastic(phase: Phase, widest: float) -> Array:
+def _of_elastic(widest: float, phase: Phase) -> Array:
     if phase.kind == "gross slip":
         return np.array([min(max(widest, phase.start), phase.end)])
     return _spread(phase)

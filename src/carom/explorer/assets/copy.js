@@ -38,19 +38,6 @@ Carom.source = (() => {
     return value;
   }
 
-  // What does not matter in a view, and may be anything.
-  function unused(given) {
-    if (given("given") === "numbers") {
-      const bodies = ["radius", "against", ...["", "second_"].flatMap((which) => ["material", ...PARTS].map((part) => which + part))];
-      return [...bodies, "second_radius", "speed", "angle", "spin"];
-    }
-    const found = ["psi", "chi"];
-    if (given("against") === "half-space") found.push("second_radius");
-    for (const which of ["", "second_"]) if (given(`${which}material`) !== "own") found.push(...PARTS.map((part) => which + part));
-    if (given("against") !== "sphere") found.push("second_density");
-    return found;
-  }
-
   // The view of a query: a value for every field.
   function viewOf(query) {
     if (query.length > LONGEST_LINK) refuse("", `the link has ${query.length} characters; at most ${LONGEST_LINK} are read`);
@@ -60,14 +47,13 @@ Carom.source = (() => {
     }
     given.getAll("law").forEach((label) => label && word("law", label));
     const of = (name) => given.getAll(name).at(-1) ?? String(fields[name].default);
-    const idle = unused(of);
     const view = {};
     for (const name of Object.keys(fields)) {
       if (name === "law" || name === "data") continue;
       try {
         view[name] = word(name, of(name));
       } catch (refusal) {
-        if (!idle.includes(name)) throw refusal;
+        if (Carom.fields.counts(name, of)) throw refusal;
         view[name] = fields[name].default;
       }
     }

@@ -13,7 +13,6 @@ Carom.fields = (() => {
     bodies: ["radius", ...material(""), "against", "second_radius", ...material("second_")],
   };
   const PLAIN = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i; // what a slider can follow
-  const OWN = "own";
   const heard = [];
   const box = (name) => document.getElementById(name);
 
@@ -75,17 +74,13 @@ Carom.fields = (() => {
     if (slider && document.activeElement !== slider && PLAIN.test(text)) slider.value = text;
   }
 
+  // Whether a field matters, where the others have these words.
+  const counts = (name, word) => Object.entries(known[name].needs).every(([other, words]) => words.includes(word(other)));
+
   // What is not given, or not there, is not asked for.
   function hide() {
-    const numbers = value("given") === "numbers";
-    for (const name of ["speed", "angle", "spin"]) box(`${name}-field`).hidden = numbers;
-    box("numbers-fields").hidden = !numbers;
-    box("bodies-fields").hidden = numbers;
-    box("second_radius-field").hidden = value("against") === "half-space";
-    for (const which of ["", "second_"]) {
-      const own = value(`${which}material`) === OWN;
-      for (const name of OF_MATERIAL) box(`${which}${name}-field`).hidden = !own;
-    }
+    for (const name of names()) box(`${name}-field`).hidden = !counts(name, value);
+    for (const group of ["numbers", "bodies"]) box(`${group}-fields`).hidden = value("given") !== group;
   }
 
   const names = () => Object.values(GROUPS).flat().filter((name) => known[name]);
@@ -170,6 +165,7 @@ Carom.fields = (() => {
 
   return {
     build,
+    counts,
     query,
     set,
     put,

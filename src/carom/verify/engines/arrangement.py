@@ -11,9 +11,9 @@ import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import LinearSpring
-from carom.laws.dem.coefficients import SPRING
-from carom.laws.dem.damping import damping_ratio
+from carom.dem import LinearSpring
+from carom.dem.coefficients import SPRING
+from carom.dem.damping import damping_ratio
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import refusal
 from carom.verify.engines.experiments import Experiment, Outcomes

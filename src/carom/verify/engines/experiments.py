@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.bodies.pairs import Pair, Scales, checked_scales
+from carom.bodies.pairs import Pair, Scales, checked_scales, with_friction
 from carom.bodies.shapes import HalfSpace, Sphere
+from carom.dem.base import ContactLaw
 from carom.dimensionless.numerics import hertz
-from carom.laws.dem import ContactLaw
 from carom.quantities.arrays import Array, along_the_same, finite_line, numbers
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, checked_type, refusal
 from carom.quantities.units import counted, positive
 
 MOST_STEPS = 10_000_000
@@ -45,7 +45,7 @@ class Experiment:
     pair : Pair
         A solid sphere against a half-space or another solid sphere, with friction.
     law : ContactLaw
-        A law of `carom.laws.dem`.
+        A law of `carom.dem`.
     normal_speed : float
         V_1 in m/s.
     tangential_speed, spin : tuple of float, length n
@@ -65,7 +65,7 @@ class Experiment:
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.1,
+    ...     pair=pair, law=carom.dem.LammpsMindlin(), normal_speed=0.1,
     ...     tangential_speed=(0.05, 0.0), spin=(0.0, 10.0), steps=1000,
     ... )
     >>> experiment.psi_in.round(3)
@@ -81,8 +81,9 @@ class Experiment:
 
     def __post_init__(self) -> None:
         _refuse_bodies(self.pair)
-        if not isinstance(self.law, ContactLaw):
-            raise refusal("law", self.law, "must be a contact law, e.g. carom.LammpsMindlin()")
+        checked_type(
+            "law", self.law, ContactLaw, "must be a contact law, e.g. carom.dem.LammpsMindlin()"
+        )
         along_the_same(tangential_speed=self.tangential_speed, spin=self.spin)
         speeds = _column("tangential_speed", self.tangential_speed)
         spins = _column("spin", self.spin) or (0.0,) * len(speeds)
@@ -154,7 +155,7 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.25,
+    ...     pair=pair, law=carom.dem.LammpsMindlin(), normal_speed=0.25,
     ...     tangential_speed=(0.5,), steps=1000,
     ... )
     >>> print(results_csv(experiment, Outcomes(*np.array([[0.25], [0.375], [-16.0]]))), end="")
@@ -169,8 +170,7 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
 
 def _refuse_bodies(pair: Pair) -> None:
     """Refuse what DEM programs do not have."""
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    with_friction(pair, "without friction there is nothing to test")
     if not isinstance(pair.second, Sphere | HalfSpace):
         raise refusal(
             "second body", pair.second, "must be a Sphere or HalfSpace; DEM codes have no cups"
@@ -180,10 +180,6 @@ def _refuse_bodies(pair: Pair) -> None:
             raise refusal(
                 "sphere", body, "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
             )
-    if pair.friction == 0.0:
-        raise refusal(
-            "friction", pair.friction, "must be positive; without friction there is nothing to test"
-        )
 
 
 def _column(name: str, values: Any) -> tuple[float, ...]:

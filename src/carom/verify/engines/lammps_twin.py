@@ -1,7 +1,7 @@
 """The contact laws of LAMMPS as its manual states them, two bodies in a plane, step by step.
 
 From the equations of pair_style granular, fix wall/gran and fix nve/sphere, apart from the laws of
-`carom.laws.dem`, whose normal stays: here that of two free spheres turns. Without damping.
+`carom.dem`, whose normal stays: here that of two free spheres turns. Without damping.
 """
 
 from __future__ import annotations

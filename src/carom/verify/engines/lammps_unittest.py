@@ -82,7 +82,7 @@ def unit_test_yaml(
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=1e-4,
+    ...     pair=pair, law=carom.dem.LammpsMindlin(), normal_speed=1e-4,
     ...     tangential_speed=(5e-5,), steps=1000,
     ... )
     >>> print(unit_test_yaml(experiment, tolerance=0.6).splitlines()[2])

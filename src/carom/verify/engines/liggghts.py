@@ -10,7 +10,8 @@ from typing import ClassVar
 
 from carom.adapters import liggghts
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import ContactLaw, LiggghtsHertz, LinearSpring, MemoryLaw
+from carom.dem import ExactContactLaw, LiggghtsHertz, LinearSpring
+from carom.dem.base import ContactLaw
 from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.running import Engine
@@ -71,8 +72,8 @@ class Liggghts(Engine):
     --------
     >>> import carom
     >>> engine = carom.verify.Liggghts()
-    >>> hertz = carom.LiggghtsHertz(restitution=0.9)
-    >>> engine.supports(hertz), engine.supports(carom.LammpsMindlin())
+    >>> hertz = carom.dem.LiggghtsHertz(restitution=0.9)
+    >>> engine.supports(hertz), engine.supports(carom.dem.LammpsMindlin())
     (True, False)
     """
 
@@ -91,7 +92,7 @@ class Liggghts(Engine):
 
     def supports(self, law: ContactLaw) -> bool:
         """Tell whether the program has this law; the exact one where it was built with it."""
-        if isinstance(law, MemoryLaw):
+        if isinstance(law, ExactContactLaw):
             fits = law.springs in liggghts.SPRINGS and law.restitution == 1.0
             executable = self.executable() if fits else None
             return executable is not None and liggghts.has_model(executable)
@@ -110,7 +111,7 @@ class Liggghts(Engine):
 
 def _words(law: ContactLaw) -> tuple[str, str]:
     """Return the models of a law, and their options."""
-    if isinstance(law, MemoryLaw):
+    if isinstance(law, ExactContactLaw):
         return "hertz tangential carom", f"springs {law.springs}"
     if isinstance(law, LinearSpring):
         return "hooke/stiffness tangential history", "tangential_damping off"

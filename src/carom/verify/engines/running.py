@@ -18,7 +18,7 @@ from typing import IO, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.laws.dem import ContactLaw
+from carom.dem.base import ContactLaw
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import positive
 from carom.verify.engines.experiments import Experiment, Outcomes
@@ -133,7 +133,7 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.01,
+    ...     pair=pair, law=carom.dem.LammpsMindlin(), normal_speed=0.01,
     ...     tangential_speed=(0.005,), steps=1000,
     ... )
     >>> carom.verify.run(carom.verify.Lammps("/nowhere/lmp"), experiment)

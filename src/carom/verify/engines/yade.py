@@ -11,7 +11,8 @@ import numpy as np
 
 from carom.bodies.pairs import Counterbody
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import ContactLaw, LammpsMindlin, LinearSpring, YadeMindlin
+from carom.dem import LammpsMindlin, LinearSpring, YadeMindlin
+from carom.dem.base import ContactLaw
 from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.running import Engine
@@ -101,8 +102,8 @@ class Yade(Engine):
     --------
     >>> import carom
     >>> engine = carom.verify.Yade()
-    >>> mindlin = carom.YadeMindlin(restitution=0.9)
-    >>> engine.supports(mindlin), engine.supports(carom.LammpsMindlin("mindlin"))
+    >>> mindlin = carom.dem.YadeMindlin(restitution=0.9)
+    >>> engine.supports(mindlin), engine.supports(carom.dem.LammpsMindlin("mindlin"))
     (True, False)
     """
 

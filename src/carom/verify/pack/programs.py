@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from carom.bodies.cases import pair_of
-from carom.laws.dem import ContactLaw, LammpsMindlin, LiggghtsHertz
+from carom.dem import LammpsMindlin, LiggghtsHertz
+from carom.dem.base import ContactLaw
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.lammps import Lammps
 from carom.verify.engines.lammps_unittest import unit_test_yaml

@@ -10,15 +10,16 @@ from typing import Any
 import numpy as np
 
 from carom.bodies.pairs import Pair
+from carom.dem.base import Law
 from carom.impacts.exact import Impact
-from carom.io.columns import Results, in_units, others
+from carom.io.columns import in_units, others
 from carom.io.tables import read_table
-from carom.laws.dem import Law
+from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, nearest, refusal
-from carom.quantities.units import number, positive
+from carom.quantities.units import positive
 from carom.verify.errors import is_function
 from carom.verify.scoring.cases import Given, given_of
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
@@ -73,8 +74,8 @@ def score(
         [rpm]", "angle (deg)". Speeds of two spheres are relative; normal_speed is positive before
         and normal_speed_out after; positive spin adds to the tangential speed of the contact point;
         tangential_force is positive against V_x > 0. At least 3 points, or 20 rows with a force. Or
-        a contact law, or a function as of `carom.FunctionLaw`: its psi_2 at the 15 incidences of
-        `rank`.
+        a contact law, or a function as of `carom.dem.FunctionLaw`: its psi_2 at the 15 incidences
+        of `rank`.
     case : str, Path, mapping, Pair or Impact, optional
         The bodies and their friction, as in a case file for `carom impact`. They are needed unless
         the results are psi_1 and psi_2, or a comment of the file, "# case:", holds them as JSON. A
@@ -119,18 +120,15 @@ def score(
     (False, 0.075)
     >>> result.groups[0].name
     'stick, slip -, gross slip -'
-    >>> round(carom.verify.score(carom.LammpsMindlin("mindlin")).max_error, 3)
+    >>> round(carom.verify.score(carom.dem.LammpsMindlin("mindlin")).max_error, 3)
     0.576
     """
-    limit = number("tolerance", tolerance, "1")
-    if not 0.0 < limit < float("inf"):
-        raise refusal("tolerance", tolerance, f"must be positive and finite, e.g. {TOLERANCE}")
+    limit = positive("tolerance", tolerance, "1")
+    own_notes: tuple[str, ...] = ()
     if isinstance(results, Law) or (is_function(results) and not hasattr(results, "items")):
         own = results_of(results, case, chi, restitution)
-        given_so: Any = {"tolerance": limit, "columns": columns, "code": code}
-        given_so["law"] = own.name if law is None else law
-        found = score(own.columns, chi=own.chi, restitution=own.restitution, **given_so)
-        return replace(found, notes=(*found.notes, *own.notes))
+        results, case, chi, restitution = own.columns, None, own.chi, own.restitution
+        law, own_notes = own.name if law is None else law, own.notes
     table = read_table(results, columns)
     kind, known = _kind(table.names)
     if kind != "psi" and chi is not None:
@@ -145,7 +143,7 @@ def score(
     origins, notes = origins_of(table, {"code": code, "law": law}, most)
     left = [name for name in unused if name not in NAMES]
     told = (f"columns that were not used: {', '.join(left)}",) if left else ()
-    return replace(found, notes=(*found.notes, *notes, *told), told_origins=origins)
+    return replace(found, notes=(*found.notes, *notes, *told, *own_notes), told_origins=origins)
 
 
 def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
@@ -165,7 +163,7 @@ def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     )
 
 
-def _score_psi(results: Results, case: Given, chi: Any, limit: float) -> Score:
+def _score_psi(results: UserTable, case: Given, chi: Any, limit: float) -> Score:
     results.require("psi_in", "psi_out")
     results.require_rows(FEWEST)
     chis = _chis(results, case, chi)
@@ -178,7 +176,7 @@ def _score_psi(results: Results, case: Given, chi: Any, limit: float) -> Score:
     return Score("psi", limit, points, audit, notes_on(points))
 
 
-def _chis(results: Results, case: Given, chi: Any) -> Array:
+def _chis(results: UserTable, case: Given, chi: Any) -> Array:
     ways = [name for name, way in (("--chi", chi), ("--case", case.case)) if way is not None]
     if "chi" in results.columns:
         if ways:
@@ -194,13 +192,13 @@ def _chis(results: Results, case: Given, chi: Any) -> Array:
     return np.full(len(results), value)
 
 
-def _score_velocities(results: Results, case: Given, _: Any, limit: float) -> Score:
+def _score_velocities(results: UserTable, case: Given, _: Any, limit: float) -> Score:
     results.require_rows(FEWEST)
     points, audit, notes = score_velocities(results, case.pair, case.restitution, limit)
     return Score("velocities", limit, points, audit, notes, inputs=case.inputs)
 
 
-def _score_history(results: Results, case: Given, _: Any, limit: float) -> Score:
+def _score_history(results: UserTable, case: Given, _: Any, limit: float) -> Score:
     hit = case.impact
     points, audit, notes, forces = score_history(results, hit, case.restitution, limit)
     return Score("history", limit, points, audit, notes, forces, hit.inputs())

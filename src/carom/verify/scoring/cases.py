@@ -8,7 +8,7 @@ from typing import Any
 
 from carom.bodies.cases import check_case, losses_of, motion_of, pair_of, read_case
 from carom.bodies.losses import KelvinVoigt
-from carom.bodies.pairs import Pair, alike
+from carom.bodies.pairs import Pair, alike, with_friction
 from carom.bodies.shapes import describe
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
@@ -34,14 +34,12 @@ class Given:
             pair = self.case.pair if isinstance(self.case, Impact) else self.case
         else:
             pair = pair_of(_content(self.case))
-        if pair.friction == 0.0:
-            allowed = "without friction psi is infinite, and nothing can be scored"
-            raise refusal("friction", 0.0, allowed)
-        return pair
+        return with_friction(pair, "without friction psi is infinite, and nothing can be scored")
 
     @cached_property
     def impact(self) -> Impact:
         """The exact impact; InputError if there is no motion."""
+        pair = self.pair
         if isinstance(self.case, Impact):
             return self.case
         if isinstance(self.case, Pair):
@@ -49,7 +47,7 @@ class Given:
                 "case: a history needs the speeds, too; give a case that has them, or an Impact"
             )
         motion = motion_of(_content(self.case))
-        hit: Impact = impact(self.pair, losses=errors.losses_of(self.restitution), **motion)
+        hit: Impact = impact(pair, losses=errors.losses_of(self.restitution), **motion)
         return hit
 
     @property

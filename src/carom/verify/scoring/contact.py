@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics import hertz
 from carom.impacts.exact import Impact
-from carom.io.columns import Mask, Results
+from carom.io.user_table import Mask, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
@@ -36,7 +36,7 @@ class Samples(NamedTuple):
     end: float
 
 
-def contact_samples(results: Results, hit: Impact) -> Samples:
+def contact_samples(results: UserTable, hit: Impact) -> Samples:
     """Return the forces while the bodies touch.
 
     The first touch lies between the last row without force and the first with one, as long before
@@ -90,7 +90,7 @@ def _when(force: float, hit: Impact, end: float) -> float:
     return time * hit.scales.time
 
 
-def _framed(results: Results, first: int, last: int, touch: float, end: float) -> Samples:
+def _framed(results: UserTable, first: int, last: int, touch: float, end: float) -> Samples:
     """Return the rows from first to last between an instant of touch and one of separation."""
     part = slice(first, last + 1)
     normal, tangential = (
@@ -102,14 +102,14 @@ def _framed(results: Results, first: int, last: int, touch: float, end: float) -
     return Samples(time, normal, tangential, rows, touch, end - touch)
 
 
-def _check_order(results: Results) -> None:
+def _check_order(results: UserTable) -> None:
     falls = np.concatenate([[False], np.diff(results["time"]) <= 0.0])
     results.refuse(
         "time", falls, "it must rise from row to row; sort the rows, and delete duplicates"
     )
 
 
-def _ends(results: Results) -> tuple[int, int]:
+def _ends(results: UserTable) -> tuple[int, int]:
     """Return the first and the last row of the contact."""
     force = results["normal_force"]
     touching = force > 0.0
@@ -125,7 +125,7 @@ def _ends(results: Results) -> tuple[int, int]:
     return first, last
 
 
-def _check_ends(results: Results, first: int, last: int, peak: float, hit: Impact) -> None:
+def _check_ends(results: UserTable, first: int, last: int, peak: float, hit: Impact) -> None:
     """Raise InputError if the record does not start at the first touch and end at the last."""
     exact = hit.solution.history(FEWEST + 1).normal_force / hit.solution.max_force
     for place, what, soon in (

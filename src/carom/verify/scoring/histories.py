@@ -6,11 +6,10 @@ import numpy as np
 
 from carom.bodies.pairs import Scales
 from carom.impacts.exact import Impact
-from carom.io.columns import Results
 from carom.io.labels import Finding
+from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError
 from carom.verify.scoring.contact import Samples, contact_samples
 from carom.verify.scoring.points import (
     LARGEST,
@@ -93,20 +92,18 @@ def _middles(values: Array) -> Array:
 
 
 def score_history(
-    results: Results, hit: Impact, expected: float, limit: float
+    results: UserTable, hit: Impact, expected: float, limit: float
 ) -> tuple[Points, tuple[Finding, ...], tuple[str, ...], Forces]:
     """Return the one point that a history makes, what is found, notes, and the forces.
 
     Raises InputError for a record that is not one whole contact, or is in wrong units.
     """
     results.require("time", "normal_force", "tangential_force")
-    if hit.pair.friction == 0.0:
-        raise InputError("friction: without friction psi is infinite, and nothing can be scored")
     _refuse_large(results, hit.scales)
     forces = forces_of(hit, contact_samples(results, hit))
     change = np.array([_energy_change(forces)])
     before, after = np.array([hit.psi_in]), forces.psi[-1:]
-    one = Results({}, np.array([1]), "impact")
+    one = UserTable({}, np.array([1]), "impact")
     refuse_large(before, after, one)
     points = compared(before, after, np.array([hit.pair.chi]), expected, change, one)
     unit = 0.5 * hit.pair.tangential_mass * np.array([hit.scales.tangential_speed]) ** 2
@@ -124,7 +121,7 @@ def score_history(
     return points, findings, _notes(forces), forces
 
 
-def _refuse_large(results: Results, scales: Scales) -> None:
+def _refuse_large(results: UserTable, scales: Scales) -> None:
     """Raise InputError for numbers in a unit that cannot be theirs."""
     units = {"normal_force": scales.force, "tangential_force": scales.force}
     units["contact_velocity"] = scales.tangential_speed
@@ -154,7 +151,7 @@ def _share(name: str, error: float, unit: str, limit: float) -> Finding:
     return Finding(name, abs(error), limit, abs(error) <= limit, verdict)
 
 
-def _cone_audit(results: Results, forces: Forces, limit: float) -> Finding:
+def _cone_audit(results: UserTable, forces: Forces, limit: float) -> Finding:
     """Return whether |F_t| <= mu F_n, in units of mu P_max."""
     friction, peak = forces.hit.pair.friction, forces.hit.scales.force
     over = np.abs(results["tangential_force"]) - friction * np.maximum(results["normal_force"], 0.0)
@@ -181,7 +178,7 @@ def _work_audit(forces: Forces, limit: float) -> Finding:
     return Finding("work", value, limit, value <= limit, verdict)
 
 
-def _velocity_audit(results: Results, forces: Forces, limit: float) -> tuple[Finding, ...]:
+def _velocity_audit(results: UserTable, forces: Forces, limit: float) -> tuple[Finding, ...]:
     """Return whether the velocity of the contact point, if given, is what the force makes of it."""
     if "contact_velocity" not in results.columns:
         return ()

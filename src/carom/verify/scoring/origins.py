@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.tables import GAP, Cells, Column
+from carom.io.tables import GAP
+from carom.io.user_table import Column, UserTable
 from carom.quantities.refusals import refusal
 
 NAMES = ("code", "law")  # columns, or comments "# code: ..." of a file
@@ -56,7 +57,7 @@ def unknown(rows: int) -> Origins:
 
 
 def origins_of(
-    table: Cells, given: Mapping[str, Any], most: int = MOST
+    table: UserTable, given: Mapping[str, Any], most: int = MOST
 ) -> tuple[Origins, tuple[str, ...]]:
     """Return the origins of the rows of a table, and notes on columns that do not tell them.
 
@@ -82,13 +83,13 @@ def origins_of(
     return Origins((one,), np.zeros(rows, dtype=np.int64)), notes
 
 
-def _named(name: str, given: Any, table: Cells) -> list[str]:
+def _named(name: str, given: Any, table: UserTable) -> list[str]:
     """Return a name for every row of a table, or one for all."""
     if given is not None:
         if not isinstance(given, str) or not _clean(given):
             raise refusal(name, given, "must be a text, e.g. 'mindlin'")
         return [_clean(given)]
-    column = table.columns.get(name, Column("", (), "none"))
+    column = table.cells.get(name, Column(name, (), "", "none"))
     if column.fault:
         return [_clean(table.comments.get(name, ""))]
     found = [_clean(cell) for cell in column.cells]

@@ -6,10 +6,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.laws.dem import FunctionLaw, Law, LawStatus
+from carom.dem import FunctionLaw
+from carom.dem.base import Law
+from carom.dem.status import LawStatus
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError
-from carom.verify.catalogue import called
+from carom.verify.entries import called
 from carom.verify.errors import (
     INCIDENCES,
     as_law,

@@ -11,10 +11,9 @@ from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.impacts.curves import REGIMES, regime_map
-from carom.io.columns import Results
 from carom.io.labels import Finding
 from carom.io.progress import advancing
-from carom.io.tables import SHOWN, named
+from carom.io.user_table import SHOWN, Rows, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
@@ -43,7 +42,7 @@ class Group(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Points:
+class Points(Rows):
     """Rebounds of a user and the exact ones; `energy_change` is that after less that before.
 
     It is in J, or in units of m_t (mu V_1/kappa)^2/2 where all is dimensionless: psi_2^2 - psi_1^2.
@@ -71,14 +70,6 @@ class Points:
         """The index of the largest error."""
         return int(np.argmax(np.abs(self.error)))
 
-    def named(self, where: NDArray[np.bool_]) -> str:
-        """Return the rows where something is so."""
-        return named(self.word, self.rows[where], self.rows.size)
-
-    def one(self, index: int) -> str:
-        """Return what one row is called."""
-        return named(self.word, self.rows[index : index + 1])
-
     def group(self, name: str, where: NDArray[np.bool_]) -> Group:
         """Return the errors of some of the points."""
         error = self.error[where]
@@ -94,7 +85,7 @@ class Points:
         return tuple(self.group(self.sequence_names[i], members[i]) for i in order)
 
 
-def refuse_large(psi_in: Array, psi_out: Array, results: Results) -> None:
+def refuse_large(psi_in: Array, psi_out: Array, results: UserTable) -> None:
     """Raise InputError for velocities in a unit that cannot be theirs."""
     large = ~(np.maximum(np.abs(psi_in), np.abs(psi_out)) <= LARGEST)
     if large.any():
@@ -108,7 +99,7 @@ def compared(
     chi: Array,
     restitution: float,
     energy_change: Array,
-    results: Results,
+    results: UserTable,
 ) -> Points:
     """Return results beside the exact rebounds of Maw, Barber & Fawcett (1976), or with losses.
 
@@ -123,9 +114,8 @@ def compared(
         sequence, names = _sequences(psi_in, chi, codes)
     else:
         sequence, names = codes, REGIMES
-    rows, word = results.rows, results.word
-    given = psi_in, psi_out, chi, restitution
-    return Points(*given, exact, sequence, names, energy_change, rows, word)
+    given = psi_in, psi_out, chi, restitution, exact, sequence, names, energy_change
+    return Points(*given, results.rows, results.word)
 
 
 def _solved(

@@ -9,8 +9,8 @@ from carom.bodies.kinematics import Tangential, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.datasets.observables import FASTEST, SLOWEST
-from carom.io.columns import Results
 from carom.io.labels import Finding
+from carom.io.user_table import UserTable
 from carom.quantities.refusals import InputError
 from carom.verify.scoring.points import (
     Points,
@@ -57,7 +57,7 @@ class Velocities(NamedTuple):
 
 
 def score_velocities(
-    results: Results, pair: Pair, expected: float, limit: float
+    results: UserTable, pair: Pair, expected: float, limit: float
 ) -> tuple[Points, tuple[Finding, ...], tuple[str, ...]]:
     """Return the points that velocities make, what is found of them, and notes.
 
@@ -86,36 +86,30 @@ def score_velocities(
     return points, findings, notes
 
 
-def _before(results: Results) -> Velocities:
+def _before(results: UserTable) -> Velocities:
     normal, tangential = _speeds(results)
     nothing = np.zeros(len(results))
-    spins = [results.get(name, nothing) for name in ("spin", "spin2")]
+    spins: list[Any] = [results.columns.get(name, nothing) for name in ("spin", "spin2")]
     return Velocities(normal, Tangential(tangential, *spins))
 
 
-def _speeds(results: Results) -> tuple[Any, Any]:
+def _speeds(results: UserTable) -> tuple[Any, Any]:
     """Return normal and tangential speed before, from either way of giving them."""
     if not {"speed", "angle"} & set(results.columns):
         results.require("normal_speed", "tangential_speed")
-        normal = results["normal_speed"]
-        results.refuse("normal_speed", normal <= 0.0, "must be positive: the bodies must approach")
-        return normal, results["tangential_speed"]
+        return results["normal_speed"], results["tangential_speed"]
     results.require("speed", "angle")
     if {"normal_speed", "tangential_speed"} & set(results.columns):
         raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
-    speed, angle = results["speed"], results["angle"]
-    allowed = "must be below pi/2, 90 deg; the head of a column in degrees is 'angle [deg]'"
-    results.refuse("angle", np.abs(angle) >= 0.5 * pi, allowed)
-    results.refuse("speed", speed <= 0.0, "must be positive: the bodies must approach")
-    return components(speed, angle)
+    return components(results["speed"], results["angle"])
 
 
 def _after(
-    results: Results, pair: Pair, before: Velocities, expected: float
+    results: UserTable, pair: Pair, before: Velocities, expected: float
 ) -> tuple[Velocities, tuple[str, ...]]:
     results.require("tangential_speed_out", "spin_out")
     notes = []
-    normal = results.get("normal_speed_out", expected * before.normal_speed)
+    normal = results.columns.get("normal_speed_out", expected * before.normal_speed)
     if "normal_speed_out" in results.columns:
         receding = "must be positive: the bodies must recede after the impact"
         results.refuse("normal_speed_out", normal <= 0.0, receding)
@@ -124,7 +118,7 @@ def _after(
         taken = f"it was taken as {times}normal_speed, e = {expected:g}"
         notes.append(f"normal_speed_out is not given; {taken}")
     spin = results["spin_out"]
-    spin2 = results.get("spin2_out", 0.0 * spin)
+    spin2 = results.columns.get("spin2_out", 0.0 * spin)
     if isinstance(pair.second, Sphere) and "spin2_out" not in results.columns:
         impulse = (before.tangential.spin - spin) * inertia(pair.first) / pair.first.radius
         spin2 = before.tangential.after(pair, impulse).spin2
@@ -136,7 +130,7 @@ def _after(
     )
 
 
-def _refuse_second_spin(results: Results, pair: Pair) -> None:
+def _refuse_second_spin(results: UserTable, pair: Pair) -> None:
     if isinstance(pair.second, Sphere):
         return
     for name in ("spin2", "spin2_out"):
@@ -146,7 +140,7 @@ def _refuse_second_spin(results: Results, pair: Pair) -> None:
 
 
 def momentum_audit(
-    results: Results,
+    results: UserTable,
     pair: Pair,
     before: Tangential,
     after: Tangential,

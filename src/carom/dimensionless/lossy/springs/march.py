@@ -1,192 +1,239 @@
 """An impact marched over springs, step by step: kick, stretch, kick.
 
-    U' = psi,  psi' = -(15/4) chi Q,  Q = integral of f dx over 0 <= x <= b,
+    v' = -(5/4) (P + (3/2) eps Q),  psi' = -(5/4) (3 chi Q + zeta P),  U' = psi,
+    Q = integral of f dx over 0 <= x <= b,
 
-f that of springs in shear (see stretch), whose Coulomb limit is what they bear in compression
-(see thornton, relaxing). Of second order in the number of springs.
+f that of springs in shear, whose Coulomb limit is what they bear in compression. The solid says
+what that is and what load it makes: hertz, thornton and relaxing; a new one is a file beside them
+and a line in `press`, in `stored` and, if it changes where the bodies turn, in `turn`. Springs are
+laid at the edge as it grows, every second step. Of second order in the number of springs.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.springs import record, relaxing, thornton
-from carom.dimensionless.lossy.springs.stretch import step_of, stretched
-from carom.dimensionless.lossy.springs.work import (
-    DEPTH,
-    EDGE,
-    FORCE,
-    LIMIT,
-    LOAD,
-    LONGEST,
-    LOSING,
-    LOST,
-    MOVED,
-    NEXT,
-    PER_SPRING,
-    PSI,
-    RATE,
-    RELAXING,
-    SPEED,
-    TIME,
-    WEIGHT,
-    Arrays,
-    U,
-    X,
-    lay_springs,
-    rim,
-)
-from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.springs import hertz, motion as at, relaxing, springs as of, thornton
+from carom.dimensionless.lossy.springs.motion import Inertia, Solid
+from carom.dimensionless.numerics.arrays import Array, Cube, Matrix, Vector
 from carom.dimensionless.numerics.kernels import kernel
 
+MOST_SPRINGS = 500
+SPARE_SPRINGS = 40
+PER_SPRING = 2  # steps of the loading to a spring
+LONGEST = 20 * PER_SPRING * MOST_SPRINGS
+ELASTIC_CLOCK = 1.26  # of the loading of elastic bodies
 NEVER = 1e300  # relaxation time of an elastic solid
+
+# Of a row that is kept, besides those of the layout: whether springs slip, either way.
+FORTH, BACK = layout.ROWS, layout.ROWS + 1
+ROWS = layout.ROWS + 2
+AT_LIMIT = 1e-9  # of the limit: a spring nearer to it slips
+# Of a frame, for each spring: what it bears in compression and in shear, and how far it is behind.
+PRESSED, PULLED, LAGGING = range(3)
+FRAMES = 3
+
+
+class Arrays(NamedTuple):
+    """Arrays that an impact needs, made once and used for many."""
+
+    motion: Matrix  # (3, MOTION): before a step, after it, and where the bodies turned
+    springs: Matrix  # (COLUMNS, springs + 2)
+    state: Vector  # (STATE,)
+    coarse: Vector  # what the impact comes to with half the springs
+    rows: Matrix  # (steps + 1, ROWS), or none
+    frames: Cube  # (steps + 1, FRAMES, springs), or none
+
+
+def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arrays:
+    """Return the arrays of an impact: with rows for so many steps, frames of so many springs."""
+    return Arrays(
+        motion=np.zeros((3, at.MOTION)),
+        springs=np.zeros((of.COLUMNS, most + SPARE_SPRINGS + 2)),
+        state=np.zeros(at.STATE),
+        coarse=np.zeros(layout.NUMBERS),
+        rows=np.zeros((steps + 1 if steps else 0, ROWS)),
+        frames=np.zeros((steps + 1 if springs else 0, FRAMES, springs)),
+    )
 
 
 @kernel
 def march(
-    psi: float, chi: float, law: LossNumbers, count: int, work: Arrays, rows: Array, numbers: Array
-) -> int:
-    """March an impact over so many springs; return the number of steps, 0 if it does not end."""
-    per_spring, motion, springs, state = steps_of(law.loss), work.motion, work.springs, work.state
-    loading = per_spring * count
-    h = lay_motion(law, loading, motion)
-    lay_springs(motion, per_spring, count, springs)
-    state[:] = 0.0
-    state[PSI], touching = psi, 0
-    if rows.shape[0] > 0:
-        record.keep_touch(psi, rows[0])
-    for i in range(LONGEST * loading):
+    psi: float, inertia: Inertia, solid: Solid, h: float, work: Arrays, numbers: Array
+) -> tuple[int, float]:
+    """March an impact in steps of the clock; return their number, and the clock of the loading.
+
+    No steps are those of an impact that does not end, or needs too many springs.
+    """
+    now, new, turned = work.motion[0], work.motion[1], work.motion[2]
+    springs, state = work.springs, work.state
+    begin(psi, work)
+    laid, touching, since, widest, strongest, clock = 0, 0, 0, 0.0, 0.0, 0.0
+    for i in range(LONGEST):
+        again = now[at.SPEED] > 0.0 and turned[at.EDGE] > 0.0
+        if again and solid.loss != Loss.PLATE.value:
+            return 0, clock  # what springs that yielded or relaxed then bear is not said
+        grows = now[at.SPEED] > 0.0 and now[at.EDGE] >= widest
+        if grows and since % PER_SPRING == 0:
+            if laid >= springs.shape[1] - 1:
+                return 0, clock
+            of.lay(springs, laid, now[at.EDGE])
+            laid += 1
+        since += grows
+        part = at.drift(inertia, h, now, state[at.FORCE], new)
+        clock += part * h if grows else 0.0
         met = touching
-        if i == loading and law.loss == Loss.PLASTIC.value:
-            state[FORCE] = thornton.turn(motion[i], springs, count)
-        touching = press(law, i, loading, h, motion, springs, count, touching)
-        let_go(springs, touching, met, chi, law.extra, state)
-        kick_and_stretch(law, chi, motion[i], motion[i + 1], springs, touching, state)
-        if rows.shape[0] > 0:
-            keep(law, i, loading, motion, springs, touching, state, rows)
+        touching = press(solid, now, new, turned, springs, laid)
         if touching == 0:
-            note(motion, loading, i + 1, state, numbers)
-            return i + 1
-    return 0
+            end(now, new, springs)
+        let_go(springs, touching, met, inertia.chi, solid.extra, state)
+        kick_and_stretch(solid, inertia, now, new, springs, touching, state)
+        widest, strongest = max(widest, new[at.EDGE]), max(strongest, new[at.LOAD])
+        if work.rows.shape[0] > 0:
+            keep(solid, new, springs, touching, state, work.rows[i + 1])
+        if work.frames.shape[0] > 0:
+            keep_springs(solid.extra, springs, touching, state, work.frames[i + 1])
+        if touching == 0:
+            note(new, turned, state, numbers)
+            numbers[layout.STRONGEST] = strongest
+            return i + 1, clock
+        if part < 1.0 or (now[at.SPEED] > 0.0 and new[at.SPEED] <= 0.0):
+            new[at.SPEED] = min(new[at.SPEED], 0.0)
+            if new[at.EDGE] >= widest:
+                of.lay(springs, laid, new[at.EDGE])
+                at.copy(new, turned)
+            turn(solid, new, springs, touching, state)
+        at.copy(new, now)
+    return 0, clock
 
 
 @kernel
-def steps_of(loss: int) -> int:
-    """Return the steps of the loading to a spring: more where the normal motion is marched, too."""
-    return 1 if loss == Loss.PLASTIC.value else PER_SPRING
+def begin(psi: float, work: Arrays) -> None:
+    """Put the bodies to their first touch."""
+    work.motion[:], work.springs[:], work.state[:] = 0.0, 0.0, 0.0
+    work.motion[0, at.SPEED], work.motion[0, at.PACE] = 1.0, 1.0
+    work.state[at.PSI] = psi
+    if work.rows.shape[0] > 0:
+        work.rows[0] = 0.0
+        work.rows[0, layout.AT_V], work.rows[0, layout.AT_PSI] = 1.0, psi
 
 
 @kernel
-def lay_motion(law: LossNumbers, loading: int, motion: Array) -> float:
-    """Fill in the loading, of a yielding sphere the whole motion; return a step of the clock."""
-    if law.loss == Loss.PLASTIC.value:
-        thornton.lay_motion(law.parameter, loading, motion)
-        return 0.0
-    return relaxing.lay_loading(law.extra, law.parameter, loading, motion)
+def press(solid: Solid, now: Array, new: Array, turned: Array, springs: Array, laid: int) -> int:
+    """Fill in what the contact and its springs bear after a step; return how many touch."""
+    if solid.loss == Loss.PLASTIC.value:
+        return int(thornton.press(solid.parameter, now, new, turned, springs, laid))
+    if solid.loss == Loss.RELAXING.value:
+        return int(relaxing.press(solid.extra, solid.parameter, now, new, springs, laid))
+    return int(hertz.press(solid.parameter, now, new, springs, laid))
 
 
 @kernel
-def press(
-    law: LossNumbers,
-    i: int,
-    loading: int,
-    h: float,
-    motion: Array,
-    springs: Array,
-    last: int,
-    touching: int,
-) -> int:
-    """Fill in what springs bear before and after a step; return how many do after it."""
-    before, after = motion[i], motion[i + 1]
-    still = i * last // loading + 1 if i < loading else touching
-    if law.loss != Loss.PLASTIC.value:
-        if i >= loading:
-            still = relaxing.unload(law.extra, law.parameter, h, before, after, springs, last)
-            if still == 0:
-                relaxing.end(before, after, springs)
-            return still
-        relaxing.press(law.extra, law.parameter, before, after, springs, still)
-        return still
-    shrunk = 0.0
-    if i >= loading:
-        shrunk = motion[loading, LOAD] / motion[loading, EDGE] ** 3
-    thornton.press(law.parameter, before, after, shrunk, springs, still)
-    return int(np.searchsorted(springs[X, :still], after[EDGE]))
+def turn(solid: Solid, now: Array, springs: Array, touching: int, state: Array) -> None:
+    """Change what changes where the bodies turn."""
+    if solid.loss == Loss.PLASTIC.value:
+        state[at.FORCE] = thornton.turn(now, springs, touching)
+    elif solid.loss == Loss.PLATE.value:
+        now[at.PACE] = 1.0 + solid.parameter
+
+
+@kernel
+def stored(solid: Solid, now: Array, springs: Array, touching: int) -> float:
+    """Return the energy in compression, of m_n V_1^2/2."""
+    if solid.loss == Loss.RELAXING.value:
+        return float(relaxing.stored(solid.extra, now[at.EDGE], springs, touching))
+    if solid.loss == Loss.PLATE.value:
+        return float(hertz.stored(now[at.DEPTH]))
+    return float(thornton.stored(now[at.EDGE], now[at.LOAD]))
+
+
+@kernel
+def end(now: Array, new: Array, springs: Array) -> None:
+    """Cut the last step where the spring at the centre lets go; its load is next to nothing."""
+    part = springs[of.LIMIT, 0] / (springs[of.LIMIT, 0] - springs[of.NEXT, 0])
+    for row in (at.TIME, at.DEPTH):
+        new[row] = now[row] + part * (new[row] - now[row])
+    new[at.EDGE], new[at.LOAD], new[at.DRAG] = 0.0, 0.0, 0.0
 
 
 @kernel
 def let_go(springs: Array, touching: int, met: int, chi: float, extra: float, state: Array) -> None:
-    """Count as lost what springs hold whose contact ends; both branches bear nothing together."""
+    """Free springs whose contact ends; what both branches hold against each other is lost."""
     for j in range(touching, met):
-        u, m = springs[U, j], springs[RELAXING, j]
+        u, m = springs[of.U, j], springs[of.RELAXING, j]
         if extra > 0.0:
-            state[LOST] += 1.875 * chi * springs[WEIGHT, j] * (u * u + extra * m * m)
+            state[at.LOST] += 1.875 * chi * springs[of.WEIGHT, j] * (u * u + extra * m * m)
+        else:
+            springs[of.U, j], springs[of.NEXT, j] = 0.0, 0.0
 
 
 @kernel
 def kick_and_stretch(
-    law: LossNumbers,
-    chi: float,
-    before: Array,
-    after: Array,
+    solid: Solid,
+    inertia: Inertia,
+    now: Array,
+    new: Array,
     springs: Array,
     touching: int,
     state: Array,
 ) -> None:
-    """Move the tangential state on by a step."""
-    g, dt = law.extra, after[TIME] - before[TIME]
-    theta = law.parameter if g > 0.0 else NEVER
-    rate = -3.75 * chi * state[FORCE]
-    half = state[PSI] + 0.5 * dt * rate
-    step = step_of(g, theta, dt, state[PSI], half, rate)
-    force, losing = 0.0, 0.0
+    """Move velocities and springs on by a step."""
+    g, dt = solid.extra, new[at.TIME] - now[at.TIME]
+    theta = solid.parameter if g > 0.0 else NEVER
+    rate = -at.braking(inertia, now[at.LOAD], state[at.FORCE])
+    half = state[at.PSI] + 0.5 * dt * rate
+    step = of.step_of(g, theta, dt, state[at.PSI], half, rate)
+    force, square = of.stretch(springs, touching, new[at.EDGE], step)
+    losing = square * g / theta
+    state[at.LOST] += 1.875 * inertia.chi * dt * (state[at.LOSING] + losing)
+    state[at.LOSING] = losing
+    at.settle(inertia, now, new, state[at.FORCE], force)
+    state[at.PSI] = half - 0.5 * dt * at.braking(inertia, new[at.LOAD], force)
+    state[at.MOVED] += half * dt
+    state[at.FORCE] = force
+
+
+@kernel
+def keep(solid: Solid, now: Array, springs: Array, touching: int, state: Array, row: Array) -> None:
+    """Keep a row after a step: motion, energies, how wide the zones are that stick, who slips."""
+    row[:] = 0.0
+    row[layout.AT_TIME], row[layout.AT_D] = now[at.TIME], now[at.DEPTH]
+    row[layout.AT_V], row[layout.AT_B], row[layout.AT_P] = now[at.SPEED], now[at.EDGE], now[at.LOAD]
+    row[layout.AT_PSI], row[layout.AT_U] = state[at.PSI], state[at.MOVED]
+    row[layout.AT_Q], row[layout.AT_SHEAR_LOST] = state[at.FORCE], state[at.LOST]
+    row[layout.AT_STORED] = stored(solid, now, springs, touching)
+    row[layout.AT_LOST] = 1.0 - now[at.SPEED] ** 2 - row[layout.AT_STORED]
     for j in range(touching):
-        limits = springs[LIMIT, j], springs[NEXT, j], springs[RATE, j]
-        u, m = stretched(springs[U, j], springs[RELAXING, j], *limits, step)
-        springs[U, j], springs[RELAXING, j] = u, m
-        weight = springs[WEIGHT, j]
+        u, m, most = springs[of.U, j], springs[of.RELAXING, j], springs[of.NEXT, j]
+        weight = springs[of.WEIGHT, j]
         if j == touching - 1:
-            weight += rim(springs, j, after[EDGE])
-        force += weight * (u + g * m)
-        losing += weight * m * m
-    losing *= g / theta
-    state[PSI], state[MOVED] = half - 0.5 * dt * 3.75 * chi * force, state[MOVED] + half * dt
-    state[LOST] += 1.875 * chi * dt * (state[LOSING] + losing)
-    state[FORCE], state[LOSING] = force, losing
+            weight += of.rim(springs, j, now[at.EDGE])
+        row[layout.AT_SQUARE] += weight * (u * u + solid.extra * m * m)
+        force = u + solid.extra * m
+        if most - abs(force) > AT_LIMIT * most:
+            outer = springs[of.X, j + 1] if springs[of.OUTER, j] > 0.0 else now[at.EDGE]
+            row[layout.AT_STUCK] += min(outer, now[at.EDGE]) - springs[of.X, j]
+        else:
+            row[FORTH if force > 0.0 else BACK] = 1.0
 
 
 @kernel
-def keep(
-    law: LossNumbers,
-    i: int,
-    loading: int,
-    motion: Array,
-    springs: Array,
-    touching: int,
-    state: Array,
-    rows: Array,
-) -> None:
-    """Keep a row after a step, before the first the row of the touch."""
-    now, row, turned = motion[i + 1], rows[i + 1], motion[loading]
-    if law.loss != Loss.PLASTIC.value:
-        stored = relaxing.stored(law.extra, now[EDGE], springs, touching)
-    elif i < loading:
-        stored = thornton.stored(now[DEPTH], now[LOAD])
-    else:
-        stored = thornton.stored(turned[DEPTH], turned[LOAD]) - now[SPEED] ** 2
-    record.keep_normal(now, stored, row)
-    record.keep_tangential(state, row)
-    record.keep_springs(springs, touching, now[EDGE], law.extra, row)
+def keep_springs(extra: float, springs: Array, touching: int, state: Array, frame: Array) -> None:
+    """Keep what springs bear, and by how much they are behind the bodies."""
+    frame[:] = 0.0
+    for j in range(touching):
+        frame[PRESSED, j] = springs[of.NEXT, j]
+        frame[PULLED, j] = springs[of.U, j] + extra * springs[of.RELAXING, j]
+        frame[LAGGING, j] = state[at.MOVED] - springs[of.U, j]
 
 
 @kernel
-def note(motion: Array, loading: int, steps: int, state: Array, numbers: Array) -> None:
+def note(now: Array, turned: Array, state: Array, numbers: Array) -> None:
     """Note what the impact came to."""
-    end, turned = motion[steps], motion[loading]
-    numbers[layout.PSI_OUT], numbers[layout.RESTITUTION] = state[PSI], -end[SPEED]
-    numbers[layout.TIME], numbers[layout.PENETRATION] = end[TIME], end[DEPTH]
-    numbers[layout.LOST], numbers[layout.SHEAR_LOST] = 1.0 - end[SPEED] ** 2, state[LOST]
-    numbers[layout.DEEPEST], numbers[layout.WIDEST] = turned[DEPTH], turned[EDGE]
-    numbers[layout.STRONGEST] = 0.0
-    for i in range(steps):
-        numbers[layout.STRONGEST] = max(numbers[layout.STRONGEST], motion[i, LOAD])
+    e = -now[at.SPEED]
+    numbers[layout.PSI_OUT], numbers[layout.RESTITUTION] = state[at.PSI], e
+    numbers[layout.TIME], numbers[layout.PENETRATION] = now[at.TIME], now[at.DEPTH]
+    numbers[layout.LOST], numbers[layout.SHEAR_LOST] = 1.0 - e * e, state[at.LOST]
+    numbers[layout.DEEPEST], numbers[layout.WIDEST] = turned[at.DEPTH], turned[at.EDGE]

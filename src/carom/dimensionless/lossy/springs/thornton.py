@@ -1,4 +1,4 @@
-"""A yielding sphere (Thornton 1997): its motion in closed form, and what its springs bear.
+"""A yielding sphere (Thornton 1997): its load, what its springs bear, and what it comes to.
 
 In units of the elastic impact: P = d^(3/2) up to yield at d = y^2, P = y^3 + (3/2) y (d - y^2)
 from there on, P = sqrt(rho) (d - d_p)^(3/2) while unloading, rho = R_p/R* = d^(3/2)/P at the
@@ -11,103 +11,46 @@ While unloading N = (b^2 - x^2)/rho.
 
 import numpy as np
 
-from carom.dimensionless.lossy.springs.work import (
-    DEPTH,
-    EDGE,
-    LIMIT,
-    LOAD,
-    NEXT,
-    RATE,
-    SOFTER,
-    SPEED,
-    TIME,
-    WEIGHT,
-    S,
-    U,
-)
+from carom.dimensionless.lossy import layout
+from carom.dimensionless.lossy.springs.motion import DEPTH, EDGE, LOAD, PACE, SPEED
+from carom.dimensionless.lossy.springs.springs import LIMIT, NEXT, RATE, SOFTER, WEIGHT, S, U, X
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 
 
 @kernel
-def hertzian(angle: float) -> tuple[float, float, float]:
-    """Return edge, speed and time of Hertz's impact at an angle whose sine is the edge.
+def press(y: float, now: Array, new: Array, turned: Array, springs: Array, laid: int) -> int:
+    """Fill in what the contact and its springs bear after a step; return how many touch.
 
-    v^2 = 1 - b^5 is divided by 1 - b^2, so that the turning point is regular.
+    `turned` is the motion at the turning point, zero before it.
     """
-    b = np.sin(angle)
-    quotient = (1.0 + b * (1.0 + b * (1.0 + b * (1.0 + b)))) / (1.0 + b)
-    v = np.cos(angle) * np.sqrt(quotient)
-    return b, v, hertz.time(b * b, v)
+    d, shrunk = new[DEPTH], 0.0
+    edge, load = np.sqrt(max(d, 0.0)), 0.0
+    if turned[EDGE] > 0.0:
+        shrunk = turned[LOAD] / turned[EDGE] ** 3
+        edge = np.sqrt(max(turned[DEPTH] - (turned[DEPTH] - d) / shrunk, 0.0))
+        load = shrunk * edge**3
+    else:
+        load = edge**3 if edge <= y else y**3 + 1.5 * y * (d - y * y)
+    new[EDGE], new[LOAD] = edge, load
+    touching = int(np.searchsorted(springs[X, :laid], edge))
+    bear(y, now, new, shrunk, springs, max(touching, 1))
+    return touching
 
 
 @kernel
-def lay_motion(y: float, steps: int, motion: Array) -> None:
-    """Fill in the motion: so many steps of loading, by time before yield and after it, and back.
-
-    After yield P = peak sin(omega t + phase), as P'' = -(15/8) y P.
-    """
-    v, omega = np.sqrt(1.0 - y**5), np.sqrt(1.875 * y)
-    peak, phase = np.sqrt(1.2 * y - 0.2 * y**6), np.arctan2(y**3, 1.5 * y * v / omega)
-    began, left = hertz.time(y * y, v), 0.5 * np.pi - phase
-    share = steps * began / (began + left / omega)
-    for i in range(steps + 1):
-        if i < share:
-            b, motion[i, SPEED], motion[i, TIME] = hertzian(np.arcsin(y) * i / share)
-            motion[i, DEPTH], motion[i, EDGE], motion[i, LOAD] = b * b, b, b * b * b
-        else:
-            ahead = left * (i - share) / (steps - share)
-            load, rate = peak * np.sin(phase + ahead), peak * omega * np.cos(phase + ahead)
-            depth = y * y + (load - y**3) / (1.5 * y)
-            motion[i, TIME], motion[i, SPEED] = began + ahead / omega, rate / (1.5 * y)
-            motion[i, DEPTH], motion[i, EDGE], motion[i, LOAD] = depth, np.sqrt(depth), load
-    _unloading(steps, motion[steps:])
-
-
-@kernel
-def _unloading(steps: int, motion: Array) -> None:
-    """Hertz's motion, outwards and on a sphere of the radius R_p."""
-    turned, deepest, peak = motion[0, TIME], motion[0, DEPTH], motion[0, LOAD]
-    elastic = peak / np.sqrt(deepest)  # d - d_p at the turning point, d/rho
-    e = np.sqrt(peak * elastic)  # v^2 = sqrt(rho) (d - d_p)^(5/2)
-    motion[0, SPEED] = 0.0
-    for i in range(1, steps + 1):
-        b, v, time = hertzian(0.5 * np.pi * (1.0 + i / steps))
-        if i == steps:
-            b, v, time = 0.0, -1.0, hertz.DURATION
-        motion[i, TIME] = turned + (time - 0.5 * hertz.DURATION) * elastic / e
-        motion[i, DEPTH], motion[i, SPEED] = deepest - elastic * (1.0 - b * b), e * v
-        motion[i, EDGE], motion[i, LOAD] = np.sqrt(deepest) * b, peak * b * b * b
-
-
-@kernel
-def turn(turned: Array, springs: Array, count: int) -> float:
-    """Put springs to what they bear as unloading begins; return the force in shear.
-
-    The pressure becomes that of an elastic contact at once, which may cut springs in shear.
-    """
-    force, shrunk = 0.0, turned[LOAD] / turned[EDGE] ** 3
-    for j in range(count):
-        most = (turned[EDGE] ** 2 - springs[S, j]) * shrunk
-        springs[NEXT, j], springs[SOFTER, j] = most, 0.0
-        springs[U, j] = max(min(springs[U, j], most), -most)
-        force += springs[WEIGHT, j] * springs[U, j]
-    return force
-
-
-@kernel
-def press(y: float, before: Array, after: Array, shrunk: float, springs: Array, count: int) -> None:
+def bear(y: float, now: Array, new: Array, shrunk: float, springs: Array, count: int) -> None:
     """Fill in what springs bear before and after a step, and its rate before.
 
     shrunk is 1/rho while unloading, else 0.
     """
     for j in range(count):
         springs[LIMIT, j] = springs[NEXT, j]
-        springs[RATE, j] = (1.0 - springs[SOFTER, j]) * before[SPEED]
-        w = after[DEPTH] - springs[S, j]
+        springs[RATE, j] = (1.0 - springs[SOFTER, j]) * now[SPEED]
+        w = new[DEPTH] - springs[S, j]
         if shrunk > 0.0:
-            springs[NEXT, j] = (after[EDGE] ** 2 - springs[S, j]) * shrunk
+            springs[NEXT, j] = (new[EDGE] ** 2 - springs[S, j]) * shrunk
         elif w <= y * y:
             springs[NEXT, j] = w
         else:
@@ -117,6 +60,41 @@ def press(y: float, before: Array, after: Array, shrunk: float, springs: Array, 
 
 
 @kernel
-def stored(depth: float, load: float) -> float:
-    """Return the energy that unloading from here would give back, P (d - d_p), of m_n V_1^2/2."""
-    return load * load / np.sqrt(depth) if depth > 0.0 else 0.0
+def turn(now: Array, springs: Array, count: int) -> float:
+    """Put springs to what they bear as unloading begins; return the force in shear.
+
+    The pressure becomes that of an elastic contact at once, which may cut springs in shear.
+    """
+    force, shrunk = 0.0, now[LOAD] / now[EDGE] ** 3
+    now[PACE] = now[EDGE] ** -2.5  # 1/(rho e), as the edge recedes faster on a flatter sphere
+    for j in range(count):
+        most = (now[EDGE] ** 2 - springs[S, j]) * shrunk
+        springs[NEXT, j], springs[SOFTER, j] = most, 0.0
+        springs[U, j] = max(min(springs[U, j], most), -most)
+        force += springs[WEIGHT, j] * springs[U, j]
+    return force
+
+
+@kernel
+def stored(edge: float, load: float) -> float:
+    """Return the energy that unloading gives back, P (d - d_p) = P^2/b, of m_n V_1^2/2."""
+    return load * load / edge if edge > 0.0 else 0.0
+
+
+@kernel
+def come_to(y: float, numbers: Array) -> None:
+    """Write what the normal motion comes to, in closed form.
+
+    After yield P = peak sin(omega t + phase), as P'' = -(15/8) y P; unloading is Hertz's motion on
+    a sphere of the radius R_p, v^2 = sqrt(rho) (d - d_p)^(5/2).
+    """
+    v, omega = np.sqrt(1.0 - y**5), np.sqrt(1.875 * y)
+    peak, phase = np.sqrt(1.2 * y - 0.2 * y**6), np.arctan2(y**3, 1.5 * y * v / omega)
+    deepest = y * y + (peak - y**3) / (1.5 * y)
+    elastic = peak / np.sqrt(deepest)  # d - d_p at the turning point, d/rho
+    e = np.sqrt(peak * elastic)
+    turned = hertz.time(y * y, v) + (0.5 * np.pi - phase) / omega
+    numbers[layout.RESTITUTION], numbers[layout.LOST] = e, 1.0 - e * e
+    numbers[layout.TIME] = turned + 0.5 * hertz.DURATION * elastic / e
+    numbers[layout.PENETRATION], numbers[layout.DEEPEST] = deepest - elastic, deepest
+    numbers[layout.STRONGEST], numbers[layout.WIDEST] = peak, np.sqrt(deepest)

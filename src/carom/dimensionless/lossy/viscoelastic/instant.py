@@ -9,33 +9,14 @@ import numpy as np
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import Profile, coefficients, radii, stacked
 from carom.dimensionless.lossy.layout import NUMBERS
+from carom.dimensionless.lossy.panels import work as at
 from carom.dimensionless.lossy.panels.collocation import NODES, place
-from carom.dimensionless.lossy.panels.pieces import A0, PANEL, R0, R1, SIGN, X0, X1
-from carom.dimensionless.lossy.panels.plans import TOLERANCE
-from carom.dimensionless.lossy.panels.record import new_record
-from carom.dimensionless.lossy.panels.work import (
-    FRONT,
-    LAID_RADIUS,
-    MOVED,
-    PSI,
-    RADIUS,
-    SPEED,
-    TIME,
-    new_work,
-)
+from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.viscoelastic import passed
-from carom.dimensionless.lossy.viscoelastic.impacts import run_until
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE, run_until
 from carom.dimensionless.lossy.viscoelastic.memory import FLAT, row_of
-from carom.dimensionless.lossy.viscoelastic.ring import (
-    DEPTH,
-    MODE,
-    RATIO,
-    RETRACES,
-    RETREATS,
-    RETURNS,
-    RING_SIGN,
-    STICKS,
-)
+from carom.dimensionless.lossy.viscoelastic.record import new_record
+from carom.dimensionless.lossy.viscoelastic.ring import Mode
 from carom.dimensionless.numerics.arrays import Array
 
 OF_SLOPE = np.polynomial.chebyshev.chebder(np.eye(NODES))  # of a series on a panel
@@ -65,7 +46,7 @@ class Replay:
         self.work = work._replace(
             series=work.series[: number + 1].copy(),
             pieces=work.pieces[: self.pieces].copy(),
-            passed=work.passed[: int(work.ring[DEPTH])].copy(),
+            passed=work.passed[: int(work.ring[at.DEPTH])].copy(),
         )
 
 
@@ -83,10 +64,11 @@ class Instant:
         self.alpha, self.number, self.work, self.x = panel.alpha, panel.number, panel.work, x
         number = panel.number
         self.radius, self.speed, self.moved, self.psi, self.time, front = (
-            float(self._at(number, row, x)) for row in (RADIUS, SPEED, MOVED, PSI, TIME, FRONT)
+            float(self._at(number, row, x))
+            for row in (at.RADIUS, at.SPEED, at.MOVED, at.PSI, at.TIME, at.FRONT)
         )
         ring = self.work.ring
-        self.mode, self.sign = int(ring[MODE]), int(ring[RING_SIGN])
+        self.mode, self.sign = int(ring[at.MODE]), int(ring[at.RING_SIGN])
         self.radius, self.front = max(self.radius, 0.0), float(np.sqrt(max(front, 0.0)))
         loading = self.speed > 0.0
         self.shift = self.alpha * self.speed if loading else 0.0  # D - b^2
@@ -110,10 +92,10 @@ class Instant:
     @property
     def edge_force(self) -> float:
         """What the spring at the edge bears: none while unloading."""
-        if self.mode == STICKS:
+        if self.mode == Mode.STICKS:
             return self.alpha * self.psi
-        if self.mode == RETRACES:
-            return float(self.work.ring[RATIO]) * self.shift
+        if self.mode == Mode.RETRACES:
+            return float(self.work.ring[at.RATIO]) * self.shift
         return self.sign * self.shift
 
     def lags(self) -> Profile:
@@ -172,45 +154,45 @@ class Instant:
 
     def _sticking(self, count: int) -> Iterator[Stretch]:
         """Yield the pieces that stick, from the centre outwards."""
-        if self.mode == RETRACES:
+        if self.mode == Mode.RETRACES:
             yield Stretch(0.0, self.radius, 0, self._retraced)
             return
         for row in self.work.pieces[:count].copy():
-            inner, outer = float(row[R0]), min(float(row[R1]), self.stuck)
+            inner, outer = float(row[at.R0]), min(float(row[at.R1]), self.stuck)
             if outer > inner:
                 yield Stretch(inner, outer, 0, self._piece(row))
-        if self.mode in (STICKS, RETURNS):
-            inner = float(self.work.values[LAID_RADIUS, 0])
+        if self.mode in (Mode.STICKS, Mode.RETURNS):
+            inner = float(self.work.values[at.LAID_RADIUS, 0])
             row = np.zeros(self.work.pieces.shape[1])
-            row[[SIGN, PANEL, X0, X1]] = self.sign, self.number, -1.0, self.x
+            row[[at.SIGN, at.PANEL, at.X0, at.X1]] = self.sign, self.number, -1.0, self.x
             if self.stuck > inner:
                 yield Stretch(inner, self.stuck, 0, self._piece(row))
 
     def _piece(self, row: Array) -> Read:
         """Return what reads c on a piece, and its slope in s."""
-        sign, n = int(row[SIGN]), int(row[PANEL])
+        sign, n = int(row[at.SIGN]), int(row[at.PANEL])
 
         def laid(r: Array) -> tuple[Array, Array]:
-            x = self._place(n, LAID_RADIUS, r, row[X0], row[X1])
-            v = np.maximum(self._at(n, SPEED, x), 1e-300)
-            return -self._at(n, MOVED, x), -np.clip(self._at(n, PSI, x) / v, -1.0, 1.0)
+            x = self._place(n, at.LAID_RADIUS, r, row[at.X0], row[at.X1])
+            v = np.maximum(self._at(n, at.SPEED, x), 1e-300)
+            return -self._at(n, at.MOVED, x), -np.clip(self._at(n, at.PSI, x) / v, -1.0, 1.0)
 
         def left(r: Array) -> tuple[Array, Array]:
-            x = self._place(n, LAID_RADIUS, r, row[X0], row[X1])
+            x = self._place(n, at.LAID_RADIUS, r, row[at.X0], row[at.X1])
             level, rate = self._at(n, row_of(sign), x), self._slope(n, row_of(sign), x)
-            rise = rate / np.maximum(2.0 * r * self._slope(n, LAID_RADIUS, x), 1e-300)
+            rise = rate / np.maximum(2.0 * r * self._slope(n, at.LAID_RADIUS, x), 1e-300)
             return sign * (level - r * r), sign * (np.clip(rise, 0.0, 2.0) - 1.0)
 
         def flat(r: Array) -> tuple[Array, Array]:
-            level = row[A0] if sign > 0 else 2.0 * row[R0] ** 2 - row[A0]
+            level = row[at.A0] if sign > 0 else 2.0 * row[at.R0] ** 2 - row[at.A0]
             return sign * (level - r * r), np.full(r.shape, -float(sign))
 
-        if row[PANEL] == FLAT:
+        if row[at.PANEL] == FLAT:
             return flat
         return left if sign else laid
 
     def _retraced(self, r: Array) -> tuple[Array, Array]:
-        ratio = float(self.work.ring[RATIO])
+        ratio = float(self.work.ring[at.RATIO])
         return ratio * (self.depth - r * r) - self.moved, np.full(r.shape, -ratio)
 
     def _slipping(self) -> Iterator[Stretch]:
@@ -218,12 +200,12 @@ class Instant:
         if self.sign == 0:
             return
         inner = self.stuck
-        depth = int(self.work.ring[DEPTH])
+        depth = int(self.work.ring[at.DEPTH])
         entries = [(row, float(row[passed.X_INNER])) for row in self.work.passed[:depth].copy()]
-        if self.mode == RETREATS:
+        if self.mode == Mode.RETREATS:
             row = np.zeros(self.work.passed.shape[1])
             row[[passed.PANEL, passed.X_OUTER]] = self.number, -1.0
-            row[passed.R_OUTER] = np.sqrt(self.work.values[FRONT, 0])
+            row[passed.R_OUTER] = np.sqrt(self.work.values[at.FRONT, 0])
             entries.append((row, self.x))
         for row, x_inner in reversed(entries):
             outer = min(float(row[passed.R_OUTER]), self.radius)
@@ -241,12 +223,12 @@ class Instant:
             if row[passed.PANEL] == passed.AT_ONCE:
                 h = row[passed.EXCESS] * np.exp((row[passed.INSTANT] - self.time) / alpha)
                 return np.full(r.shape, h), np.zeros(r.shape)
-            x = self._place(n, FRONT, r * r, row[passed.X_OUTER], x_inner)
-            decay = np.exp((self._at(n, TIME, x) - self.time) / alpha)
-            excess = self.sign * self._at(n, PSI, x) - self._at(n, SPEED, x)
-            change = self.sign * self._slope(n, PSI, x) - self._slope(n, SPEED, x)
-            change += excess * self._slope(n, TIME, x) / alpha
-            return excess * decay, change * decay / self._slope(n, FRONT, x)
+            x = self._place(n, at.FRONT, r * r, row[passed.X_OUTER], x_inner)
+            decay = np.exp((self._at(n, at.TIME, x) - self.time) / alpha)
+            excess = self.sign * self._at(n, at.PSI, x) - self._at(n, at.SPEED, x)
+            change = self.sign * self._slope(n, at.PSI, x) - self._slope(n, at.SPEED, x)
+            change += excess * self._slope(n, at.TIME, x) / alpha
+            return excess * decay, change * decay / self._slope(n, at.FRONT, x)
 
         return read
 

@@ -2,49 +2,13 @@
 
 import numpy as np
 
-from carom.dimensionless.lossy.panels import normal
-from carom.dimensionless.lossy.panels.collocation import (
-    EVEN,
-    NODES,
-    PLACES,
-    TO_SERIES,
-    expand,
-    integrate,
-)
-from carom.dimensionless.lossy.panels.newton import (
-    MAX_ITERATIONS,
-    SETTLED,
-    Panel,
-    correct,
-    factorise,
-    guess,
-    state_at_node,
-)
+from carom.dimensionless.lossy.panels import collocation, normal, work as at
+from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, TO_SERIES, expand, integrate
 from carom.dimensionless.lossy.panels.normal import Motion
-from carom.dimensionless.lossy.panels.work import (
-    FRONT,
-    LAID,
-    LAID_A,
-    LAID_B,
-    LAID_RADIUS,
-    LAID_SQUARE,
-    MOVED,
-    PSI,
-    RADIUS,
-    SPEED,
-    TIME,
-    Arrays,
-)
+from carom.dimensionless.lossy.panels.work import Arrays, Panel, state_at_node
+from carom.dimensionless.lossy.viscoelastic import ring
 from carom.dimensionless.lossy.viscoelastic.memory import rim, row_of
-from carom.dimensionless.lossy.viscoelastic.ring import (
-    RETURNS,
-    STICKS,
-    add_up,
-    force,
-    front,
-    level_now,
-    ring_of,
-)
+from carom.dimensionless.lossy.viscoelastic.ring import Mode
 from carom.dimensionless.numerics.kernels import kernel
 
 
@@ -56,6 +20,8 @@ def _slopes() -> np.ndarray:
 
 
 SLOPES = _slopes()
+MAX_ITERATIONS = 30
+SETTLED = 1e-13
 
 
 @kernel
@@ -68,27 +34,29 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
     the first iterate gives dQ/dT.
     """
     values, rates, series = work.values, work.rates, work.series[panel.number]
-    b, psi = values[RADIUS], values[PSI]
-    psi0, u0 = psi[0], values[MOVED, 0]
+    b, psi = values[at.RADIUS], values[at.PSI]
+    psi0, u0 = psi[0], values[at.MOVED, 0]
     follow_normal(work, panel)
-    add_up(work, panel)
+    ring.add_up(work, panel)
     if not guess(work, panel, before):
         psi[:] = psi0
     for iteration in range(MAX_ITERATIONS):
         follow(work, motion, panel, u0)
         for j in range(NODES):
             now = state_at_node(work, j)
-            at = front(work, motion, panel, now, values[TIME, j])
-            values[FRONT, j] = at.radius * at.radius
-            rates[1, j] = -7.5 * motion.chi * b[j] * force(work, motion, panel, PLACES[j], now, at)
-            rates[2, j] = -7.5 * motion.chi * b[j] * at.radius
+            border = ring.front(work, motion, panel, now, values[at.TIME, j])
+            values[at.FRONT, j] = border.radius * border.radius
+            rates[1, j] = (
+                -7.5 * motion.chi * b[j] * ring.force(work, motion, panel, PLACES[j], now, border)
+            )
+            rates[2, j] = -7.5 * motion.chi * b[j] * border.radius
         if iteration == 0:
             factorise(work, panel, motion.alpha)
         change = correct(work, panel, psi0)
         if change <= SETTLED * (1.0 + abs(psi0)):
             follow(work, motion, panel, u0)
-            expand(psi, series[PSI])
-            expand(values[FRONT], series[FRONT])
+            expand(psi, series[at.PSI])
+            expand(values[at.FRONT], series[at.FRONT])
             return True
     return False
 
@@ -98,9 +66,9 @@ def follow_normal(work: Arrays, panel: Panel) -> None:
     """Write time, and the series of the normal motion."""
     values, rates, series = work.values, work.rates, work.series[panel.number]
     for j in range(NODES):
-        rates[0, j] = 2.0 * values[RADIUS, j]
-    integrate(panel.clock, values[TIME, 0], panel.length, rates[0], values[TIME])
-    for row in (RADIUS, SPEED, TIME):
+        rates[0, j] = 2.0 * values[at.RADIUS, j]
+    integrate(panel.clock, values[at.TIME, 0], panel.length, rates[0], values[at.TIME])
+    for row in (at.RADIUS, at.SPEED, at.TIME):
         expand(values[row], series[row])
 
 
@@ -109,17 +77,17 @@ def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
     """Write U that follows from psi, and the series of what is laid."""
     values, rates, series = work.values, work.rates, work.series[panel.number]
     for j in range(NODES):
-        rates[0, j] = 2.0 * values[RADIUS, j] * values[PSI, j]
-    integrate(panel.clock, u0, panel.length, rates[0], values[MOVED])
-    expand(values[MOVED], series[MOVED])
-    mode = ring_of(work).mode
-    if mode == STICKS:
+        rates[0, j] = 2.0 * values[at.RADIUS, j] * values[at.PSI, j]
+    integrate(panel.clock, u0, panel.length, rates[0], values[at.MOVED])
+    expand(values[at.MOVED], series[at.MOVED])
+    mode = ring.ring_of(work).mode
+    if mode == Mode.STICKS:
         lay_at_edge(work, motion, panel)
-    elif mode == RETURNS:
+    elif mode == Mode.RETURNS:
         lay_at_front(work, motion, panel)
     else:
         return
-    for row in (LAID, LAID_SQUARE, LAID_A, LAID_B, LAID_RADIUS):
+    for row in (at.LAID, at.LAID_SQUARE, at.LAID_A, at.LAID_B, at.LAID_RADIUS):
         expand(values[row], series[row])
 
 
@@ -127,33 +95,97 @@ def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
 def lay_at_edge(work: Arrays, motion: Motion, panel: Panel) -> None:
     """Write what the edge lays, c = -U, and the integrals of U db and U^2 db."""
     values, rates = work.values, work.rates
-    b, u = values[RADIUS], values[MOVED]
+    b, u = values[at.RADIUS], values[at.MOVED]
     for j in range(NODES):
-        values[LAID_RADIUS, j] = b[j]
-        values[LAID_A, j], values[LAID_B, j] = b[j] * b[j] - u[j], b[j] * b[j] + u[j]
-        rates[0, j] = u[j] * normal.edge_rate(motion, b[j], values[SPEED, j])
-    integrate(panel.clock, 0.0, panel.length, rates[0], values[LAID])
+        values[at.LAID_RADIUS, j] = b[j]
+        values[at.LAID_A, j], values[at.LAID_B, j] = b[j] * b[j] - u[j], b[j] * b[j] + u[j]
+        rates[0, j] = u[j] * normal.edge_rate(motion, b[j], values[at.SPEED, j])
+    integrate(panel.clock, 0.0, panel.length, rates[0], values[at.LAID])
     for j in range(NODES):
         rates[0, j] *= u[j]
-    integrate(panel.clock, 0.0, panel.length, rates[0], values[LAID_SQUARE])
+    integrate(panel.clock, 0.0, panel.length, rates[0], values[at.LAID_SQUARE])
 
 
 @kernel
 def lay_at_front(work: Arrays, motion: Motion, panel: Panel) -> None:
     """Write what a front lays that returns, and the integral of r over the level."""
-    values, rates, sign = work.values, work.rates, ring_of(work).sign
+    values, rates, sign = work.values, work.rates, ring.ring_of(work).sign
     levels = values[row_of(sign)]
     for j in range(NODES):
         now = state_at_node(work, j)
-        r = front(work, motion, panel, now, values[TIME, j]).radius
+        r = ring.front(work, motion, panel, now, values[at.TIME, j]).radius
         if j == 0:
             r = rim(work.pieces, panel.pieces)
-        levels[j] = level_now(motion, sign, now)
-        values[LAID_RADIUS, j] = r
+        levels[j] = ring.level_now(motion, sign, now)
+        values[at.LAID_RADIUS, j] = r
         values[row_of(-sign), j] = 2.0 * r * r - levels[j]
     for j in range(NODES):
         slope = 0.0
         for k in range(NODES):
             slope += SLOPES[j, k] * levels[k]
-        rates[0, j] = values[LAID_RADIUS, j] * slope
-    integrate(EVEN, 0.0, 1.0, rates[0], values[LAID])
+        rates[0, j] = values[at.LAID_RADIUS, j] * slope
+    integrate(collocation.EVEN, 0.0, 1.0, rates[0], values[at.LAID])
+
+
+@kernel
+def guess(work: Arrays, panel: Panel, before: Panel) -> bool:
+    """Write psi as it was when the panel was tried last, if it was longer; tell whether so."""
+    if before.length < panel.length:
+        return False
+    ratio = panel.length / before.length
+    for j in range(1, NODES):
+        part = min(collocation.CLOCKS[panel.clock, j] * ratio, 1.0)
+        x = collocation.place_of_clock(before.clock, part)
+        work.values[at.PSI, j] = collocation.evaluate(work.series, panel.number, at.PSI, x)
+    return True
+
+
+@kernel
+def correct(work: Arrays, panel: Panel, psi0: float) -> float:
+    """Do a step of Newton's method, from the rates of psi; return by how much psi has changed."""
+    rates, psi, change = work.rates, work.values[at.PSI], 0.0
+    integrate(panel.clock, psi0, panel.length, rates[1], rates[0])
+    for j in range(NODES):
+        rates[0, j] -= psi[j]
+    back_substitute(work)
+    for j in range(NODES):
+        psi[j] += rates[0, j]
+        change = max(change, abs(rates[0, j]))
+    psi[0] = psi0
+    return change
+
+
+@kernel
+def factorise(work: Arrays, panel: Panel, alpha: float) -> None:
+    """Write I - h S diag(-(15/2) chi b X) (h S diag(2 b) + alpha) as L R, S being the integral.
+
+    alpha is the retardation time in shear.
+    """
+    s, h, b = collocation.INTEGRALS[panel.clock], panel.length, work.values[at.RADIUS]
+    matrix = work.matrix
+    for i in range(NODES):
+        for j in range(NODES):
+            total = 0.0
+            for k in range(NODES):
+                total += s[i, k] * work.rates[2, k] * s[k, j]
+            direct = h * s[i, j] * work.rates[2, j] * alpha
+            matrix[i, j] = -h * h * total * 2.0 * b[j] - direct
+        matrix[i, i] += 1.0
+    for k in range(NODES):
+        for i in range(k + 1, NODES):
+            matrix[i, k] /= matrix[k, k]
+            for j in range(k + 1, NODES):
+                matrix[i, j] -= matrix[i, k] * matrix[k, j]
+
+
+@kernel
+def back_substitute(work: Arrays) -> None:
+    """Solve L R x = y; y is the first row of the rates, and so is x."""
+    matrix, y = work.matrix, work.rates[0]
+    for i in range(NODES):
+        for j in range(i):
+            y[i] -= matrix[i, j] * y[j]
+    for i in range(NODES - 1, -1, -1):
+        for j in range(i + 1, NODES):
+            y[i] -= matrix[i, j] * y[j]
+        y[i] /= matrix[i, i]

@@ -7,8 +7,9 @@ that the front returns over the stack. What slips since it was touched has h = 0
 
 import numpy as np
 
+from carom.dimensionless.lossy.panels import work as at
 from carom.dimensionless.lossy.panels.collocation import evaluate
-from carom.dimensionless.lossy.panels.work import FRONT, PSI, SPEED, TIME, Arrays
+from carom.dimensionless.lossy.panels.work import Arrays
 from carom.dimensionless.numerics.kernels import kernel
 
 # Columns: the panel, the places in it and radii of the outer and the inner end; of what was passed
@@ -41,8 +42,8 @@ def push_at_once(
 @kernel
 def left_at(work: Arrays, n: int, sign: int, alpha: float, x: float, time: float) -> float:
     """Return h, at a time, of the spring that was passed at this place of a panel."""
-    excess = sign * evaluate(work.series, n, PSI, x) - evaluate(work.series, n, SPEED, x)
-    return float(excess * np.exp((evaluate(work.series, n, TIME, x) - time) / alpha))
+    excess = sign * evaluate(work.series, n, at.PSI, x) - evaluate(work.series, n, at.SPEED, x)
+    return float(excess * np.exp((evaluate(work.series, n, at.TIME, x) - time) / alpha))
 
 
 @kernel
@@ -72,4 +73,4 @@ def returned(
             low = middle
         else:
             high = middle
-    return np.sqrt(max(evaluate(work.series, n, FRONT, high), 0.0)), high
+    return np.sqrt(max(evaluate(work.series, n, at.FRONT, high), 0.0)), high

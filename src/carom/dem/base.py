@@ -1,0 +1,232 @@
+"""The base of all contact laws, with a name, a source and the rebound that follows from them."""
+
+from abc import ABC, abstractmethod
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.dem.adaptive import WORK, rebounds
+from carom.dem.coefficients import Coefficients
+from carom.dem.damping import damped_restitution
+from carom.dem.status import OF_FUNCTIONS, Codes, LawStatus, status_of
+from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
+from carom.dimensionless.numerics.threads import available_cores
+from carom.dimensionless.rebounds import warn_of_unsolved
+from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
+from carom.quantities.refusals import flag, refusal
+from carom.quantities.statuses import WordedStatus
+from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
+
+SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
+FEWEST_STEPS, MOST_STEPS = 4, 10_000_000
+BLOCK = 16  # impacts that a thread takes at once
+READERS = {  # of the parameters that laws have
+    "stiffness_ratio": lambda name, value: None if value is None else positive(name, value),
+    "stiffness": positive,
+    "restitution": damped_restitution,
+    "tangential_damping": not_negative,
+}
+
+
+@dataclass(frozen=True)
+class Law(ABC):
+    """What gives psi_2 from psi_1 and chi: contact laws, a function, the exact table."""
+
+    name: ClassVar[str]
+    source: ClassVar[str]
+    largest_chi: ClassVar[float] = np.inf
+    most_steps: ClassVar[int] = MOST_STEPS  # that are tried for a time step
+    statuses: ClassVar[type[WordedStatus]] = LawStatus  # of impacts
+
+    def __post_init__(self) -> None:
+        for name, read in READERS.items():
+            if name in vars(self):
+                object.__setattr__(self, name, read(name, getattr(self, name)))
+
+    def damped(self, restitution: float) -> Self:
+        """Return the law with another restitution."""
+        return replace(self, restitution=restitution)  # type: ignore[call-arg]
+
+    @abstractmethod
+    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
+        """Return psi_2 of impacts with one chi."""
+
+    def rebound(
+        self,
+        psi: ArrayLike,
+        chi: ArrayLike,
+        *,
+        kappa: ArrayLike | None = None,
+        steps: int | None = None,
+        threads: int | None = None,
+        return_status: bool = False,
+    ) -> Any:
+        """Return the tangential velocity of the contact point after the impact, psi_2.
+
+        Parameters
+        ----------
+        psi : array_like
+            Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
+        chi : array_like
+            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
+        kappa : array_like, optional
+            Stiffness ratio G*/E*, by default that of solid spheres, 4 chi/7. It matters for laws
+            with their own k_t/k_n or damping.
+        steps : int, optional
+            Number of equal time steps in the duration of Hertz's contact, as in DEM codes, from 4
+            to ten million; by default steps of adaptive size that reach an error of 1e-8.
+        threads : int, optional
+            Number of threads, by default all cores. The result does not depend on it.
+        return_status : bool
+            Whether to return also an array of `carom.status.LawStatus` values, one per impact.
+
+        Returns
+        -------
+        float or ndarray
+            psi_2, in the shape of the broadcast arguments. It is NaN where an argument is out of
+            range or masked, where chi is above a million, and where the bodies do not part. One
+            RuntimeWarning then says where and why, unless `return_status` is set.
+
+        Raises
+        ------
+        InputError
+            If an argument is not a pure number, the shapes do not fit, or `steps` or `threads` is
+            out of range.
+
+        Examples
+        --------
+        >>> import carom
+        >>> law = carom.dem.LammpsMindlin("mindlin")
+        >>> round(law.rebound(0.75, 1.4412), 3), round(carom.rebound(0.75, 1.4412), 3)
+        (0.591, 0.014)
+        """
+        if steps is not None:
+            steps = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
+        threads, return_status = threads_or_none(threads), flag("return_status", return_status)
+        along_the_same(psi=psi, chi=chi, kappa=kappa)
+        given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
+        given["kappa"] = SOLID * given["chi"] if kappa is None else pure_numbers("kappa", kappa)
+        shape = together(given)
+        psis, chis, kappas = (np.broadcast_to(values, shape).ravel() for values in given.values())
+        result, status = self._solved(psis, chis, kappas, steps, threads)
+        psi_out = result.reshape(shape) if shape else float(result[0])
+        if return_status:
+            return psi_out, status.reshape(shape) if shape else int(status[0])
+        lost, reason = np.flatnonzero(status), ""
+        if lost.size and self.statuses is LawStatus and status[lost[0]] in OF_FUNCTIONS:
+            reason = self._why(*(float(each[lost[0]]) for each in (psis, chis, kappas)))
+        warn_of_unsolved(status.reshape(shape), self.statuses, reason)
+        return psi_out
+
+    def _why(self, psi: float, chi: float, kappa: float) -> str:
+        """Return what the function of a law did wrong in an impact, "" if nothing."""
+        return ""
+
+    def _solved(
+        self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
+    ) -> tuple[Array, Codes]:
+        """Return psi_2 and the status of impacts, in threads."""
+        status = status_of(psi, chi, kappa, self.largest_chi)
+        result, good = np.full(psi.size, np.nan), np.flatnonzero(status == LawStatus.SOLVED)
+
+        def solve(part: NDArray[np.intp]) -> None:
+            where = good[part]
+            bodies = float(chi[where[0]]), float(kappa[where[0]])
+            result[where] = self._rebound(psi[where], *bodies, steps)
+
+        parts = _parts(chi[good], kappa[good])
+        workers = min(threads or available_cores(), len(parts))
+        if workers <= 1:
+            list(map(solve, parts))
+        else:
+            with ThreadPoolExecutor(workers) as pool:
+                list(pool.map(solve, parts))
+        lost = good[~np.isfinite(result[good])]
+        result[lost], status[lost] = np.nan, LawStatus.UNRESOLVED
+        return result, status
+
+
+def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
+    """Return the places of impacts of the same bodies, some for each thread."""
+    bodies, members = np.unique(np.stack([chi, kappa]), axis=1, return_inverse=True)
+    members = members.ravel()  # NumPy 2.0 gives it two dimensions
+    order = np.argsort(members, kind="stable")
+    groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
+    return [group[i : i + BLOCK] for group in groups for i in range(0, group.size, BLOCK)]
+
+
+@dataclass(frozen=True)
+class ContactLaw(Law):
+    """A law of the forces in a contact, from the first touch to separation."""
+
+    largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
+    symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        raise NotImplementedError(f"{self.name} is more than coefficients")
+
+    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
+        law = self.coefficients(chi, kappa)
+        out = np.empty(psi.size)
+        if steps is None:
+            rebounds(law, psi, np.empty(WORK), out)
+        else:
+            nothing = np.empty((0, len(HISTORY)))
+            stepped_rebounds(law, psi, steps, np.empty(REMEMBERED), nothing, out)
+        return out
+
+    def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
+        """Write what happens in equal steps; return their number, -1 if the bodies do not part."""
+        law = self.coefficients(chi, kappa)
+        return stepped(law, psi, steps, np.empty(REMEMBERED), record)[0]
+
+    def history(
+        self, psi: float, chi: float, *, kappa: float | None = None, steps: int = 1000
+    ) -> dict[str, Array]:
+        """Return the history of an impact in equal time steps, in the units of Hertz's impact.
+
+        Parameters
+        ----------
+        psi : float
+            Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
+        chi : float
+            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
+        kappa : float, optional
+            Stiffness ratio G*/E*, by default that of solid spheres, 4 chi/7.
+        steps : int
+            Number of equal time steps in the duration of Hertz's contact, from 4 to a million.
+
+        Returns
+        -------
+        dict
+            Arrays named `time`, `penetration`, `normal_velocity`, `psi`, `normal_force` and
+            `tangential_force`.
+
+        Raises
+        ------
+        InputError
+            If a value is out of range, or the bodies do not part.
+
+        Examples
+        --------
+        >>> import carom
+        >>> history = carom.dem.LinearSpring().history(0.5, 1.44)
+        >>> round(float(history["normal_force"].max()), 3)
+        0.8
+        """
+        counted("steps", steps, FEWEST_STEPS)
+        chi, psi = positive("chi", chi), finite("psi", psi, "1")
+        own = SOLID * chi if kappa is None else positive("kappa", kappa)
+        record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
+        sign = float(np.copysign(1.0, psi)) if self.symmetric else 1.0
+        count = self._recorded(sign * psi, chi, own, steps, record)
+        if count < 0 or not np.all(np.isfinite(record[:count])):
+            raise refusal("steps", steps, "the bodies do not part; take more steps")
+        columns = {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}
+        for name in ("psi", "tangential_force"):
+            columns[name] *= sign
+        return columns

@@ -1,0 +1,58 @@
+"""Impacts without duration, with rigid Coulomb friction or Walton's parameters."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from carom.dem.base import Law
+from carom.quantities.arrays import Array
+from carom.quantities.units import within
+
+
+@dataclass(frozen=True)
+class HardSphere(Law):
+    """Rigid spheres, which slide or keep a fixed fraction of the tangential velocity.
+
+        psi_2 = psi_1 - min(2 chi (1 + e), (1 + beta_0) psi_1) for psi_1 >= 0
+
+    With beta_0 = 0 this is rigid Coulomb friction (Routh 1891), otherwise the law with Walton's
+    three parameters (Foerster et al. 1994, (11)-(13)).
+
+    Parameters
+    ----------
+    tangential_restitution : float
+        Tangential restitution beta_0 = -psi_2/psi_1 without sliding, from -1 to 1.
+    restitution : float
+        Coefficient of restitution e, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a parameter is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.dem.HardSphere(0.4).rebound([1.0, 10.0], 1.5)
+    array([-0.4,  4. ])
+    """
+
+    name: ClassVar[str] = "hard sphere"
+    source: ClassVar[str] = (
+        "Walton (1993); Foerster, Louge, Chang & Allia (1994), Phys. Fluids 6:1108"
+    )
+
+    tangential_restitution: float = 0.0
+    restitution: float = 1.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        beta = within("tangential_restitution", self.tangential_restitution, -1.0, 1.0, "1")
+        object.__setattr__(self, "tangential_restitution", beta)
+
+    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
+        most = 2.0 * chi * (1.0 + self.restitution)
+        with np.errstate(over="ignore"):
+            lost = np.minimum(most, (1.0 + self.tangential_restitution) * np.abs(psi))
+        return np.asarray(psi - np.copysign(lost, psi))

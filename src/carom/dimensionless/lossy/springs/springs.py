@@ -1,0 +1,191 @@
+"""The springs that a contact is cut into: where they stand, what they weigh, and how they stretch.
+
+In shear each is a standard linear solid, f = u + g m, m' = u' - m/theta; g = 0 is an elastic one.
+In stick u grows as U does. In slip f = sigma N, so that m relaxes by itself, in the time
+(1 + g) theta. Springs of two components need two rows of U and RELAXING and a circle for a limit
+here, and nowhere else.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.kernels import kernel
+
+# Columns of the springs: place, its square, weight in the integral over the contact, of which the
+# outer part; deflection in shear, and that of the branch that relaxes; the latter in compression,
+# or by how much a spring that yields is softer; Coulomb's limit before and after, and its rate.
+X, S, WEIGHT, OUTER, U, RELAXING, PRESSED, LIMIT, NEXT, RATE = range(10)
+SOFTER = PRESSED
+COLUMNS = 10
+
+SHORT = 1e-3  # of a step, in relaxation times: where its functions are series
+
+
+class Step(NamedTuple):
+    """What is the same for all springs in a step."""
+
+    time: float
+    psi: float  # at its start
+    moved: float  # by how much U grows
+    relaxing: float  # by how much m grows with U
+    extra: float  # g
+    give: float  # 1/(1 + g)
+    fading: float  # 1/theta
+    left: float  # exp(-time/theta)
+    kept: float  # of a steady growth of u by m
+    slipping: float  # exp(-time/((1 + g) theta))
+    forced: float  # of a steady growth of f by m in slip
+
+
+@kernel
+def share(near: float, far: float) -> float:
+    """Return the weight at `near` of the integral to `far` of what is linear in x^2."""
+    return float(abs(far - near) * (2.0 * far + near) / (3.0 * (far + near)))
+
+
+@kernel
+def lay(springs: Array, count: int, edge: float) -> None:
+    """Place a spring at the edge, beside so many.
+
+    The weights integrate what is linear in x^2 between springs and zero at the edge.
+    """
+    springs[:, count] = 0.0
+    springs[X, count], springs[S, count] = edge, edge * edge
+    if count > 0:
+        outer = share(springs[X, count - 1], edge)
+        springs[WEIGHT, count - 1] += outer - springs[OUTER, count - 1]
+        springs[OUTER, count - 1] = outer
+        springs[WEIGHT, count] = share(edge, springs[X, count - 1])
+
+
+@kernel
+def rim(springs: Array, last: int, edge: float) -> float:
+    """Return by how much the last spring's weight differs, as the contact ends at the edge."""
+    return float(share(springs[X, last], edge) - springs[OUTER, last])
+
+
+@kernel
+def integral(springs: Array, row: int, count: int, edge: float) -> float:
+    """Return the integral over the contact of what so many springs have, zero at the edge."""
+    total = rim(springs, count - 1, edge) * springs[row, count - 1] if count > 0 else 0.0
+    for j in range(count):
+        total += springs[WEIGHT, j] * springs[row, j]
+    return float(total)
+
+
+@kernel
+def faded(time: float, relaxation: float) -> tuple[float, float, float]:
+    """Return what fading leaves: of what was there, of a steady growth, of a growing rate.
+
+    exp(-q), (1 - exp(-q))/q and theta ((1 + exp(-q))/2 - (1 - exp(-q))/q), q = time/theta; the last
+    times the change of the rate over the step.
+    """
+    q = time / relaxation
+    left = np.exp(-q)
+    if q < SHORT:
+        return left, 1.0 - 0.5 * q + q * q / 6.0, time * q / 12.0
+    kept = -np.expm1(-q) / q
+    return left, kept, relaxation * (0.5 * (1.0 + left) - kept)
+
+
+@kernel
+def lowest(start: float, slope: float, end: float) -> float:
+    """Return the least value, its start apart, of a parabola on [0, 1].
+
+    Slip that stops within a step leaves the springs at the limit of that moment; without it the
+    error would depend on where in the step slip stops.
+    """
+    curvature = end - start - slope
+    if slope < 0.0 and -slope < 2.0 * curvature:
+        return start - slope * slope / (4.0 * curvature)
+    return end
+
+
+@kernel
+def step_of(
+    extra: float, relaxation: float, time: float, psi: float, half: float, rate: float
+) -> Step:
+    """Return a step from its length, psi at its start and in its middle, and psi'."""
+    left, kept, growing = faded(time, relaxation)
+    slower = (1.0 + extra) * relaxation
+    slipping, forced, _ = faded(time, slower)
+    return Step(
+        time,
+        psi,
+        half * time,
+        half * time * kept + growing * rate * time,
+        extra,
+        1.0 / (1.0 + extra),
+        1.0 / relaxation,
+        left,
+        kept,
+        slipping,
+        forced / (1.0 + extra),
+    )
+
+
+@kernel
+def stretch(springs: Array, count: int, edge: float, step: Step) -> tuple[float, float]:
+    """Move so many springs on by a step; return the integrals of f and m^2 over the contact."""
+    if step.extra == 0.0:
+        return stretch_elastic(springs, count, edge, step), 0.0
+    force, square = 0.0, 0.0
+    for j in range(count):
+        limits = springs[LIMIT, j], springs[NEXT, j], springs[RATE, j]
+        u, m = stretched(springs[U, j], springs[RELAXING, j], *limits, step)
+        springs[U, j], springs[RELAXING, j] = u, m
+        weight = springs[WEIGHT, j]
+        if j == count - 1:
+            weight += rim(springs, j, edge)
+        force += weight * (u + step.extra * m)
+        square += weight * m * m
+    return force, square
+
+
+@kernel
+def stretch_elastic(springs: Array, count: int, edge: float, step: Step) -> float:
+    """Move so many springs on by a step, of which no part relaxes: the same with m = 0."""
+    force = 0.0
+    for j in range(count):
+        u, limit, limit_end = springs[U, j], springs[LIMIT, j], springs[NEXT, j]
+        stuck, slope = u + step.moved, springs[RATE, j]
+        forth = lowest(limit - u, (slope - step.psi) * step.time, limit_end - stuck)
+        back = lowest(limit + u, (slope + step.psi) * step.time, limit_end + stuck)
+        springs[U, j] = stuck + min(forth, 0.0) - min(back, 0.0)
+        force += springs[WEIGHT, j] * springs[U, j]
+    return force + rim(springs, count - 1, edge) * springs[U, count - 1] if count > 0 else 0.0
+
+
+@kernel
+def stretched(
+    u: float, m: float, limit: float, limit_end: float, rate: float, step: Step
+) -> tuple[float, float]:
+    """Return u and m after a step; rate is that of the limit at its start."""
+    stuck, relaxed = u + step.moved, m * step.left + step.relaxing
+    least, end, slid, slid_m = _slip(1.0, u, m, limit, limit_end, rate, step)
+    sign = 1.0
+    if least >= 0.0:
+        least, end, slid, slid_m = _slip(-1.0, u, m, limit, limit_end, rate, step)
+        sign = -1.0
+    if least >= 0.0:
+        return stuck, relaxed
+    if least == end:
+        return slid, slid_m
+    return stuck + sign * least, relaxed + sign * least * step.kept
+
+
+@kernel
+def _slip(
+    sign: float, u: float, m: float, limit: float, limit_end: float, rate: float, step: Step
+) -> tuple[float, float, float, float]:
+    """Return how slip differs from stick at the least and at the end, and u and m after it."""
+    g, stuck = step.extra, u + step.moved
+    start = (limit - sign * (u + g * m)) * step.give  # to the limit, at once
+    began = m + sign * start
+    slid_m = began * step.slipping + sign * (limit_end - limit) * step.forced
+    slid = sign * limit_end - g * slid_m
+    slope = (rate + sign * g * step.fading * began) * step.give - sign * step.psi
+    end = sign * (slid - stuck)
+    return lowest(start, slope * step.time, end), end, slid, slid_m

@@ -1,1 +1,0 @@
-"""Independent solvers that the phase machine is compared with."""

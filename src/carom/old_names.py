@@ -1,0 +1,60 @@
+"""Names of version 0.2: each works for this version, with one warning that gives the new name."""
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+from warnings import warn
+
+LAWS_OF_CODES = (
+    *("EdemHertzMindlin", "FunctionLaw", "FunctionRebound", "HardSphere", "HertzLinearHistory"),
+    *("LammpsMindlin", "LiggghtsHertz", "LinearSpring", "StrongeLaw", "ThorntonLaw"),
+    *("WaltonBraunLaw", "YadeMindlin"),
+)
+REBOUND_LAWS = ("MixtureLaw", "ReboundLaw", "RoughLaw", "SmoothLaw", "WaltonLaw", "fit_walton")
+RESULTS = ("Collisions", "Fit", "HalfspaceImpact", "Impact", "JudgedCollisions", "LoadPath")
+STATUSES = ("CollisionStatus", "Judgement", "PointStatus", "Status")
+
+NEW_NAMES = {
+    **{f"carom.{name}": f"carom.dem.{name}" for name in LAWS_OF_CODES},
+    **{f"carom.{name}": f"carom.laws.{name}" for name in REBOUND_LAWS},
+    **{f"carom.{name}": f"carom.results.{name}" for name in (*RESULTS, "Solution", "WaltonFit")},
+    **{f"carom.{name}": f"carom.status.{name}" for name in STATUSES},
+    "carom.MemoryLaw": "carom.dem.ExactContactLaw",
+    "carom.convert": "carom.convert_observables",
+    "carom.strength": "carom.bearable_speeds",
+    "carom.wear": "carom.wear_of_many",
+    "carom.verify.damping": "carom.verify.damping_from_restitution",
+    "carom.verify.restitution": "carom.verify.restitution_from_damping",
+}
+NEW_CALLS: dict[str, tuple[str, Callable[[], Any]]] = {  # what a name alone no longer gives
+    "carom.material_sources": ("carom.material(name).sources", lambda: _sources),
+    "carom.verify.CATALOGUE": (
+        "carom.verify.catalogue()",
+        lambda: _get("carom.verify.catalogue")(),
+    ),
+}
+
+
+def _get(path: str) -> Any:
+    home, _, name = path.rpartition(".")
+    return getattr(import_module(home), name)
+
+
+def _sources(name: str) -> dict[str, str]:
+    return dict(_get("carom.material")(name).sources)
+
+
+def with_old_names(package: str, load: Callable[[str], Any]) -> Callable[[str], Any]:
+    """Return the `__getattr__` of a package that knows the names of version 0.2, too."""
+
+    def __getattr__(name: str) -> Any:
+        old = f"{package}.{name}"
+        if old not in NEW_NAMES and old not in NEW_CALLS:
+            return load(name)
+        new, find = NEW_CALLS.get(old) or (NEW_NAMES[old], lambda: _get(NEW_NAMES[old]))
+        warn(f"{old} is now {new}; the old name ends with 0.3", DeprecationWarning, stacklevel=2)
+        value = find()
+        setattr(import_module(package), name, value)  # one warning
+        return value
+
+    return __getattr__

@@ -1,0 +1,31 @@
+"""What ends a phase of an impact, in the words that users see."""
+
+from carom.quantities.statuses import WordedStatus
+
+
+class Cause(WordedStatus):
+    """What ends a phase, as a number for kernels; its `message` says it in words.
+
+    Examples
+    --------
+    >>> from carom.quantities.causes import Cause
+    >>> Cause.RING_CLOSES.message
+    'slip ring closes'
+    """
+
+    FIRST_TOUCH = 0, "first touch"
+    EDGE_AT_LIMIT = 1, "edge reaches friction limit"
+    SLIP_STOPS = 2, "slip stops"
+    RING_CLOSES = 3, "slip ring closes"
+    FRONT_AT_CENTRE = 4, "slip front reaches centre"
+    SEPARATION = 5, "separation"
+    UNRESOLVED = 6, "not resolved"
+    STICK_ZONE_VANISHES = 7, "stick zone vanishes"
+
+
+def cause_between(kind: str, following: str) -> Cause:
+    """Return what ends a phase where only its kind and that of the next phase are known."""
+    if kind == "stick":
+        return Cause.EDGE_AT_LIMIT
+    spreads = kind == "slip" and following == "gross slip"
+    return Cause.STICK_ZONE_VANISHES if spreads else Cause.SLIP_STOPS

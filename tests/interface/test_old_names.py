@@ -1,0 +1,67 @@
+"""Names of version 0.2: each works, says once what it is called now, and is shown to nobody."""
+
+import subprocess
+import sys
+from importlib import import_module
+from pkgutil import resolve_name
+
+import pytest
+
+import carom
+from carom.old_names import NEW_CALLS, NEW_NAMES
+
+PUBLIC = """
+BoundaryElements CollisionStatus Collisions Cup EdemHertzMindlin ElasticPlastic Fit FunctionLaw
+FunctionRebound Grid HalfSpace HalfspaceImpact HardSphere HertzLinearHistory Impact InputError
+JudgedCollisions Judgement KelvinVoigt LammpsMindlin LatinHypercube LiggghtsHertz LinearSpring
+LoadPath Material MemoryLaw MixtureLaw Pair PointStatus ReboundLaw RoughLaw SmoothLaw Solution
+Sphere StandardLinearSolid Status StrongeLaw Table ThorntonLaw WaltonBraunLaw WaltonFit WaltonLaw
+YadeMindlin classical collide convert curve datasets fit fit_walton get_include get_library impact
+load_path material material_sources materials plots read rebound regime_map save solve strength
+sweep verify wear verify.Bench verify.CATALOGUE verify.EngineError verify.Entry verify.Experiment
+verify.Lammps verify.Liggghts verify.Ranking verify.Score verify.Tuning verify.Yade
+verify.advised_steps verify.bench verify.damping verify.error_map verify.force_error
+verify.poisson_from_kappa verify.rank verify.recipes verify.restitution verify.run verify.score
+verify.step_error verify.stiffnesses verify.tune verify.write_pack
+"""
+
+
+@pytest.mark.parametrize("name", PUBLIC.split())
+def test_every_public_name_of_0_2_is_there(name):
+    home, _, last = f"carom.{name}".rpartition(".")
+    old = f"carom.{name}" in (NEW_NAMES | NEW_CALLS)
+    module = import_module(home)
+    vars(module).pop(last, None) if old else None
+    if old:
+        with pytest.warns(DeprecationWarning, match=rf"^{home}\.{last} is now carom\."):
+            assert getattr(module, last) is not None
+    assert getattr(module, last) is not None  # without a second warning
+    assert (last in dir(module)) is not old
+
+
+@pytest.mark.parametrize(("old", "new"), NEW_NAMES.items())
+@pytest.mark.filterwarnings("ignore:carom")
+def test_an_old_name_is_the_new_thing(old, new):
+    assert resolve_name(old) is resolve_name(new)
+
+
+@pytest.mark.filterwarnings("ignore:carom")
+def test_what_is_called_otherwise_is_the_same():
+    assert carom.verify.catalogue() == carom.verify.CATALOGUE
+    assert carom.material_sources("steel") == carom.material("steel").sources
+    assert carom.material_sources("rigid") == {}
+
+
+def test_the_warning_is_where_the_name_stands():
+    script = "import carom\nfrom carom import MemoryLaw\nMemoryLaw(8)\ncarom.MemoryLaw(8)\n"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    lines = [line for line in done.stderr.splitlines() if "DeprecationWarning" in line]
+    assert done.returncode == 0
+    (line,) = lines
+    assert line.startswith("<string>:2:")
+    assert "carom.MemoryLaw is now carom.dem.ExactContactLaw" in line
+
+
+def test_a_name_that_never_was_is_no_attribute():
+    with pytest.raises(AttributeError):
+        carom.MemoryLaws  # noqa: B018
