@@ -25,8 +25,8 @@ from carom.dimensionless.rebound_tables import (
 from carom.io.progress import advancing
 
 FILE = Path(carom.__file__).parent / STORED
-DEGREES, TOLERANCE, SOLVED = (6, 6, 8), 1e-5, 1e-8
-FADING, POWER = 2.0, 6  # chi beyond which errors may grow, and how: curves have more kinks there
+DEGREES, TOLERANCE, SOLVED = (6, 6, 8), 2e-6, 1e-8
+FADING, POWER = 1.5, 6  # chi beyond which errors may grow, and how: curves have more kinks there
 # Largest errors in psi_2 that are allowed between these chi and the next.
 ALLOWED = {0.248: 5e-5, 0.5: 5e-5, 1.75: 5e-5, 2.2: 3e-4, 3.0: 2e-3, 4.09: None}
 IMPACTS, SEED = 2000, 7

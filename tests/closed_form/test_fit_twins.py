@@ -117,7 +117,7 @@ def test_a_start_far_away_ends_in_the_same_minimum(data, found):
 
 @pytest.mark.parametrize(
     ("chis", "error"),
-    [((0.248, 1.75), 5e-5), ((1.75, 2.2), 5e-5), ((2.2, 3.0), 1e-3), ((3.0, 4.09), 5e-3)],
+    [((0.248, 1.75), 5e-5), ((1.75, 2.2), 5e-5), ((2.2, 3.0), 6e-4), ((3.0, 4.09), 5e-3)],
 )
 def test_the_table_is_the_solver(chis, error):
     """psi_2 at random chi, e and psi_1, also close to kinks, to what the manual says; odd."""
@@ -136,9 +136,9 @@ def test_the_table_is_the_solver(chis, error):
 
 
 @pytest.mark.parametrize("chi", [0.3, 1.4412])
-def test_psi_2_hardly_changes_across_a_border(chi):
+def test_curves_hardly_change_across_a_kink(chi):
     """psi_2 is continuous at the borders of the regimes."""
     borders = np.unique(regime_borders(chi))
     psi = np.sort(np.concatenate([borders - 1e-9, borders + 1e-9]))[np.newaxis]
     found = psi_out(stored(), psi, np.array([chi]), np.array([1.0]))[0]
-    assert np.abs(found[1::2] - found[::2]).max() < 1e-5
+    assert np.abs(found[1::2] - found[::2]).max() < 1e-6

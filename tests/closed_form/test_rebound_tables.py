@@ -16,7 +16,7 @@ SEED = 20261121
 
 @pytest.fixture(scope="module")
 def law():
-    return carom.ReboundLaw((0.95, 1.65))
+    return carom.laws.ReboundLaw((0.95, 1.65))
 
 
 def test_law_is_the_rebound_to_1e_7(law):
@@ -38,7 +38,7 @@ def test_law_is_the_rebound_to_1e_7(law):
 
 def test_law_agrees_with_the_law_of_one_chi(law):
     psi = np.linspace(-8.0, 8.0, 1001)
-    np.testing.assert_allclose(law(psi, 1.44), carom.ReboundLaw(1.44)(psi), rtol=0, atol=1e-7)
+    np.testing.assert_allclose(law(psi, 1.44), carom.laws.ReboundLaw(1.44)(psi), rtol=0, atol=1e-7)
 
 
 def test_what_lies_outside_the_table_is_solved(law):
@@ -54,9 +54,9 @@ def test_shapes_broadcast_and_the_law_can_be_stored(law):
     again = pickle.loads(pickle.dumps(law))
     assert again(0.7, 1.3) == law(0.7, 1.3)
     assert law.nbytes < 200_000
-    older = carom.MixtureLaw(1.2, 1.3)
+    older = carom.laws.MixtureLaw(1.2, 1.3)
     assert (older.low, older.high) == older.chi == (1.2, 1.3)
-    assert older(0.7, 1.25) == carom.ReboundLaw((1.2, 1.3))(0.7, 1.25)
+    assert older(0.7, 1.25) == carom.laws.ReboundLaw((1.2, 1.3))(0.7, 1.25)
 
 
 def test_collisions_take_a_law_over_a_range(law):
@@ -72,7 +72,7 @@ def test_collisions_take_a_law_over_a_range(law):
         lambda: law(0.5),
         lambda: law.impulse(0.5),
         law.to_dict,
-        lambda: carom.ReboundLaw((1.5, 1.6)).rule(pair),
+        lambda: carom.laws.ReboundLaw((1.5, 1.6)).rule(pair),
     )
     for refused in refusals:
         with pytest.raises(carom.InputError, match=r"chi[^\n]+$"):
@@ -82,7 +82,7 @@ def test_collisions_take_a_law_over_a_range(law):
 def test_a_range_of_chi_with_losses():
     """To 1e-6 of `rebound`; what lies outside of the range is solved with the same losses."""
     losses = carom.KelvinVoigt(restitution=0.8)
-    law, rng = carom.ReboundLaw((1.3, 1.45), losses=losses), np.random.default_rng(SEED)
+    law, rng = carom.laws.ReboundLaw((1.3, 1.45), losses=losses), np.random.default_rng(SEED)
     chi, psi = rng.uniform(1.25, 1.5, 400), rng.uniform(-6.0, 6.0, 400)
     np.testing.assert_allclose(law(psi, chi), carom.rebound(psi, chi, losses=losses), atol=1e-6)
     assert law.restitution == 0.8
@@ -90,19 +90,19 @@ def test_a_range_of_chi_with_losses():
 
 def test_a_table_is_a_law_like_others():
     """It can be ranked and scored beside contact laws, at its chi and elsewhere."""
-    for law, chi in ((carom.ReboundLaw(1.44), 1.44), (carom.ReboundLaw((1.4, 1.5)), 1.6)):
-        ranking = carom.verify.rank([carom.HardSphere(0.4), law], chi=chi)
+    for law, chi in ((carom.laws.ReboundLaw(1.44), 1.44), (carom.laws.ReboundLaw((1.4, 1.5)), 1.6)):
+        ranking = carom.verify.rank([carom.dem.HardSphere(0.4), law], chi=chi)
         assert ranking.standings[0].entry.law is law
         assert ranking.standings[0].max_error < 1e-8
         assert carom.verify.score(law, chi=chi).max_error < 1e-8
-    damped = carom.verify.rank([carom.ReboundLaw(1.44)], chi=1.44, restitution=0.8)
+    damped = carom.verify.rank([carom.laws.ReboundLaw(1.44)], chi=1.44, restitution=0.8)
     assert damped.standings[0].restitution == 0.8
     assert damped.standings[0].max_error < 1e-7
 
 
 @pytest.mark.parametrize("ends", [(0.4, 1.0), (1.5, 1.5), (1.5, 1.0), (0.0, 1.0), (1.0, "many")])
 def test_bad_range_is_refused(ends):
-    for made in (lambda: carom.MixtureLaw(*ends), lambda: carom.ReboundLaw(ends)):
+    for made in (lambda: carom.laws.MixtureLaw(*ends), lambda: carom.laws.ReboundLaw(ends)):
         with pytest.raises(carom.InputError, match="chi"):
             made()
 
@@ -127,8 +127,8 @@ def test_panels_find_a_kink_and_a_root():
         return samples(np.abs(x - 1.0 / 3.0) + np.sqrt(x), (x > 1.0 / 3.0).astype(np.int64))
 
     patches = fitted(bent, [(0.0, 1.0)], [10], tolerance=1e-10, singular=0.0)
-    assert np.min(np.abs(sections(patches)[0] - 1.0 / 3.0)) < 1e-10
-    x = np.random.default_rng(SEED).uniform(1e-6, 1.0, 300)
+    assert np.min(np.abs(sections(patches)[0] - 1.0 / 3.0)) < 1e-11
+    x = np.random.default_rng(SEED).uniform(1e-6, 1.0, 3000)
     found = np.array([value(patches, each) for each in x])
     assert np.max(np.abs(found - bent(x).values)) < 1e-9
 
@@ -153,7 +153,7 @@ def test_patches_follow_a_function_of_two_variables():
         lambda y, x: samples(surface(y, x).ravel()), box, (8, 8), 1e-8, cuts=cuts, singular=1.0
     )
     rng = np.random.default_rng(SEED)
-    for x, y in zip(rng.uniform(0.0, 2.0, 300), rng.uniform(-1.0, 1.0, 300), strict=True):
+    for x, y in zip(rng.uniform(0.0, 2.0, 500), rng.uniform(-1.0, 1.0, 500), strict=True):
         assert value(patches, y, x) == pytest.approx(surface(y, x), abs=1e-7)
 
 
