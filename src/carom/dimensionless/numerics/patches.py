@@ -115,8 +115,11 @@ def fitted(
     boxes, nodes = [np.array(box, dtype=np.float64)], [LEAF]
     corners: list[Array] = []
     series: list[Array] = []
+    count, between = unit.shape[1], np.empty(0)
     if last == 0:
         function = _remembering(function)
+        between = -np.cos(np.pi * np.array([0.5, degrees[0] - 0.5]) / degrees[0])
+        unit = np.append(unit, between[np.newaxis], axis=1)
 
     def cut(node: int, axis: int, values: Sequence[float]) -> list[int]:
         leaves = []
@@ -132,20 +135,23 @@ def fitted(
         return [*leaves, node]
 
     waiting = [0]
-    for axis, values in cuts:
-        waiting = [leaf for old in waiting for leaf in cut(old, axis, values)]
+    for axis, places in cuts:
+        waiting = [leaf for old in waiting for leaf in cut(old, axis, places)]
     while waiting:
         low, high = np.moveaxis([boxes[leaf] for leaf in waiting], -1, 0)[..., np.newaxis]
         points = 0.5 * (low + high) + 0.5 * (high - low) * unit
         points = np.select([unit == -1.0, unit == 1.0], [low, high], points)  # shared to the bit
         samples = function(*np.moveaxis(points, 1, 0))
-        rows = samples.values.reshape(len(waiting), -1) @ to_series
-        weights = samples.weights.reshape(len(waiting), -1).max(axis=1, keepdims=True)
-        errors = weights * _tails(rows.reshape(-1, *terms))
+        values, weights = (each.reshape(len(waiting), -1) for each in samples[:2])
+        rows = values[:, :count] @ to_series
+        errors = weights.max(axis=1, keepdims=True) * _tails(rows.reshape(-1, *terms))
         kinks: list[list[float]] = [[] for _ in waiting]
         if last == 0:
-            _look_between(function, points[:, 0], rows, errors[:, 0], tolerance)
-            kinks = _kinks(function, points[:, 0], samples.branches, errors[:, 0] > tolerance)
+            off = rows @ chebvander(between, degrees[0]).T - values[:, count:]
+            off = np.max(weights[:, count:] * np.abs(off), axis=1, keepdims=True)
+            errors = np.maximum(errors, off)
+            branches = samples.branches.reshape(values.shape)[:, :count]
+            kinks = _kinks(function, points[:, 0, :count], branches, errors[:, 0] > tolerance)
         errors[(high - low)[..., 0] <= narrowest * (boxes[0][:, 1] - boxes[0][:, 0])] = 0.0
         later = []
         for leaf, row, error, inside in zip(waiting, rows, errors, kinks, strict=True):
@@ -159,9 +165,9 @@ def fitted(
             near = GRADING if axis == last and start == singular else 0.5
             later += cut(leaf, axis, inside or [start + near * (end - start)])
         waiting = later
-    axes, places, *children = map(np.array, zip(*nodes, strict=True))
+    sides, at, *children = map(np.array, zip(*nodes, strict=True))
     below = np.stack(children, axis=-1)
-    return Patches(axes, places, below, np.array(corners), np.array(terms), np.array(series))
+    return Patches(sides, at, below, np.array(corners), np.array(terms), np.array(series))
 
 
 def _remembering(function: Function) -> Function:
@@ -186,25 +192,10 @@ def _tails(series: Array) -> Array:
     return np.stack([end.reshape(len(series), -1).max(axis=1) for end in ends], axis=-1)
 
 
-def _look_between(
-    function: Function, points: Array, rows: Array, errors: Array, tolerance: float
-) -> None:
-    """Raise errors that seem small to those between the outer nodes, of leaves of one variable."""
-    seem, degree = np.flatnonzero(errors <= tolerance), rows.shape[1] - 1
-    if seem.size:
-        places = -np.cos(np.pi * np.array([0.5, degree - 0.5]) / degree)
-        low, high = points[seem, :1], points[seem, -1:]
-        samples = function(0.5 * (low + high) + 0.5 * (high - low) * places)
-        wanted, weights = (each.reshape(-1, 2) for each in samples[:2])
-        off = weights * np.abs(rows[seem] @ chebvander(places, degree).T - wanted)
-        errors[seem] = np.maximum(errors[seem], off.max(axis=1))
-
-
 def _kinks(
     function: Function, points: Array, branches: NDArray[np.int64], wanted: NDArray[np.bool_]
 ) -> list[list[float]]:
     """Return where each leaf that is wanted changes its branch, by bisection."""
-    branches = branches.reshape(points.shape)
     changes = branches[:, 1:-2] != branches[:, 2:-1]  # an end may belong to either side
     rows, place = np.nonzero(changes & wanted[:, np.newaxis])
     low, high = points[rows, place + 1], points[rows, place + 2]
