@@ -4,14 +4,13 @@ They go to the copy of the page in the manual, and to the live page on the reade
 they ask for contact laws or data, which only that has. `example=ID` stands for an example.
 """
 
-import re
 from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, quote
 
 from docutils import nodes
 from sphinx.application import Sphinx
-from sphinx.util.docutils import SphinxRole
+from sphinx.util.docutils import ReferenceRole
 
 from carom.explorer.export import export
 from carom.explorer.presets import PRESETS
@@ -20,7 +19,6 @@ LIVE = "http://127.0.0.1:8050/"
 COPY = "explore/index.html"
 ONLY_LIVE = {"law", "data"}
 EXAMPLES = {preset.id: preset.query for preset in PRESETS}
-TITLED = re.compile(r"(.+?)\s*<(.*)>", re.DOTALL)
 
 
 def opened(query: str) -> str:
@@ -35,20 +33,15 @@ def is_live(query: str) -> bool:
     return bool(ONLY_LIVE & set(parse_qs(query, keep_blank_values=True)))
 
 
-class Explore(SphinxRole):
+class Explore(ReferenceRole):
     """The role `explore`: a title, and in angle brackets the query of the link."""
 
     def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
-        found = TITLED.fullmatch(self.text)
-        if not found:
-            error = self.inliner.reporter.error(
-                f"explore: {self.text!r} is no title with a query in <...>", line=self.lineno
-            )
-            return [], [error]
-        title, query = found[1], opened(found[2])
-        up = "../" * self.env.docname.count("/")
+        if not self.has_explicit_title:
+            raise ValueError(f"explore: {self.text!r} is no title with a query in <...>")
+        query, up = opened(self.target), "../" * self.env.docname.count("/")
         place = LIVE if is_live(query) else f"{up}{COPY}"
-        link = nodes.reference(self.rawtext, title, refuri=f"{place}?{query}", internal=False)
+        link = nodes.reference(self.rawtext, self.title, refuri=f"{place}?{query}", internal=False)
         return [link], []
 
 

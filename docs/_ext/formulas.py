@@ -5,9 +5,8 @@ alone in an indented block is displayed. Names with underscores that are no symb
 """
 
 import re
-from collections.abc import Iterator
 from itertools import groupby
-from typing import Any, NamedTuple
+from typing import Any
 
 from carom.quantities.glossary import GLOSSARY
 
@@ -15,203 +14,138 @@ GREEK = (
     "alpha|beta|gamma|delta|epsilon|zeta|eta|theta|kappa|lambda|mu|nu|xi|pi|rho|sigma|tau|phi|chi"
     "|psi|omega"
 )
-SYMBOL = re.compile(  # a letter, with d before it, an index, stars or primes behind it
-    rf"(?<!\w\.)(?P<d>d(?=[AC-Z](?![^\W_])|[qstuwxz]\b))?(?P<base>{GREEK}|[A-Za-z])"
-    r"(?:_(?P<index>max|min|eff|[A-Za-z0-9]{1,2}))?(?P<stars>\*{0,2})(?P<primes>'{0,2})"
-    r"(?![\w*]|'(?!s\b)|\.[a-z])"
+VARIABLES = "|".join(name for name in GLOSSARY if re.search(r"_\w\w", name))
+SYMBOL = (  # a letter, with d before it, an index, stars or primes behind it
+    rf"(?<!\w\.)(?!(?:{VARIABLES})\b)(?:d(?=[AC-Z](?![^\W_])|[qstuwxz]\b))?(?:{GREEK}|[A-Za-z])"
+    r"(?:_(?:max|min|eff|[A-Za-z0-9]{1,2}))?\*{0,2}'{0,2}(?![\w*]|'(?!s\b)|\.[a-z])"
 )
-NUMBER = re.compile(r"(\d+(?:\.\d+)?)(?:e([+-]?)0*(\d+))?(?![\w%])")
-FUNCTIONS = {
-    **{name: rf"\{name}" for name in ("exp", "log", "ln", "sin", "cos", "tan", "min", "max")},
-    **{"asin": r"\arcsin", "acos": r"\arccos", "atan": r"\arctan", "sqrt": r"\sqrt"},
-    **{"Im": r"\mathrm{Im}", "Re": r"\mathrm{Re}", "sum": r"\sum"},
-}
-FUNCTION = re.compile(rf"({'|'.join(FUNCTIONS)})(\^\d)?(?:(?=([(\[]))|\s+)")
-INTEGRAL = re.compile(r"(?:integral\s+of|int(_\w+\^\w+)?)\s+")
-RELATION = re.compile(r"\s*(<=|>=|=|<|>)\s*")
-SIGN = re.compile(r"\s+(\+-|-\+|[+-])\s+")
-BETWEEN = re.compile(r"\s*(/)\s*|\s+([x.])\s+(?=[\w(|])|(\s*)")
-TEX = {"<=": r"\le", ">=": r"\ge", "+-": r"\pm", "-+": r"\mp", "x": r"\times", ".": r"\cdot"}
-POWER = re.compile(r"\^(-?)(?=[\w(])")
-COMMA = re.compile(r"([,;])\s+")
+NAMES = "exp|log|sin|cos|tan|min|max|sum"
+ATOM = re.compile(  # what stands before a factor, or a factor without brackets
+    rf"(?P<before>(?:integral\s+of|int(?:_\w+\^\w+)?)\s+|sqrt(?=\()"
+    rf"|(?:{NAMES}|ln|asin|acos|atan|Im|Re)(?:\^\d)?"
+    rf"(?:(?=[(\[])|\s+(?=(?:[\d.]+[ /])?[A-Za-z(|])))"
+    rf"|\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w%])|{SYMBOL}"
+)
+POWER = re.compile(r"\^-?(?=[\w(])")
 CLOSING = {"(": ")", "[": "]", "|": "|"}
+LINK = re.compile(  # between two factors; a product begins behind some
+    r"(?P<begins>\s*[<>]?=\s*-?|\s*[<>]\s*-?|\s+(?:\+-|-\+|[+-])\s+)|(?P<comma>[,;]\s+-?)"
+    r"|(?P<sign>\s*/\s*|\s+[x.]\s+(?=[\w(|]))|\s*"
+)
 ARTICLE = re.compile(r"[aAI]\s+(?!(?:and|for|in|of|or|where|while|with)\b)[A-Za-z]")
+SURE = re.compile(  # what no sentence has
+    rf"\b(?:{GREEK})(?![^\W_])|[A-Za-z](?:_|\*|')|[=<>|^]|(?<!\d)/|/(?!\d)|\s[+-]+\s|\s[x.]\s|[\w)\]][(\[]"
+)
+INNER = r"(?:[^()]|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))*"  # with brackets in brackets
+ASIDE = re.compile(  # a bracket with a relation, a comma or no letter
+    rf"[(\[](?!(?=[^)]*[A-Za-z])(?:[^()=<>,;]|\({INNER}\))*[)\]])"
+)
+ROOT = (rf"\bsqrt\(({INNER})\)", r"\\sqrt{\1}")
+TEX = (  # one after the other
+    (r"\s+", " "),
+    (rf"(?<=[^\s<>=+-])(?<!{NAMES}) x (?=[\w(|])", r" \\times "),
+    (r" \. ", r" \\cdot "),
+    (r"\bint(?:egral of)?(?=[ _])", r"\\int"),
+    (r"\ba(sin|cos|tan)(?=\W)", r"\\arc\1"),
+    (r"\b(Im|Re)(?=\W)", r"\\mathrm{\1}"),
+    (rf"\b({NAMES}|ln)(?=\W)", r"\\\1"),
+    (rf"\b({GREEK})(?![^\W_])", r"\\\1"),
+    (r"_(max|min)", r"_{\\\1}"),
+    ("_eff", r"_{\\mathrm{eff}}"),
+    (r"_(\w\w)\b", r"_{\1}"),
+    (r"(?<!\*)\*(?!\*)", "^*"),
+    (r"(?<![*{])\*\*", "^{**}"),
+    (r"(?<![\w.])1e\+?(-?)0*(\d+)", r"10^{\1\2}"),
+    (r"(?<=\d)e\+?(-?)0*(\d+)\b", r" \\times 10^{\1\2}"),
+    (r"(?<=[\w)\]}'*]) (?=d[A-Za-z]\b)", r" \\, "),
+    (r" ?/ ?", "/"),
+    (r" ?<= ?", r" \\le "),
+    (r" ?>= ?", r" \\ge "),
+    (r"\+-", r"\\pm"),
+    (r"-\+", r"\\mp"),
+    (r"\|([^|]*)\|", r"\\lvert \1\\rvert"),
+    (r"\^(-?\d+\.\d+|-\w+|\w{2,})", r"^{\1}"),
+    (rf"\^(-?)\(({INNER})\)", r"^{\1\2}"),
+    *(ROOT, ROOT),
+)
 UNIT = r"(?:[kM]?Pa|[kM]?N|[cmun]?m|[mu]?s|[mk]?J|[kmu]?g|rad|Hz)\b(?:\^-?\d+(?:\.\d+)?)?"
-UNITS = re.compile(rf"(?:1/)?{UNIT}(?:[ /]{UNIT}|/\({UNIT}(?: {UNIT})*\))*(?![\w^/(*'])")
-MEASURED = re.compile(rf"\d[\d.]*(?:e-?\d+)? (?=({UNITS.pattern}))")
-IDENTIFIER = re.compile(r"(?<![./:-])\w*_\w+")
-WORD = re.compile(r"[^\W\d][\w']*|[\d.,]*\d|[^\w]|\w")
+QUANTITY = re.compile(
+    r"(?P<number>\d[\d.]*(?:e-?\d+)? )?"
+    rf"(?P<unit>(?:1/)?{UNIT}(?:[ /]{UNIT}|/\({UNIT}(?: {UNIT})*\))*(?![\w^/(*']))"
+)
+WORD = re.compile(r"(?P<code>(?<![./:-])\w*_\w+)|[^\W\d][\w']*|[\d.,]*\d|[^\w]|\w")
 NO_PROSE = re.compile(  # examples, fields and heads of parameters, code, roles, texts, emphasis
-    r"(?m)^ *(?:>>> .*(?:\n.+)*|:\w*type\b[^:\n]*:.*|:\w+(?: [^:\n]+)?:(?= |$)"
+    r"(?m)(^ *(?:>>> .*(?:\n.+)*|:\w*type\b[^:\n]*:.*|:\w+(?: [^:\n]+)?:(?= |$)"
     r"|[\w*]+(?:, [\w*]+)* : \S.*)"
     r"|\bshapes? \([^)]*\)|``.+?``|(?::\w+)+:`[^`]*`|`[^`]*`|\"[^\"\n]{1,60}\""
-    r"|(?<![\w*])\*{1,2}[A-Za-z][^*\n]*\*{1,2}(?!\w)|\$[^$\n]+\$"
+    r"|(?<![\w*])\*{1,2}[A-Za-z][^*\n]*\*{1,2}(?!\w)|\$[^$\n]+\$)"
 )
 
 
-class Piece(NamedTuple):
-    """A part of a formula: its LaTeX, where it ends in the text, and what it holds."""
-
-    tex: str
-    end: int
-    letters: bool = False  # symbols
-    sure: bool = False  # what no sentence has
-    flat: bool = True  # neither a relation nor a comma
-
-    def then(self, between: str, other: "Piece", *, signs: bool = True) -> "Piece":
-        """Return both as one piece; signs between letters make a formula."""
-        letters = self.letters or other.letters
-        sure = self.sure or other.sure or (signs and letters)
-        return Piece(f"{self.tex}{between}{other.tex}", other.end, letters, sure)
-
-
-def relations(text: str, at: int) -> Piece | None:
-    """Read sums with relations between them."""
-    whole = terms(text, at)
-    while whole and (sign := RELATION.match(text, whole.end)):
-        if not (right := terms(text, sign.end())):
+def formula(text: str, at: int, within: bool = False) -> int:
+    """Return where a formula that begins here ends, 0 if none does; commas are within brackets."""
+    end, at = 0, at + text.startswith("-", at)
+    link = LINK.match("= ")
+    while last := 0 if is_prose(text, at, link) else factor(text, at):
+        end = last
+        link = LINK.match(text, end)
+        if link["comma"] and not within:
             break
-        whole = whole.then(f" {TEX.get(sign[1], sign[1])} ", right)._replace(flat=False)
-    return whole
+        at = link.end()
+    return end
 
 
-def terms(text: str, at: int) -> Piece | None:
-    """Read a sum, which may begin with a minus."""
-    minus = text.startswith("-", at)
-    whole = product(text, at + minus)
-    if whole and minus:
-        whole = whole._replace(tex=f"-{whole.tex}")
-    while whole and (sign := SIGN.match(text, whole.end)):
-        if not (right := product(text, sign.end())):
-            break
-        whole = whole.then(f" {TEX.get(sign[1], sign[1])} ", right)
-    return whole
+def is_prose(text: str, at: int, link: re.Match[str]) -> bool:
+    """Return whether words go on behind what links factors, and no formula."""
+    if not link["sign"] and ARTICLE.match(text, at):  # an article, or the contact radius
+        return bool(link.lastgroup or re.match(r"a\s+[a-z]+\b", text[at:]))
+    aside = link[0] and ASIDE.match(text, at)
+    return not link.lastgroup and bool(aside or text[at : at + 1].isdigit())
 
 
-def product(text: str, at: int) -> Piece | None:
-    """Read factors, one after the other, or with a slash, a cross or a dot between them."""
-    whole = None if ARTICLE.match(text, at) else factor(text, at)
-    while whole and whole.flat:
-        gap = BETWEEN.match(text, whole.end)
-        sign, space = gap[1] or gap[2], gap[3]
-        right = factor(text, gap.end())
-        if not right or not (sign or follows(text, right, gap.end())):
-            break
-        between = "/" if sign == "/" else f" {TEX[sign]} " if sign else " " if space else ""
-        if not sign and re.match(r"d[A-Za-z]\b", right.tex):
-            between = r" \, "
-        whole = whole.then(between, right, signs=not space)
-    return whole
-
-
-def follows(text: str, right: Piece, at: int) -> bool:
-    """Return whether a factor may stand behind another with no sign between them."""
-    if ARTICLE.match(text, at):  # an article, or the contact radius
-        return not re.match(r"a\s+[a-z]+\b", text[at:])
-    if text[at] in "([" and text[at - 1].isspace():
-        return right.flat and right.letters
-    return not text[at].isdigit()
-
-
-def factor(text: str, at: int) -> Piece | None:
-    """Read a number, a symbol, a function or what stands in parentheses, and its power."""
-    if found := INTEGRAL.match(text, at):
-        inner = product(text, found.end())
-        return inner and inner._replace(tex=rf"\int{found[1] or ''} {inner.tex}", sure=True)
-    if found := FUNCTION.match(text, at):
-        return function(text, found)
-    if found := NUMBER.match(text, at):
-        whole = Piece(digits(*found.groups()), found.end())
+def factor(text: str, at: int) -> int:
+    """Return where a number, a symbol, a function or a bracket ends, with its power; or 0."""
+    if atom := ATOM.match(text, at):
+        end = factor(text, atom.end()) if atom["before"] else atom.end()
+    elif close := CLOSING.get(text[at : at + 1]):
+        end = formula(text, at + 1, within=close != "|")
+        end = end + 1 if end and text[end : end + 1] == close else 0
     else:
-        whole = bracket(text, at) if text[at : at + 1] in CLOSING else symbol(text, at)
-    if whole and (found := POWER.match(text, whole.end)):
-        raised = factor(text, found.end())
-        if not raised:
-            return None
-        power = found[1] + (raised.tex[1:-1] if raised.tex.startswith("(") else raised.tex)
-        tex = f"{whole.tex}^{{{power}}}" if power[1:] else f"{whole.tex}^{power}"
-        whole = Piece(tex, raised.end, whole.letters or raised.letters, whole.letters)
-    return whole
+        return 0
+    power = POWER.match(text, end)
+    return factor(text, power.end()) if end and power else end
 
 
-def function(text: str, found: re.Match[str]) -> Piece | None:
-    """Read the argument of a function, in parentheses or simply behind it."""
-    name, power, close = found.groups()
-    inner = (bracket if close else product)(text, found.end())
-    if not inner or not (close or (inner.letters and name != "sqrt")):
-        return None
-    argument = f"{{{inner.tex[1:-1]}}}" if name == "sqrt" else inner.tex
-    tex = f"{FUNCTIONS[name]}{power or ''}{'' if close else ' '}{argument}"
-    return Piece(tex, inner.end, letters=True, sure=bool(close) or inner.sure)
+def latex(text: str) -> str:
+    r"""Return a formula in LaTeX.
 
-
-def bracket(text: str, at: int) -> Piece | None:
-    """Read what stands in parentheses, commas between its parts, or between bars."""
-    close = CLOSING[text[at]]
-    whole = relations(text, at + 1)
-    while whole and close != "|" and (comma := COMMA.match(text, whole.end)):
-        right = relations(text, comma.end())
-        whole = right and whole.then(f"{comma[1]} ", right, signs=False)._replace(flat=False)
-    if not whole or text[whole.end : whole.end + 1] != close:
-        return None
-    if close == "|":
-        tex = rf"\lvert {whole.tex}\rvert"
-        return whole._replace(tex=tex, end=whole.end + 1, sure=whole.letters)
-    return whole._replace(tex=f"{text[at]}{whole.tex}{close}", end=whole.end + 1)
-
-
-def symbol(text: str, at: int) -> Piece | None:
-    """Read a Greek letter or a single one of ours, with what belongs to it."""
-    found = SYMBOL.match(text, at)
-    if not found:
-        return None
-    base, index, stars = found["base"], found["index"] or "", found["stars"]
-    if index[1:] and found[0] in GLOSSARY:
-        return None  # the name of a variable
-    tex = (found["d"] or "") + (rf"\{base}" if base[1:] else base)
-    if index:
-        word = {"max": r"\max", "min": r"\min", "eff": r"\mathrm{eff}"}.get(index, index)
-        tex += f"_{{{word}}}" if index[1:] else f"_{index}"
-    if stars:
-        tex += f"^{{{stars}}}" if stars[1:] else "^*"
-    sure = bool(base[1:] or index or stars or found["primes"])
-    return Piece(tex + found["primes"], found.end(), letters=True, sure=sure)
-
-
-def digits(mantissa: str, sign: str | None, exponent: str | None) -> str:
-    r"""Return a number in LaTeX.
-
-    >>> print(digits("1", "-", "10"), digits("2.5", "", "3"), digits("0.05", None, None))
-    10^{-10} 2.5 \times 10^{3} 0.05
+    >>> print(latex("2.5e-10 sqrt(R* d_max) <= psi_1^(1/5)"))
+    2.5 \times 10^{-10} \sqrt{R^* d_{\max}} \le \psi_1^{1/5}
     """
-    if exponent is None:
-        return mantissa
-    power = f"10^{{{'-' if sign == '-' else ''}{exponent}}}"
-    return power if mantissa == "1" else rf"{mantissa} \times {power}"
+    for pattern, replacement in TEX:
+        text = re.sub(pattern, replacement, text)
+    return text
 
 
-def parts(text: str) -> Iterator[tuple[str, str]]:
-    """Yield the parts of a text with what they are: `text`, `code`, or `math` in LaTeX."""
-    at = 0
+def marked(text: str) -> str:
+    """Return a text with roles for its formulas and names, each between two marks."""
+    done, at = "", 0
     while at < len(text):
-        units, name = UNITS.match(text, at), IDENTIFIER.match(text, at)
-        whole = None if text.startswith("integral", at) else relations(text, at)
-        measured = MEASURED.match(text, at)
-        if measured and whole and whole.end <= measured.end(1):
-            yield "text", measured[0]
-            at = measured.end()
-        elif units and (not whole or whole.end <= units.end()):
-            power = re.sub(r"\^(-?[\d.]*\d)", r"^{\1}", units[0])
-            shown = rf"\mathrm{{{power}}}".replace(" ", r"\,")
-            yield ("math", shown) if "^" in power else ("text", units[0])
-            at = units.end()
-        elif whole and whole.sure:
-            yield "math", whole.tex
-            at = whole.end
+        end = 0 if text.startswith("integral", at) else formula(text, at)
+        quantity, part = QUANTITY.match(text, at), text[at:end]
+        if quantity and end <= quantity.end():
+            number, unit = quantity.groups("")
+            power = re.sub(r"\^(-?[\d.]*\d)", r"^{\1}", unit).replace(" ", r"\,")
+            done += number + (f"\1:math:`\\mathrm{{{power}}}`\2" if "^" in power else unit)
+            at = quantity.end()
+        elif SURE.search(part) and re.search(r"(?<!\d)[A-Za-z]", part):
+            done += f"\1:math:`{latex(part)}`\2"
+            at = end
         else:
-            found = name or WORD.match(text, at)
-            yield "code" if name else "text", found[0]
-            at = found.end()
+            word = WORD.match(text, at)
+            done += f"\1``{word[0]}``\2" if word["code"] else word[0]
+            at = word.end()
+    return done
 
 
 def inline(text: str) -> str:
@@ -220,17 +154,11 @@ def inline(text: str) -> str:
     >>> print(inline("psi_2 to 1e-10 max(1, |psi_1|), spin_out; `psi_2` is code"))
     :math:`\psi_2` to :math:`10^{-10} \max(1, \lvert \psi_1\rvert)`, ``spin_out``; `psi_2` is code
     """
-    held: list[str] = []
-
-    def hold(found: re.Match[str]) -> str:
-        held.append(f":math:`{found[0][1:-1]}`" if found[0][0] == "$" else found[0])
-        return f"\0{len(held) - 1}\0"
-
-    forms = {"text": "{}", "code": "\1``{}``\2", "math": "\1:math:`{}`\2"}
-    said = "".join(forms[kind].format(part) for kind, part in parts(NO_PROSE.sub(hold, text)))
-    said = re.sub("(?<=[\\w\2])\1|\2(?=[\\w\\\\(])", r"\\ ", said)  # else a role is none
-    said = re.sub("[\1\2]", "", said)
-    return re.sub("\0(\\d+)\0", lambda found: held[int(found[1])], said)
+    pieces = NO_PROSE.split(text)
+    pieces[::2] = map(marked, pieces[::2])
+    pieces[1::2] = [re.sub(r"^\$(.*)\$$", r":math:`\1`", piece) for piece in pieces[1::2]]
+    said = re.sub("(?<=[\\w\2])\1|\2(?=[\\w\\\\(])", r"\\ ", "".join(pieces))  # else a role is none
+    return re.sub("[\1\2]", "", said)
 
 
 def equation(text: str) -> str:
@@ -239,27 +167,20 @@ def equation(text: str) -> str:
     >>> print(equation("F_n = k_n d while loading, F_t = k_t U"))
     F_n = k_n d\text{ while loading},\quad F_t = k_t U
     """
-    found = [*parts(text.rstrip(".,;"))]
-    if all(kind != "math" for kind, _ in found):
-        return ""
-    tex = ""
-    for maths, group in groupby(found, key=lambda part: part[0] == "math"):
-        said = "".join(part for _, part in group)
-        if not maths:
-            said = re.sub(r"[^,;]*[^,;\s][^,;]*", r"\\text{\g<0>}", said.replace("%", r"\%"))
-            said = re.sub(r"([,;])(\\text\{)? ", r"\1\\quad \2", said)
-        tex += said
-    return tex
+    plain = re.sub("\1``|``\2", "", marked(text.rstrip(".,;")))
+    pieces = re.split("\1:math:`|`\2", plain)
+    for at in range(0, len(pieces), 2):
+        words = re.sub(r"[^,;]*[^,;\s][^,;]*", r"\\text{\g<0>}", pieces[at].replace("%", r"\%"))
+        pieces[at] = re.sub(r"([,;])(\\text\{)? ", r"\1\\quad \2", words)
+    return "".join(pieces) if pieces[1:] else ""
 
 
 def equations(lines: list[str]) -> list[str]:
     """Return an indented block as displayed equations, nothing if it holds anything else."""
-    rows: list[str] = []
-    for line in lines:  # one that is indented further goes on where the one above ends
-        deeper = depth(line) > depth(lines[0])
-        rows = [*rows[:-1], f"{rows[-1]} {line.strip()}"] if deeper else [*rows, line.strip()]
-    shown = [equation(row) for row in rows if "`" not in row]
-    if len(shown) < len(rows) or not all(shown):
+    further = rf"\n {{{depth(lines[0]) + 1},}}"  # goes on where the line above ends
+    rows = re.sub(further, " ", "\n".join(lines)).split("\n")
+    shown = [equation(row.strip()) for row in rows]
+    if "`" in "".join(rows) or not all(shown):
         return []
     if len(shown) > 1:  # one below the other at their first relation
         shown = [re.sub(r" (?=(?:=|\\le|\\ge|<|>) )", " & ", row, count=1) for row in shown]
@@ -292,8 +213,13 @@ def convert(lines: list[str]) -> list[str]:
 
 
 def process(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
-    """Convert a docstring of the reference."""
+    """Convert a docstring of the reference, and let |x| be what it is, outside examples."""
     lines[:] = convert(lines)
+    example = False
+    for number, line in enumerate(lines):
+        example = bool(line.strip()) and (example or line.lstrip().startswith(">>>"))
+        if not example:
+            lines[number] = re.sub(r"(`[^`]*`)|\|", lambda found: found[1] or r"\|", line)
 
 
 def setup(app: Any) -> dict[str, Any]:

@@ -4,9 +4,10 @@
 """
 
 import re
+from contextlib import suppress
 from dataclasses import fields, is_dataclass
-from importlib import import_module
 from inspect import ismodule
+from pkgutil import resolve_name
 from typing import Any
 
 from docutils import nodes
@@ -32,15 +33,13 @@ HOMES = {  # where public names are defined, and where they are offered
 PAGE = "reference/commands"
 COMMANDS = {" ".join(("carom", *words)) for words in commands()}
 MARK = "carom_name"
-UNLINKED = nodes.reference | addnodes.pending_xref | nodes.title
-log = getLogger(__name__)
 
 
 def refer(app: Sphinx, document: nodes.document) -> None:
     """Turn inline code that is a full name, or a command, into a reference."""
     for code in list(document.findall(nodes.literal)):
         name, command = NAME.fullmatch(code.astext()), COMMAND.match(code.astext())
-        if isinstance(code.parent, UNLINKED):
+        if isinstance(code.parent, nodes.reference | addnodes.pending_xref | nodes.title):
             continue
         if name:
             to_page(code, offered(name[1]), app.env.docname)
@@ -55,9 +54,8 @@ def refer(app: Sphinx, document: nodes.document) -> None:
 def to_page(code: nodes.literal, name: str, page: str) -> None:
     """Put a reference to what has a page in the reference around inline code."""
     where = {"refdomain": "py", "reftype": "obj", "reftarget": name, "refdoc": page}
-    link = addnodes.pending_xref("", refwarn=False, refexplicit=True, **where)
-    link["py:module"] = link["py:class"] = None
-    link[MARK] = True
+    unnamed: dict[str, Any] = {"py:module": None, "py:class": None, MARK: True}
+    link = addnodes.pending_xref("", refwarn=False, refexplicit=True, **where, **unnamed)
     link.source, link.line = code.source, code.line
     code.replace_self(link)
     link += code
@@ -83,23 +81,13 @@ def exists(name: str) -> bool:
     >>> exists("carom.dimensionless.rebounds"), exists("carom.dimensionless.stuck")
     (True, False)
     """
-    parts = name.split(".")
-    for end in range(len(parts), 0, -1):
-        try:
-            thing: Any = import_module(".".join(parts[:end]))
-        except ImportError:
-            continue
-        return leads(thing, parts[end:])
+    home, _, field = name.rpartition(".")
+    with suppress(ImportError, AttributeError):
+        resolve_name(name)
+        return True
+    with suppress(ImportError, AttributeError):  # of a record, without a value of its own
+        return field in getattr(resolve_name(home), "__annotations__", {})
     return False
-
-
-def leads(thing: Any, parts: list[str]) -> bool:
-    """Return whether attributes lead on from a thing; fields of records count."""
-    for part in parts:
-        if not hasattr(thing, part):
-            return part in getattr(thing, "__annotations__", {})
-        thing = getattr(thing, part)
-    return True
 
 
 def check(
@@ -109,7 +97,7 @@ def check(
     if MARK not in node:
         return None
     if not exists(node["reftarget"]):
-        log.warning("there is no %s", node["reftarget"], location=node)
+        getLogger(__name__).warning("there is no %s", node["reftarget"], location=node)
     return content
 
 
@@ -135,22 +123,8 @@ def meaning(name: str) -> str:
     return f"{entry.meaning[0].upper()}{entry.meaning[1:]}{unit}."
 
 
-def escape_bars(
-    app: Sphinx, what: str, name: str, thing: Any, options: Any, lines: list[str]
-) -> None:
-    """Let |x| in a docstring be what it is, outside examples."""
-    example = False
-    for number, line in enumerate(lines):
-        example = bool(line.strip()) and (example or line.lstrip().startswith(">>>"))
-        if not example:
-            parts = line.split("`")
-            parts[::2] = [part.replace("|", r"\|") for part in parts[::2]]
-            lines[number] = "`".join(parts)
-
-
 def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("doctree-read", refer)
     app.connect("missing-reference", check)
     app.connect("autodoc-process-docstring", describe, priority=900)  # after napoleon
-    app.connect("autodoc-process-docstring", escape_bars, priority=902)
     return {"parallel_read_safe": True}

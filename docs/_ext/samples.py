@@ -51,7 +51,7 @@ DATASETS = {
     "Ranking of contact laws": "carom.verify.rank().to_dataset()",
     "Error of a contact law": "carom.verify.error_map(carom.dem.LinearSpring(), [1, 6], [1.44])",
 }
-FILES = {"results.csv": "psi_1,psi_2\n0.5,0.05\n1.0,-0.06\n2.0,-0.84\n4.0,-1.51\n"}
+SCORED = "psi_1,psi_2\n0.5,0.05\n1.0,-0.06\n2.0,-0.84\n4.0,-1.51\n"  # results.csv
 COMMANDS = (
     "carom impact steel_ball.toml",
     "carom curve --chi 1.44 --points 3",
@@ -75,18 +75,15 @@ def datasets() -> dict[str, Any]:
 
 def printed(command: str) -> Any:
     """Return what a command prints with --json, lists and tables cut."""
-    said = StringIO()
-    with TemporaryDirectory() as folder, chdir(folder):
-        for name in ("steel_ball.toml", "sweep.toml"):
-            Path(name).write_text((EXAMPLES / name).read_text(encoding="utf-8"), encoding="utf-8")
-        for name, text in FILES.items():
-            Path(name).write_text(text, encoding="utf-8")
-        measured = carom.datasets.path("kharaz2001")
-        Path(measured.name).write_text(measured.read_text(encoding="utf-8"), encoding="utf-8")
-        with redirect_stdout(said), redirect_stderr(StringIO()):
-            told = main([*command.split()[1:], "--json"])
-    if told not in (0, 1) or not said.getvalue():  # 1: a score that fails
-        raise RuntimeError(f"{command}: exit code {told}")
+    measured = carom.datasets.path("kharaz2001")
+    with TemporaryDirectory() as folder, chdir(folder), redirect_stdout(StringIO()) as said:
+        for file in (EXAMPLES / "steel_ball.toml", EXAMPLES / "sweep.toml", measured):
+            Path(file.name).write_bytes(file.read_bytes())
+        Path("results.csv").write_text(SCORED, encoding="utf-8")
+        with redirect_stderr(StringIO()):
+            code = main([*command.split()[1:], "--json"])
+    if code not in (0, 1) or not said.getvalue():  # 1: a score that fails
+        raise RuntimeError(f"{command}: exit code {code}")
     return cut(json.loads(said.getvalue()))
 
 
@@ -111,7 +108,6 @@ def commands(group: Any = None, path: tuple[str, ...] = ()) -> Iterator[tuple[st
 
 def help_of(words: tuple[str, ...]) -> str:
     """Return what a command prints with --help."""
-    said = StringIO()
-    with redirect_stdout(said):
+    with redirect_stdout(StringIO()) as said:
         get_command(app).main([*words, "--help"], prog_name="carom", standalone_mode=False)
     return said.getvalue().strip()

@@ -17,7 +17,7 @@ FIGURES = Path(__file__).parents[1] / "figures" / "explorer"
 LAWS = "law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun"
 STATE = f"?angle=25&friction=0.25&{LAWS}&time=0.6&theme=light&data=kharaz2001"
 TWO = "?angle=25&friction=0.25&time=0.6&theme=light"
-SIZES = {400: 800, 1024: 768, 1440: 900, 1920: 1080}
+SIZES = {400: 800, 1024: 768, 1440: 900, 1920: 1080}  # heights of windows by their widths
 PICTURES = {  # state, width
     **{f"{width}": (STATE, width) for width in SIZES},
     "dark": (STATE.replace("light", "dark"), 1440),
@@ -30,7 +30,6 @@ def main() -> None:
     """Serve the page, open its states, and store what is seen."""
     page = explorer(port=0)
     Thread(target=page.serve, daemon=True).start()
-    FIGURES.mkdir(exist_ok=True)
     with sync_playwright() as play:
         browser = play.chromium.launch(
             executable_path=shutil.which("chromium"), args=["--no-sandbox"]
@@ -43,7 +42,6 @@ def main() -> None:
             picture = Image.open(BytesIO(tab.screenshot())).convert("RGB")
             picture.save(FIGURES / f"{name}.png", optimize=True)
             tab.close()
-        browser.close()
     page.stop()
 
 

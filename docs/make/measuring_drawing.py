@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Arc, Circle, FancyArrowPatch, Rectangle
+from matplotlib.patches import Arc, Circle, Rectangle
 
 from carom.plots import style
 
@@ -16,37 +16,54 @@ FIGURE = Path(__file__).parents[1] / "figures" / "measuring.png"
 BEFORE, AFTER, PLAIN = style.BLUE, style.VERMILION, style.BLACK
 RADIUS = 0.32
 ANGLE, REBOUND = np.radians(50.0), np.radians(38.0)
+DASHED = (0, (4, 3))
+
+
+def sheet(axis: Axes, x: tuple[float, float], y: tuple[float, float]) -> None:
+    """Let axes be a sheet to draw on."""
+    axis.set(xlim=x, ylim=y, aspect="equal", anchor="N")
+    axis.set_axis_off()
+
+
+def write(axis: Axes, x: float, y: float, words: str, colour: str = PLAIN, **look: Any) -> None:
+    """Write words around a place, unless they are aligned otherwise."""
+    axis.text(x, y, words, color=colour, **{"ha": "center", "va": "center", **look})
 
 
 def arrow(
-    axis: Axes, start: Any, end: Any, colour: str, *, ends: str = "-|>", bend: float = 0.0
+    axis: Axes,
+    start: Any,
+    end: Any,
+    colour: str,
+    words: str = "",
+    beside: Any = (0, 0),
+    **look: Any,
 ) -> None:
-    """Draw an arrow, straight or bent."""
-    axis.add_patch(
-        FancyArrowPatch(
-            *(start, end),
-            arrowstyle=ends,
-            mutation_scale=7,
-            lw=1.1,
-            color=colour,
-            shrinkA=0,
-            shrinkB=0,
-            connectionstyle=f"arc3,rad={bend}",
-        )
-    )
+    """Draw an arrow, with words beside its middle."""
+    plain = {"arrowstyle": "-|>", "color": colour, "lw": 1.1, "mutation_scale": 7}
+    ends = {"shrinkA": 0, "shrinkB": 0}
+    axis.annotate("", end, start, arrowprops={**plain, **ends, **look}, zorder=2.5)
+    write(axis, *(0.5 * np.add(start, end) + beside), words, colour)
+
+
+def turn(axis: Axes, centre: Any, radius: float, first: float, last: float, colour: str) -> None:
+    """Draw an arrow around a centre from one angle to another, in degrees."""
+    turned = radius * np.exp(1j * np.radians(np.linspace(first, last, 60)))
+    line = np.column_stack([centre[0] + turned.real, centre[1] + turned.imag])
+    axis.plot(*line[:-4].T, color=colour, lw=1.1)
+    arrow(axis, line[-6], line[-1], colour)
+
+
+def floor(axis: Axes, left: float, right: float, depth: float = 0.16) -> None:
+    """Draw the second body."""
+    axis.add_patch(Rectangle((left, -depth), right - left, depth, fc="#E4E4E4", ec="none"))
+    axis.plot([left, right], [0.0, 0.0], color=PLAIN, lw=1.0)
 
 
 def ball(axis: Axes, place: Any, colour: str, dashes: str = "-") -> None:
     """Draw a ball and its centre."""
     axis.add_patch(Circle(place, RADIUS, fc="white", ec=colour, lw=1.1, ls=dashes, zorder=3))
     axis.plot(*place, "o", ms=2, color=colour, zorder=4)
-
-
-def floor(axis: Axes, left: float, right: float) -> None:
-    """Draw the second body."""
-    body = Rectangle((left, -0.16), right - left, 0.16, fc="#E4E4E4", ec="none")
-    axis.add_patch(body)
-    axis.plot([left, right], [0.0, 0.0], color=PLAIN, lw=1.0)
 
 
 def oblique(axis: Axes) -> None:
@@ -56,46 +73,30 @@ def oblique(axis: Axes) -> None:
     away = np.array([np.sin(REBOUND), np.cos(REBOUND)])
     first, last = touch - 1.75 * towards, touch + 1.95 * away
     floor(axis, -1.9, 1.8)
-    axis.plot([0.0, 0.0], [RADIUS, 1.95], color=PLAIN, lw=0.7, ls=(0, (4, 3)))
-    axis.text(0.04, 1.97, "normal", ha="left", va="center")
-    for place, end, colour in ((first, touch, BEFORE), (last, touch, AFTER)):
-        axis.plot(*zip(place, end, strict=True), color=colour, lw=0.7, ls=(0, (1.5, 1.5)))
+    axis.plot([0.0, 0.0], [RADIUS, 1.95], color=PLAIN, lw=0.7, ls=DASHED)
+    write(axis, 0.04, 1.97, "normal", ha="left")
     ball(axis, touch, PLAIN, "--")
-    ball(axis, first, BEFORE)
-    ball(axis, last, AFTER)
-    arrow(axis, first, first + 0.75 * towards, BEFORE)
-    arrow(axis, last, last + 0.6 * away, AFTER)
-    axis.text(*np.add(first, [0.3, 0.12]), "speed", color=BEFORE)
-    axis.text(*np.add(last, [0.46, 0.42]), "rebound_speed", color=AFTER, ha="left", va="center")
-    degrees = np.degrees([ANGLE, REBOUND])
-    axis.add_patch(
-        Arc(touch, 1.7, 1.7, theta1=90.0, theta2=90.0 + degrees[0], color=BEFORE, lw=0.9)
-    )
-    axis.add_patch(Arc(touch, 2.1, 2.1, theta1=90.0 - degrees[1], theta2=90.0, color=AFTER, lw=0.9))
-    axis.text(-0.42, 1.3, "angle", color=BEFORE, ha="center")
-    axis.text(0.05, 1.62, "rebound_angle\n> 0: flies on", color=AFTER, ha="left", va="center")
-    turn = 1.35 * RADIUS
-    arrow(axis, np.add(first, [-turn, 0.1]), np.add(first, [0.0, -turn]), BEFORE, bend=0.45)
-    axis.text(
-        *np.add(first, [-0.52, -0.6]),
-        "spin > 0\n(backspin)",
-        color=BEFORE,
-        va="center",
-        ha="center",
-    )
-    arrow(axis, np.add(last, [-0.1, turn]), np.add(last, [turn, 0.0]), AFTER, bend=-0.45)
-    axis.text(*np.add(last, [0.12, -0.52]), "spin_out < 0\n(topspin)", color=AFTER, va="center")
+    for place, move, colour in ((first, 0.75 * towards, BEFORE), (last, 0.6 * away, AFTER)):
+        axis.plot(*zip(place, touch, strict=True), color=colour, lw=0.7, ls=(0, (1.5, 1.5)))
+        ball(axis, place, colour)
+        arrow(axis, place, place + move, colour)
+    write(axis, first[0] + 0.3, first[1] + 0.12, "speed", BEFORE, ha="left", va="baseline")
+    write(axis, last[0] + 0.46, last[1] + 0.42, "rebound_speed", AFTER, ha="left")
+    angles = 90.0 + np.degrees([ANGLE, -REBOUND])
+    axis.add_patch(Arc(touch, 1.7, 1.7, theta1=90.0, theta2=angles[0], color=BEFORE, lw=0.9))
+    axis.add_patch(Arc(touch, 2.1, 2.1, theta1=angles[1], theta2=90.0, color=AFTER, lw=0.9))
+    write(axis, -0.42, 1.3, "angle", BEFORE, va="baseline")
+    write(axis, 0.05, 1.62, "rebound_angle\n> 0: flies on", AFTER, ha="left")
+    turn(axis, first, 1.35 * RADIUS, 175.0, 270.0, BEFORE)
+    write(axis, first[0] - 0.52, first[1] - 0.6, "spin > 0\n(backspin)", BEFORE)
+    turn(axis, last, 1.35 * RADIUS, 100.0, 0.0, AFTER)
+    write(axis, last[0] + 0.12, last[1] - 0.52, "spin_out < 0\n(topspin)", AFTER, ha="left")
     arrow(axis, (0.0, 0.0), (0.5, 0.0), PLAIN)
-    axis.text(0.42, -0.08, "$+x$: contact point before", va="center", ha="left", fontsize=6.5)
-    axis.plot(
-        [touch[0], touch[0] - RADIUS * 0.7],
-        [touch[1], touch[1] + RADIUS * 0.7],
-        color=PLAIN,
-        lw=0.8,
-        zorder=5,
-    )
-    axis.text(-0.12, 0.53, "$R$", ha="center", va="center", zorder=5)
-    axis.set(xlim=(-2.15, 2.35), ylim=(-0.22, 2.55))
+    write(axis, 0.42, -0.08, "$+x$: contact point before", ha="left", fontsize=6.5)
+    rim = touch + 0.7 * RADIUS * np.array([-1.0, 1.0])
+    axis.plot(*zip(touch, rim, strict=True), color=PLAIN, lw=0.8, zorder=5)
+    write(axis, -0.12, 0.53, "$R$", zorder=5)
+    sheet(axis, (-2.15, 2.35), (-0.22, 2.55))
 
 
 def drop(axis: Axes) -> None:
@@ -105,19 +106,17 @@ def drop(axis: Axes) -> None:
     for x, bottom, colour, words in places:
         ball(axis, (x, bottom + RADIUS), colour)
         axis.plot([x - 0.42, x + 0.42], [bottom, bottom], color=colour, lw=0.6)
-        arrow(axis, (x - 0.36, 0.0), (x - 0.36, bottom), colour, ends="<|-|>")
-        axis.text(x - 0.43, 0.5 * bottom, words, color=colour, rotation=90, va="center", ha="right")
-    axis.set(xlim=(-1.0, 1.6), ylim=(-0.22, 2.55))
+        arrow(axis, (x - 0.36, 0.0), (x - 0.36, bottom), colour, arrowstyle="<|-|>")
+        write(axis, x - 0.43, 0.5 * bottom, words, colour, rotation=90, ha="right")
+    sheet(axis, (-1.0, 1.6), (-0.22, 2.55))
 
 
 @style.styled
 def main() -> None:
     """Draw and store."""
-    figure, axes = style.new_figure(1, 2, width=style.DOUBLE, height=78.0, width_ratios=(4.5, 2.6))
-    for axis, draw in zip(axes[0], (oblique, drop), strict=True):
-        draw(axis)
-        axis.set_aspect("equal")
-        axis.set_axis_off()
+    figure, axes = style.new_figure(1, 2, width=style.DOUBLE, height=68.0, width_ratios=(4.5, 2.6))
+    oblique(axes[0, 0])
+    drop(axes[0, 1])
     figure.savefig(FIGURE, dpi=200)
 
 

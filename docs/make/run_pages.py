@@ -1,6 +1,7 @@
 """Run the code of the manual's pages, and draw the figures that it makes.
 
-python docs/make/run_pages.py [PAGE ...]    where none is named, all pages that have code
+python docs/make/run_pages.py [PAGE ...]    where none is named, all pages that have code;
+examples/README.md stands for the figures of its scripts
 
 The blocks of a page run in order, in one namespace and a folder that holds `examples` alone:
 
@@ -16,6 +17,7 @@ A picture in figures/STEM/ of page STEM is one that the page's code must have st
 """
 
 import re
+import runpy
 import shlex
 import shutil
 import subprocess
@@ -27,11 +29,15 @@ from doctest import ELLIPSIS, OutputChecker
 from io import StringIO
 from itertools import pairwise, takewhile
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
+
+import matplotlib
 
 from carom.cli import main as command
 
 DOCS = Path(__file__).parents[1]
+EXAMPLES = DOCS.parent / "examples"
+MAPS = {"contact_through_impact", "patch_in_microslip"}  # of tractions: they keep all colours
 sys.path.append(str(DOCS.parent / "studies"))
 
 from small_pictures import store_small  # noqa: E402
@@ -46,39 +52,28 @@ NOT_RUN = {  # beginnings of commands: what they need that is not here, and wher
     "python -m pytest": "minutes",
     "python studies/bulk_": "hours",
 }
-BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-NAMED = re.compile(r"# ([\w-]+\.\w+)\n")
+BLOCK = re.compile(  # a fenced block, a file if it begins with a name
+    r"^```(?P<language>\w+)\n(?P<text>"
+    r"(?:(?<=toml\n|text\n|thon\n)# (?P<file>[\w-]+\.\w+)\n)?.*?)^```$",
+    re.MULTILINE | re.DOTALL,
+)
 
 
-class Block(NamedTuple):
-    """A fenced block: its language, its text, and the line where it begins."""
-
-    language: str
-    text: str
-    line: int
-
-    @property
-    def file(self) -> str:
-        """The name of the file that it is, if it is one."""
-        named = NAMED.match(self.text) if self.language in ("toml", "text", "python") else None
-        return named[1] if named else ""
-
-
-def blocks(page: Path) -> list[Block]:
+def blocks(page: Path) -> list[re.Match[str]]:
     """Return the fenced blocks of a page."""
-    text = page.read_text(encoding="utf-8")
-    return [
-        Block(found[1], found[2], text.count("\n", 0, found.start()) + 2)
-        for found in BLOCK.finditer(text)
-    ]
+    return [*BLOCK.finditer(page.read_text(encoding="utf-8"))]
 
 
-def commands(block: Block) -> list[tuple[str, str]]:
+def line_of(block: re.Match[str]) -> int:
+    return block.string.count("\n", 0, block.start("text")) + 1
+
+
+def commands(block: re.Match[str]) -> list[tuple[str, str]]:
     """Return the commands of a block that are run, each with what is shown below it."""
-    if block.language == "sh":
-        lines = [(line, "") for line in block.text.splitlines()]
-    elif block.language == "console":
-        parts = re.split(r"^\$ ", block.text, flags=re.MULTILINE)[1:]
+    if block["language"] == "sh":
+        lines = [(line, "") for line in block["text"].splitlines()]
+    elif block["language"] == "console":
+        parts = re.split(r"^\$ ", block["text"], flags=re.MULTILINE)[1:]
         lines = [tuple(part.split("\n", 1)) for part in parts]
     else:
         return []
@@ -86,83 +81,84 @@ def commands(block: Block) -> list[tuple[str, str]]:
     return [line for line in here if line[0].startswith(("carom ", "python "))]
 
 
-def has_code(page: Path) -> bool:
-    """Return whether anything of a page is executed."""
-    return any(block.language == "python" or commands(block) for block in blocks(page))
-
-
-PAGES = tuple(filter(has_code, (DOCS.parent / "README.md", *sorted(DOCS.rglob("*.md")))))
+PAGES = tuple(  # those of which anything is executed
+    page
+    for page in (DOCS.parent / "README.md", *sorted(DOCS.rglob("*.md")))
+    if any(block["language"] == "python" or commands(block) for block in blocks(page))
+)
 
 
 def as_promised(line: str) -> bool:
     """Run a command; return whether its exit code is that of a comment "exit code N", else 0."""
-    told = re.search(r"# .*exit code (\d)", line)
+    promised = re.search(r"# .*exit code (\d)|$", line)[1] or "0"
     program, *words = shlex.split(line, comments=True)
     if program == "carom":
-        code = command(words)
-    else:
-        ended = subprocess.run([sys.executable, *words], check=False, stdout=subprocess.PIPE)
-        print(ended.stdout.decode(), end="")
-        code = ended.returncode
-    return code == int(told[1] if told else 0)
+        return command(words) == int(promised)
+    ended = subprocess.run([sys.executable, *words], check=False, stdout=subprocess.PIPE)
+    print(ended.stdout.decode(), end="")
+    return ended.returncode == int(promised)
 
 
-def executed(block: Block, page: Path, names: dict[str, Any]) -> str:
-    """Run Python where we are, and return what it printed; errors name lines of the page."""
-    with redirect_stdout(StringIO()) as caught:
-        source = "\n" * (block.line - 1) + block.text
-        exec(compile(source, str(page), "exec"), names)
-    return caught.getvalue()
-
-
-def answers(block: Block, page: Path) -> Iterator[tuple[str, str]]:
-    """Run the commands of a block where we are; yield what is shown below each, and what came."""
+def printed(block: re.Match[str], page: Path, names: dict[str, Any]) -> list[tuple[str, str]]:
+    """Run a block where we are; return what is shown below each command, and what it printed."""
+    if block["language"] == "python":
+        with redirect_stdout(StringIO()) as caught:
+            source = "\n" * (line_of(block) - 1) + block["text"]  # errors name lines of the page
+            exec(compile(source, str(page), "exec"), names)
+        return [("", caught.getvalue())]
+    answers = []
     for line, shown in commands(block):
         with redirect_stdout(StringIO()) as caught:
             if not as_promised(line):
-                raise RuntimeError(f"{page}, line {block.line}: failed, {line}")
-        yield shown, caught.getvalue()
+                raise RuntimeError(f"{page}, line {line_of(block)}: failed, {line}")
+        answers.append((shown, caught.getvalue()))
+    return answers
 
 
 def run(page: Path, folder: Path) -> Iterator[tuple[int, str, str]]:
     """Run a page in a folder; yield the line, what was expected and what came where they differ."""
     names: dict[str, Any] = {"__name__": "__main__"}
-    shutil.copytree(DOCS.parent / "examples", folder / "examples", dirs_exist_ok=True)
+    shutil.copytree(EXAMPLES, folder / "examples", dirs_exist_ok=True)
     checker, came = OutputChecker(), ""
     with chdir(folder):
-        for block, following in pairwise([*blocks(page), Block("", "", 0)]):
+        for block, following in pairwise([*blocks(page), None]):
             compared = []
-            if block.file:
-                Path(block.file).write_text(block.text, encoding="utf-8")
-            elif block.language == "text":
-                compared = [(block.text, came)]
-            elif block.language == "python":
-                came = executed(block, page, names)
-                if following.language != "text" or following.file:
-                    compared = [("", came)]
-            elif block.language == "console":
-                compared = list(answers(block, page))
-            elif block.language == "sh":
-                came = "".join(found for _, found in answers(block, page))
-            for shown, found in compared:
-                if not checker.check_output(shown, found, ELLIPSIS):
-                    yield block.line, shown, found
+            if block["file"]:
+                Path(block["file"]).write_text(block["text"], encoding="utf-8")
+            elif block["language"] == "text":
+                compared = [(block["text"], came)]
+            else:
+                answers = printed(block, page, names)
+                came = "".join(answer for _, answer in answers)
+                follows = following and following["language"] == "text" and not following["file"]
+                compared = [] if follows or block["language"] == "sh" else answers
+            for shown, answer in compared:
+                if not checker.check_output(shown, answer, ELLIPSIS):
+                    yield line_of(block), shown, answer
 
 
 def pictures(page: Path) -> list[Path]:
     """Return the pictures that the code of a page makes, as the page links them."""
-    links = re.findall(r"\]\(([^)]+\.png)\)", page.read_text(encoding="utf-8"))
-    own = [Path(link) for link in links if Path(link).parent.parts[-2:] == ("figures", page.stem)]
-    return [Path(DOCS / "figures" / page.stem / link.name) for link in own]
+    own = rf"\]\((?:[^)]*/)?figures/{page.stem}/([^)/]+\.png)\)"
+    names = re.findall(own, page.read_text(encoding="utf-8"))
+    return [DOCS / "figures" / page.stem / name for name in names]
+
+
+def draw_gallery() -> None:
+    """Draw the figures of the index of the examples: its scripts' own."""
+    for figure in sorted(DOCS.glob("figures/gallery/*.png")):
+        with tempfile.TemporaryDirectory() as folder:
+            runpy.run_path(str(EXAMPLES / f"{figure.stem}.py"))["main"](folder)
+            store_small(Path(folder) / figure.name, figure, all_colors=figure.stem in MAPS)
 
 
 def main() -> int:
     """Run the pages, store their pictures, and tell what differs."""
-    import matplotlib
-
     matplotlib.use("agg")
     wrong = 0
     for page in [Path(name).resolve() for name in sys.argv[1:]] or PAGES:
+        if page == EXAMPLES / "README.md":
+            draw_gallery()
         with tempfile.TemporaryDirectory() as folder:
             for line, expected, came in run(page, Path(folder)):
                 print(f"{page.name}, line {line}: expected\n{expected}came\n{came}")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom import Status
+from carom.status import Status
 
 CHIS = [0.05, 0.3, 0.5, 0.7, 1.0, 1.44, 1.75, 2.5, 4.0, 7.0, 10.0, 60.0]
 

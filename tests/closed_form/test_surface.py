@@ -51,7 +51,7 @@ def test_profile_is_the_memory(psi, chi, place):
     solution = carom.solve(psi, chi)
     time = place * solution.duration
     memory, force = solution.memory(time), solution.at(time).force[0]
-    edges, rows_q, rows_g, _ = memory.profile()
+    edges, rows_q, rows_g, *_ = memory.profile()
     assert edges[0] == 0.0
     assert edges[-1] == np.sqrt(memory.penetration)
     nodes, weights = np.polynomial.legendre.leggauss(20)

@@ -9,7 +9,7 @@ import pytest
 import carom
 from carom import datasets
 from carom.bodies.cases import pair_of
-from carom.datasets.observables import BEFORE, OBSERVABLES, convert
+from carom.datasets.observables import BEFORE, OBSERVABLES, convert_observables
 from carom.io.columns import in_units, others, with_errors
 from carom.io.tables import read_table
 
@@ -124,7 +124,7 @@ def test_spins_follow_from_restitution_as_well_as_the_file_says(name):
     angle, spin, *_ = points(name, "spin_out")
     restitution = at(name, "tangential_restitution", angle)
     known = {"speed": 3.9, "angle": angle, "tangential_restitution": restitution}
-    excess = -spin + convert(pair(name), known=known, wanted="spin_out")
+    excess = -spin + convert_observables(pair(name), known=known, wanted="spin_out")
     rms = math.sqrt(np.nanmean(excess**2))
     assert f"by {rms:.0f} rad/s (rms)" in datasets.load(name).consistency
 
@@ -145,14 +145,14 @@ def test_the_angle_of_the_contact_point_is_not_that_of_the_centre():
     angle, out, *_ = points(name, "contact_rebound_angle")
     known = {"angle": angle, "normal_restitution": 0.98}
     known["tangential_restitution"] = at(name, "tangential_restitution", angle)
-    expected = convert(pair(name), known=known, wanted="contact_rebound_angle")
+    expected = convert_observables(pair(name), known=known, wanted="contact_rebound_angle")
     off = np.degrees(out - expected)
     inside = np.isfinite(off)
     below = inside & (angle < math.radians(40))
     assert below.sum() == 6
     assert np.abs(off[below]).max() < 0.7
     assert 0.9 < off[inside & ~below].min() < off[inside & ~below].max() < 2.7
-    centre = convert(pair(name), known=known, wanted="rebound_angle")
+    centre = convert_observables(pair(name), known=known, wanted="rebound_angle")
     beyond = below & (angle > math.radians(9))
     assert np.degrees(centre - out)[beyond].min() > 7.0
 
@@ -201,7 +201,7 @@ def test_storing_and_reading_gives_the_dataset_back(tmp_path):
     ("name", "hint"),
     [
         ("kharaz", "did you mean 'kharaz2001'"),
-        ("mueller", "known names are foerster1994, kharaz2001, kharaz2001_kr"),
+        ("mueller", "must be one of foerster1994, kharaz2001, kharaz2001_kr"),
     ],
 )
 def test_an_unknown_name_is_refused_with_the_nearest(name, hint):

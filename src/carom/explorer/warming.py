@@ -50,7 +50,7 @@ class Warming:
 
     def __init__(self) -> None:
         self._steps = STEPS if shared_library.reason() and has_numba() else ()
-        self._done = self._kernels = 0
+        self._done = self.kernels = 0
         self._stopped = False
         self._news = Condition()
 
@@ -69,7 +69,7 @@ class Warming:
         steps = min(need.steps, len(self._steps))
         with self._news:
             if not self._news.wait_for(lambda: self._done >= steps, PATIENCE):
-                raise Preparing(min(99, 100 * self._kernels // need.kernels))
+                raise Preparing(min(99, 100 * self.kernels // need.kernels))
 
     def _run(self) -> None:
         from numba.core import event  # which takes long, and is not needed with the library
@@ -82,7 +82,7 @@ class Warming:
 
             def on_end(self, _: Any) -> None:
                 """Count a kernel that is compiled."""
-                warming._kernels += 1
+                warming.kernels += 1
                 advance(1)
 
         try:
