@@ -251,7 +251,5 @@ def test_forces_without_friction_cannot_be_scored():
     hit = carom.impact(pair, speed=1.0, angle=0.0)
     table = {name: hit.to_dataset()[name].values for name in ("time", "normal_force")}
     table["tangential_force"] = np.zeros(len(table["time"]))
-    with pytest.raises(
-        carom.InputError, match="without friction psi is infinite"
-    ):
+    with pytest.raises(carom.InputError, match="without friction psi is infinite"):
         score(table, case=hit)
