@@ -21,17 +21,18 @@ from string import Template
 from tempfile import TemporaryDirectory
 from unittest.mock import patch
 
+import lammps_twin
 import numpy as np
 from lammps_dem_tests import SEGMENTS, dem_test_yaml
+from lammps_twin import Contact, State, outcomes_of, trajectory
 from page_blocks import blocks, page_with, table
 
 import carom
 from carom.bodies.shapes import Sphere
 from carom.dem.base import ContactLaw
-from carom.verify.engines import arrangement, lammps_twin
+from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import Lammps, coefficients
-from carom.verify.engines.lammps_twin import Contact, State, outcomes_of, trajectory
 from carom.verify.engines.lammps_unittest import unit_test_yaml
 
 ROOT = Path(__file__).parents[1]

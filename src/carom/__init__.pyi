@@ -8,6 +8,7 @@ from . import (
     status as status,
     verify as verify,
 )
+from .bodies.cases import read as read
 from .bodies.losses import (
     ElasticPlastic as ElasticPlastic,
     KelvinVoigt as KelvinVoigt,
@@ -15,7 +16,6 @@ from .bodies.losses import (
 )
 from .bodies.materials import Material as Material, material as material, materials as materials
 from .bodies.pairs import Pair as Pair
-from .bodies.reading import read as read
 from .bodies.shapes import Cup as Cup, HalfSpace as HalfSpace, Sphere as Sphere
 from .collisions import collide as collide
 from .contacts.load_paths import load_path as load_path

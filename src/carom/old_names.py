@@ -1,9 +1,13 @@
 """Names of version 0.2: each works for this version, with one warning that gives the new name."""
 
 from collections.abc import Callable
+from functools import wraps
 from importlib import import_module
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 from warnings import warn
+
+Given = ParamSpec("Given")
+Found = TypeVar("Found")
 
 LAWS_OF_CODES = (
     *("EdemHertzMindlin", "FunctionLaw", "FunctionRebound", "HardSphere", "HertzLinearHistory"),
@@ -58,3 +62,17 @@ def with_old_names(package: str, load: Callable[[str], Any]) -> Callable[[str], 
         return value
 
     return __getattr__
+
+
+def with_old_keywords(function: Callable[Given, Found]) -> Callable[Given, Found]:
+    """Return a method that takes `at`, called time or step in version 0.2, by those names, too."""
+
+    @wraps(function)
+    def called(*given: Given.args, **named: Given.kwargs) -> Found:
+        for old in {"time", "step"} & named.keys():
+            words = f"{old} of {function.__name__} is now at; the old name ends with 0.3"
+            warn(words, DeprecationWarning, stacklevel=2)
+            named["at"] = named.pop(old)
+        return function(*given, **named)
+
+    return called

@@ -8,8 +8,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom
-from carom.fitting.heights import AIR, DRAG, GRAVITY, taken_by_air
-from carom.fitting.losses import plastic, viscous
+from carom.fitting.comparison import plastic, viscous
+from carom.fitting.reading import AIR, DRAG, GRAVITY, taken_by_air
 from carom.plots.drops import plot_drops
 
 SEED = 20261124

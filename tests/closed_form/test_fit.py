@@ -7,7 +7,7 @@ from scipy.stats import norm, t
 
 import carom
 from carom.fitting import fit
-from carom.fitting.errors import DEGREES, RobustLoss, scatter
+from carom.fitting.problem import DEGREES, RobustLoss, scatter
 
 MU, E = 0.15, 1.0
 BALL = carom.Sphere(radius="5 mm", material="steel")

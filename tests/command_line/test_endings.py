@@ -125,16 +125,15 @@ def test_ctrl_c_in_sampling_is_told_in_one_line(there):
     program = AT_IMPORT.format(module="", number="SIGINT").replace(
         "sys.addaudithook(hook)",
         """\
-import carom.fitting.laws as laws
-from carom.fitting import posterior
-sampled, read = posterior.sample, laws.stored
+import carom.fitting.model as laws
+from carom.fitting import datasets
+sampled, read = datasets.sample, laws.stored
 def interrupted():
     signal.raise_signal(signal.SIGINT)
     return read()
 def sample(*given):
     laws.stored = interrupted
     return sampled(*given)
-posterior.sample = sample
 import carom.fitting.result
 carom.fitting.result.sample = sample
 """,

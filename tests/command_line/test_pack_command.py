@@ -15,12 +15,12 @@ import pytest
 import typer
 
 import carom
-from carom.cli.verify.pack import pack_command
+from carom.cli.verify.engines import pack_command
 from carom.quantities.refusals import InputError
 from carom.verify.engines.lammps import Lammps
 from carom.verify.pack import VERSION, write_pack
 from carom.verify.pack.collect import collect
-from carom.verify.pack.tables import read_table
+from carom.verify.pack.frozen import read_table
 from carom.verify.scoring import score
 
 SETS = (

@@ -230,7 +230,7 @@ def test_full_disk_says_what_is_safe_and_resume_goes_on(run, monkeypatch):
         return replace(partial, target)
 
     with monkeypatch.context() as full:
-        full.setattr("carom.sweeps.blocks.FEWEST", 4)
+        full.setattr("carom.sweeps.designs.FEWEST", 4)
         full.setattr("os.replace", onto_a_full_disk)
         code, out, err = run("case.toml", "--store", "sweep.zarr")
     assert (code, out, err.count("\n")) == (1, "", 1)

@@ -112,7 +112,7 @@ def tables():
     PLACES = {"x": [0.0, 1e-5], "y": [0.0], "points": None}
     BELOW = {"x": [0.0, 1e-5], "z": [0.0, 1e-5], "points": None, "body": "second"}
     VECTORS = {"velocity1": [[1.0, 0.0, 1.0]], "spin1": [0.0, 1.0, 0.0], "velocity2": None}
-    INSIDE = {"time": 5e-6}
+    INSIDE = {"at": 5e-6}
     CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 2.0, "friction": 0.2}
     GRID = carom.Grid({"angle": [0.1, 0.5]})
 
@@ -200,9 +200,9 @@ def tables():
         "load_path, pushed": (carom.load_path, {"pair": PAIR, "penetration": [1e-6, 2e-6],
                               "tangential_force": [[0.5, 0.0], [0.0, 0.5]]}),
         "then": (PATH.then, STEPS),
-        "path.contact": (PATH.contact, {"step": 1}),
-        "path.fields": (PATH.fields, {"step": 1, **PLACES}),
-        "path.radial": (PATH.radial, {"step": 1, "n": 3}),
+        "path.contact": (PATH.contact, {"at": 1}),
+        "path.fields": (PATH.fields, {"at": 1, **PLACES}),
+        "path.radial": (PATH.radial, {"at": 1, "n": 3}),
         "hit.contact": (HIT.contact, INSIDE),
         "hit.fields": (HIT.fields, {**INSIDE, **PLACES}),
         "hit.radial": (HIT.radial, {**INSIDE, "n": 3}),
@@ -244,7 +244,7 @@ def tables():
         "MixtureLaw": (lambda low: carom.laws.MixtureLaw(low, 1.3), {"low": 1.2}),
         "fit_walton": (carom.laws.fit_walton, {"pair": PAIR, "span": 5.0}),
         "hit.stress": (HIT.stress, {**INSIDE, **BELOW}),
-        "path.stress": (PATH.stress, {"step": 1, **BELOW}),
+        "path.stress": (PATH.stress, {"at": 1, **BELOW}),
         "hit.peaks": (HIT.peaks, {"depth": 1e-5}),
         "hit.wear": (HIT.wear, {"n": 3, "coefficient": 1e-13, "x": [0.0, 1e-5], "y": [0.0]}),
         "hit.spectrum": (HIT.spectrum, {"frequencies": [0.0, 1e5]}),

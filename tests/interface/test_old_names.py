@@ -65,3 +65,15 @@ def test_the_warning_is_where_the_name_stands():
 def test_a_name_that_never_was_is_no_attribute():
     with pytest.raises(AttributeError):
         carom.MemoryLaws  # noqa: B018
+
+
+def test_the_old_names_of_the_instant_work():
+    ball = carom.Sphere(radius=0.005, material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.0])
+    for result, old, at in ((hit, "time", 0.5 * hit.duration), (path, "step", 0)):
+        for name in ("contact", "fields", "stress", "radial"):
+            with pytest.warns(DeprecationWarning, match=rf"^{old} of {name} is now at"):
+                told = getattr(result, name)(**{old: at})
+            assert type(told) is type(getattr(result, name)(at))

@@ -14,8 +14,7 @@ import xarray as xr
 import carom
 from carom.quantities.refusals import InputError
 from carom.sweeps import sweep
-from carom.sweeps.blocks import boxes, chunk_shape, points_in
-from carom.sweeps.designs import Grid, LatinHypercube
+from carom.sweeps.designs import Grid, LatinHypercube, boxes, chunk_shape, points_in
 from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped
@@ -96,7 +95,7 @@ class Killed(BaseException):
 
 def test_killed_before_or_after_any_of_its_files_it_ends_in_the_same_bits(tmp_path, monkeypatch):
     """A block counts as finished exactly when the last of its three files is in its place."""
-    monkeypatch.setattr("carom.sweeps.blocks.FEWEST", 6)
+    monkeypatch.setattr("carom.sweeps.designs.FEWEST", 6)
     outputs = ["rebound_angle", "spin_out"]
     truth = sweep(CASE, GRID, outputs=outputs)
     blocks, files_of_a_block = 4, 3
@@ -134,7 +133,7 @@ def killed_at(instant: int):
 @pytest.mark.parametrize("fails", range(12))
 def test_a_write_that_fails_leaves_no_status_without_its_values(tmp_path, monkeypatch, fails):
     """Whichever file does not get on the disk: a reader is told of no point that is not there."""
-    monkeypatch.setattr("carom.sweeps.blocks.FEWEST", 6)
+    monkeypatch.setattr("carom.sweeps.designs.FEWEST", 6)
     outputs, path = ["rebound_angle", "spin_out"], tmp_path / "sweep.zarr"
     replace, calls = os.replace, count()
 

@@ -91,7 +91,7 @@ def test_a_block_is_what_single_impacts_are(kind):
 
 def test_everything_that_can_be_asked_for():
     """All results and quantities of the pair, of points given by components of the velocity."""
-    from carom.impacts.history import PAIR, RESULTS
+    from carom.impacts.outcome import PAIR, RESULTS
 
     axes = {"normal_speed": [0.5, 2.0], "tangential_speed": [-1.0, 0.0], "friction": [0.0, 0.3]}
     case = {"spin": 10.0, "first": BALL["first"], "second": {"material": "glass"}}

@@ -5,7 +5,7 @@ import pytest
 import carom
 from carom.adapters import lammps as adapter
 from carom.cli import main
-from carom.verify.engines import lammps_exact
+from carom.verify.engines.lammps import plugin_supports
 
 pytestmark = pytest.mark.engine
 
@@ -47,6 +47,6 @@ def test_only_the_wheel_has_the_plugin(built, monkeypatch):
 
 def test_without_the_plugin_a_line_says_what_to_do(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(adapter, "folder", lambda version: tmp_path)
-    assert not lammps_exact.supports(carom.dem.ExactContactLaw(32))
+    assert not plugin_supports(carom.dem.ExactContactLaw(32))
     assert main(["verify", "lammps", "--law", "carom"]) == 2
     assert "until carom lammps build has built it" in capsys.readouterr().err

@@ -59,7 +59,7 @@ def path():
 @pytest.fixture(scope="module")
 def fields(path, contact):
     """Carom's fields at CONTACT's elements."""
-    return path.fields(step=-1, points=np.stack([contact["x_mm"], contact["y_mm"]], axis=-1) * MM)
+    return path.fields(-1, points=np.stack([contact["x_mm"], contact["y_mm"]], axis=-1) * MM)
 
 
 def near(radii, *edges):

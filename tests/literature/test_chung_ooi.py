@@ -9,9 +9,7 @@ import numpy as np
 import pytest
 
 from carom.bodies.cases import pair_of
-from carom.verify.pack.frozen import frozen_files
-from carom.verify.pack.references import case_of
-from carom.verify.pack.tables import DecimalTable, read_table
+from carom.verify.pack.frozen import DecimalTable, case_of, frozen_files, read_table
 
 SERIES = {
     "chung_ooi/test4_aluminium_oxide": "DEM aluminium oxide",
@@ -27,9 +25,8 @@ def table(path: str) -> DecimalTable:
 
 def picked(published: DecimalTable, column: str, **wanted: str) -> tuple[np.ndarray, np.ndarray]:
     """Return abscissa and value of the points of a series and a kind."""
-    chosen = np.ones(len(published.rows), dtype=bool)
-    for name, value in wanted.items():
-        chosen &= np.array(published.columns[name]) == value
+    columns = [np.array(published.columns[name]) == value for name, value in wanted.items()]
+    chosen = np.all(columns, axis=0)
     abscissa = "x" if "x" in published.columns else "incidence_deg"
     return published.numbers(abscissa)[chosen], published.numbers(column)[chosen]
 

@@ -11,7 +11,6 @@ import pytest
 
 import carom
 from carom.verify.engines.experiments import psi_out
-from carom.verify.engines.lammps_twin import outcomes_of, trajectory
 
 ROOT = Path(__file__).parents[2]
 sys.path[:0] = [str(ROOT / "studies"), str(ROOT / "examples/lammps/verification")]
@@ -19,6 +18,7 @@ yaml = pytest.importorskip("yaml")
 
 import lammps_verification as study  # noqa: E402
 import run_tests  # noqa: E402
+from lammps_twin import outcomes_of, trajectory  # noqa: E402
 
 ROWS = re.compile(r"^ +(\S+) +(\S+) +(\S+)$", re.MULTILINE)  # that inputs print
 LMP = Path(sysconfig.get_path("scripts")) / "lmp"

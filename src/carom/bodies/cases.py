@@ -5,7 +5,6 @@ import tomllib
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping
 from contextlib import suppress
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,12 +12,15 @@ from carom.bodies.kinematics import slope
 from carom.bodies.materials import VALUES, Material, as_material, material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
-from carom.io.files import read_text
+from carom.io.files import read_dataset, read_text
+from carom.io.paths import checked_path
 from carom.quantities.faults import TOLD, Faults
 from carom.quantities.refusals import InputError, checked_type, clipped, hint, one_of, refusal
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from carom.bodies.losses import LossLaw
 
 Case = dict[str, Any]
@@ -59,16 +61,19 @@ def read_case(path: str | Path, *, losses: bool = False) -> Case:
         if DEEP.search(text):  # which takes memory with the square of the depth
             raise RecursionError
         case = tomllib.loads(text, parse_float=finite_or_text)
-    except UnicodeDecodeError:
-        raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except InputError:
         raise
+    except UnicodeDecodeError:
+        raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except ValueError as error:  # of tomllib; for integers of many digits Python's own
         raise InputError(f"case file: {str(path)!r} is not TOML; {error}") from None
     except RecursionError:
         raise refusal("case file", str(path), "its tables are nested too deeply") from None
-    where = partial(_place, path, text)
-    check_case(case, where, losses=losses)
+
+    def place(key: str, table: str) -> str:
+        return f" in {path}, line {line_of(key, text, table)}"
+
+    check_case(case, place, losses=losses)
     return case
 
 
@@ -105,10 +110,6 @@ def check_case(
             check(table, allowed, name)
             if isinstance(table.get("material"), Mapping):
                 check(table["material"], MATERIAL, name)
-
-
-def _place(path: str | Path, text: str, key: str, table: str) -> str:
-    return f" in {path}, line {line_of(key, text, table)}"
 
 
 def line_of(key: str, text: str, table: str) -> int:
@@ -155,14 +156,7 @@ def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
-    """Return the law by which the normal motion of a case loses energy, or None.
-
-    Raises InputError if it is given in two ways, or out of range.
-
-    >>> from carom.bodies.cases import losses_of
-    >>> losses_of({"restitution": 0.9}), losses_of({"speed": "2 m/s"})
-    (KelvinVoigt(restitution=0.9, loss_time=None), None)
-    """
+    """Return the law by which the normal motion of a case loses energy, or None."""
     given = [name for name in LOSSES if case.get(name) is not None]
     if len(given) > 1:
         raise InputError(f"{given[1]}: give it or {given[0]}, not both; {ONE_LOSS}")
@@ -192,7 +186,10 @@ def refuse_half(given: Container[str]) -> None:
 
 
 def read_loss(name: str, value: Any) -> float | None:
-    """Return the value of a loss in SI units, None for that of the strengths, or InputError."""
+    """Return the value of a loss or ratio in SI units, None for that of the strengths."""
+    if name == RATIO:
+        law_of("relaxation_time", 0.0, value)
+        return number(RATIO, value)
     if name == "yield_velocity" and isinstance(value, str) and value.strip().isalpha():
         if value.strip() == FROM_STRENGTH:
             return None
@@ -203,19 +200,8 @@ def read_loss(name: str, value: Any) -> float | None:
     return read
 
 
-def read_ratio(value: Any) -> float:
-    """Return the modulus at once over the relaxed one, or raise InputError."""
-    law_of("relaxation_time", 0.0, value)
-    return number(RATIO, value)
-
-
-def as_kind(kind: Any) -> str:
-    """Return the kind of a second body, or raise InputError if there is none of that name."""
-    return one_of("kind", kind, KINDS)
-
-
 def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
-    kind = as_kind(table.get("kind", KINDS[0]))
+    kind = one_of("kind", table.get("kind", KINDS[0]), KINDS)
     if kind == "sphere":
         same = {"material": first.material, "radius": first.radius}
         return _sphere("second", "second-", table, same)
@@ -299,3 +285,39 @@ def _entry(part: str) -> tuple[str, str]:
         example = "write e.g. young=210 GPa, poisson=0.3, density=7850 with decimal points"
         raise refusal("material", part.strip(), example)
     return key.strip(), text.strip()
+
+
+def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":
+    """Return a dataset that Carom stored as .nc or .zarr, or the case of a .toml file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A NetCDF file (.nc) that `save` or the option `--output` of a command has written, the store
+        of a sweep (.zarr), whose values are read only when they are used, or a case file (.toml).
+
+    Returns
+    -------
+    xarray.Dataset or dict
+        Variables and coordinates exactly as they were stored, with units and meanings as
+        attributes. For a case file, its content as `sweep` accepts it.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged, changed or not stored by Carom, or a case has an unknown
+        key.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import carom
+    >>> with TemporaryDirectory() as folder:
+    ...     stored = carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.nc")
+    ...     carom.read(stored).psi_out.values.round(4)
+    array([[ 0.0471, -0.839 ]])
+    """
+    source = checked_path("file", path)
+    if source.suffix.lower() == ".toml":
+        return read_case(source, losses=True)
+    return read_dataset(source)

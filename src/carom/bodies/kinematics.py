@@ -20,12 +20,7 @@ def approach(
     normal_speed: Value | None,
     tangential_speed: Value | None,
 ) -> tuple[float, float]:
-    """Return normal and tangential speed from either way of giving them, in m/s.
-
-    V_1 = speed cos(angle), v_t = speed sin(angle).
-
-    Raises InputError if one is missing, given twice, out of range, or the bodies do not approach.
-    """
+    """Return normal and tangential speed from either way of giving them, in m/s."""
     if speed is not None:
         if normal_speed is not None or tangential_speed is not None:
             raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
@@ -184,21 +179,7 @@ class Kinematics(ABC):
 
 @dataclass(frozen=True)
 class Rebound(Kinematics):
-    """An impact of which the motion before and the two impulses are known.
-
-    The tangential impulse J_t acts on the first body against +x. The normal impulse is
-    J_n = m_n (1 + e) V_1.
-
-    Examples
-    --------
-    >>> import carom
-    >>> from carom.bodies.kinematics import Rebound, Tangential
-    >>> ball = carom.Sphere(radius="2.5 mm", material="alumina")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.092)
-    >>> rebound = Rebound(pair, 2.0, Tangential(2.0, 0.0, 0.0), restitution=0.98, impulse=0.0)
-    >>> rebound.tangential_restitution, round(rebound.contact_rebound_angle, 4)
-    (1.0, 0.7955)
-    """
+    """An impact of which the motion before, e and the tangential impulse against +x are known."""
 
     normal_speed: Any
     before: Tangential

@@ -1,10 +1,10 @@
 """Laws by which the normal motion of an impact loses energy, for its argument `losses`."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache, partial, reduce
 from math import pi
-from typing import Any, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -27,25 +27,26 @@ LIMIT_PRESSURE = 1.6  # in yield strengths: where a sphere first yields (Johnson
 _viscous_loss: Callable[[float], float] = lru_cache(maxsize=4096)(viscous_loss)
 
 
-class LossLaw(Protocol):
-    """What an impact needs of a law of losses."""
+class LossLaw:
+    """A law of losses: which loss it is, what it depends on, and what to cite."""
+
+    source: ClassVar[str]  # the key in data/citations.bib
 
     def loss(self, pair: Pair, normal_speed: Any) -> LossNumbers:
         """Return which loss it is, and its dimensionless parameters, numbers or arrays."""
+        raise NotImplementedError
 
     def scale_free(self) -> LossNumbers:
         """Return the same if it does not depend on bodies and speed, else raise InputError."""
-
-    @property
-    def source(self) -> str:
-        """The key of what to cite, in data/citations.bib."""
+        raise refusal("losses", self, "it depends on the speed; use carom.impact, or KelvinVoigt")
 
     def describe(self) -> dict[str, Any]:
-        """Return the law as plain numbers and words."""
+        """Return the law as plain numbers and words: what was given."""
+        return {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)
-class KelvinVoigt:
+class KelvinVoigt(LossLaw):
     """A Kelvin-Voigt solid, which loses energy to viscosity in compression and in shear.
 
         sigma = (1 + tau d/dt) sigma_el
@@ -86,6 +87,7 @@ class KelvinVoigt:
     (0.9, -0.3938)
     """
 
+    source: ClassVar[str] = VISCOUS  # Kuwabara & Kono (1987)
     restitution: Any = None
     loss_time: Any = None
 
@@ -114,19 +116,13 @@ class KelvinVoigt:
             raise refusal("losses", self, "give one restitution, or use carom.sweep")
         return LossNumbers(Loss.VISCOUS, float(_alphas(self.restitution)))
 
-    @property
-    def source(self) -> str:
-        """The key of Kuwabara & Kono (1987) in data/citations.bib."""
-        return VISCOUS
-
     def describe(self) -> dict[str, Any]:
         """Return what was given."""
-        name = "loss_time" if self.restitution is None else "restitution"
-        return {name: getattr(self, name)}
+        return {name: value for name, value in super().describe().items() if value is not None}
 
 
 @dataclass(frozen=True)
-class ElasticPlastic:
+class ElasticPlastic(LossLaw):
     """An elastic, perfectly plastic sphere, such as a metal above its yield velocity.
 
         P = P_y + 2 E* a_y (d - d_y) while loading beyond yield
@@ -165,6 +161,7 @@ class ElasticPlastic:
     0.658558
     """
 
+    source: ClassVar[str] = "thornton1997"
     yield_velocity: Any = None
 
     @known_keywords
@@ -179,22 +176,9 @@ class ElasticPlastic:
         velocity = yield_velocity(pair) if own is None else own
         return LossNumbers(Loss.PLASTIC, (velocity / normal_speed) ** 0.4)
 
-    def scale_free(self) -> LossNumbers:
-        """Raise InputError, because the loss depends on the speed."""
-        raise refusal("losses", self, "it depends on the speed; use carom.impact, or KelvinVoigt")
-
-    @property
-    def source(self) -> str:
-        """The key of Thornton (1997) in data/citations.bib."""
-        return "thornton1997"
-
-    def describe(self) -> dict[str, Any]:
-        """Return what was given."""
-        return {"yield_velocity": self.yield_velocity}
-
 
 @dataclass(frozen=True)
-class StandardLinearSolid:
+class StandardLinearSolid(LossLaw):
     """A standard linear solid, which loses little in slow impacts and little in fast ones.
 
         sigma = E (epsilon + g m), m' = epsilon' - m/tau, g = E_0/E - 1
@@ -235,6 +219,7 @@ class StandardLinearSolid:
     0.927
     """
 
+    source: ClassVar[str] = "ting1966"
     modulus_ratio: Any
     relaxation_time: Any
 
@@ -253,33 +238,13 @@ class StandardLinearSolid:
         time = self.relaxation_time / pair.scales(normal_speed).time
         return LossNumbers(Loss.RELAXING, time, ratio - 1.0)
 
-    def scale_free(self) -> LossNumbers:
-        """Raise InputError, because the loss depends on the speed."""
-        raise refusal("losses", self, "it depends on the speed; use carom.impact, or KelvinVoigt")
-
-    @property
-    def source(self) -> str:
-        """The key of Ting (1966) in data/citations.bib."""
-        return "ting1966"
-
-    def describe(self) -> dict[str, Any]:
-        """Return what was given."""
-        return {"modulus_ratio": self.modulus_ratio, "relaxation_time": self.relaxation_time}
-
 
 def yield_velocity(pair: Pair) -> float:
     """Return the normal velocity in m/s at which the largest pressure is 1.6 yield strengths.
 
     p_0 = (2 E*/pi) sqrt(d_max/R*) = 1.6 Y, V_y^2 = (16/15) E* sqrt(R*) d_max^(5/2)/m_n.
 
-    Raises InputError if no yield strength is known. Johnson (1985), (11.21); Thornton (1997).
-
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> from carom.bodies.losses import yield_velocity
-    >>> 0.0 < yield_velocity(pair) < 1.0
-    True
+    Johnson (1985), (11.21); Thornton (1997).
     """
     bodies = (pair.first.material, pair.second.material)
     strengths = [body.yield_strength for body in bodies if body.yield_strength is not None]

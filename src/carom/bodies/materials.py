@@ -92,17 +92,13 @@ class Material:
         ratio = number("poisson", poisson)
         if not -1.0 < ratio <= 0.5:
             raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
-        set_fields(
-            self,
-            young=_stiffness(young),
-            poisson=ratio,
-            density=_positive_or_none("density", density),
-            yield_strength=_positive_or_none("yield_strength", yield_strength),
-            tensile_strength=_positive_or_none("tensile_strength", tensile_strength),
-            fracture_toughness=_positive_or_none("fracture_toughness", fracture_toughness),
-            flaw_size=_positive_or_none("flaw_size", flaw_size),
-            name=_text_or_none(name),
-        )
+        set_fields(self, young=_stiffness(young), poisson=ratio)
+        given = (density, yield_strength, tensile_strength, fracture_toughness, flaw_size)
+        for key, value in zip(VALUES[2:], given, strict=True):
+            set_fields(self, **{key: None if value is None else positive(key, value)})
+        if name is not None:
+            checked_type("name", name, str, "must be a text")
+        set_fields(self, name=name)
 
     @property
     def shear_modulus(self) -> float:
@@ -131,16 +127,6 @@ def _stiffness(young: Any) -> float:
     """Return a positive modulus, infinite for what does not deform, or raise InputError."""
     rigid = isinstance(young, float) and young == math.inf
     return math.inf if rigid else positive("young", young)
-
-
-def _positive_or_none(name: str, value: Value | None) -> float | None:
-    return None if value is None else positive(name, value)
-
-
-def _text_or_none(name: Any) -> str | None:
-    if name is None or isinstance(name, str):
-        return name
-    raise refusal("name", name, "must be a text")
 
 
 @lru_cache(maxsize=1)

@@ -40,17 +40,7 @@ LIKELY = {
 
 
 def doubts(pair: Pair) -> tuple[Finding, ...]:
-    """Return findings on implausible values of a pair of bodies; usually there are none.
-
-    Examples
-    --------
-    >>> import carom
-    >>> from carom.bodies.plausibility import doubts
-    >>> ball = carom.Sphere(radius=5, material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> [finding.verdict for finding in doubts(pair)]
-    ["a radius of 5 m; write '5 mm'?"]
-    """
+    """Return findings on implausible values of a pair of bodies; usually there are none."""
     given: list[tuple[str, float | None]] = [("friction", pair.friction)]
     for body in (pair.first, pair.second):
         given += [(name, getattr(body, name, None)) for name in SIZES]
@@ -59,27 +49,13 @@ def doubts(pair: Pair) -> tuple[Finding, ...]:
 
 
 def doubts_of_case(case: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return sentences on implausible values of a case; values that cannot be read are left out.
-
-    Examples
-    --------
-    >>> from carom.bodies.plausibility import doubts_of_case
-    >>> doubts_of_case({"first": {"radius": "5 mm", "material": {"young": 210}}})
-    ("a Young's modulus of 210 Pa; write '210 GPa'?",)
-    """
+    """Return sentences on implausible values of a case; values that cannot be read are left out."""
     found = [_doubt(name, value) for name, value in _values(case)]
     return tuple(dict.fromkeys(each.verdict for each in found if each))
 
 
 def doubts_of_values(given: Iterable[tuple[str, ArrayLike]]) -> tuple[str, ...]:
-    """Return sentences on implausible numbers in SI units; of each array the ends are checked.
-
-    Examples
-    --------
-    >>> from carom.bodies.plausibility import doubts_of_values
-    >>> doubts_of_values([("radius", [0.005, 2.0, 5.0]), ("young", 2.1e11)])
-    ("a radius of 5 m; write '5 mm'?",)
-    """
+    """Return sentences on implausible numbers in SI units; of each array the ends are checked."""
     found = []
     for name, values in given:
         numbers = np.ravel(values)

@@ -56,17 +56,11 @@ class Sphere:
     ) -> None:
         if gyration_radius is not None and inner_radius is not None:
             raise InputError("sphere: give gyration_radius or inner_radius, not both")
-        set_fields(
-            self,
-            radius=positive("radius", radius),
-            material=as_material(material),
-            gyration_radius=None
-            if gyration_radius is None
-            else positive("gyration_radius", gyration_radius),
-            inner_radius=0.0
-            if inner_radius is None
-            else not_negative("inner_radius", inner_radius),
-        )
+        set_fields(self, radius=positive("radius", radius), material=as_material(material))
+        hole, turning = inner_radius, gyration_radius
+        gyration = None if turning is None else positive("gyration_radius", turning)
+        inner = 0.0 if hole is None else not_negative("inner_radius", hole)
+        set_fields(self, gyration_radius=gyration, inner_radius=inner)
         if not self.inner_radius < self.radius:
             raise refusal("inner_radius", inner_radius, f"must be below the radius, {radius!r}")
         if self.material.density is None:

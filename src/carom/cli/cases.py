@@ -1,9 +1,9 @@
 """What commands share: flags over a case file, files that are asked for."""
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import typer
 
@@ -13,53 +13,6 @@ from carom.quantities.refusals import checked_type, refusal
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
     from carom.plots.result import Result
-
-Command = TypeVar("Command", bound=Callable[..., None])
-
-Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
-Column = Annotated[
-    list[str] | None,
-    typer.Option(
-        help="The quantity in a column of your table that has another name, e.g. omega=spin, or "
-        "'w=spin [rpm]' with its unit. You can repeat this option."
-    ),
-]
-Plot = Annotated[str | None, typer.Option(help="Store a figure of the result: .png, .pdf or .svg.")]
-
-
-def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
-    """Return a decorator that gives parameters of a command their help, or their option of typer.
-
-    The signature then has names, types and defaults alone.
-    """
-
-    def decorate(command: Command) -> Command:
-        of_typer = {
-            name: Annotated[
-                command.__annotations__[name],
-                typer.Option(help=option) if isinstance(option, str) else option,
-            ]
-            for name, option in options.items()
-        }
-        command.__annotations__ = {**command.__annotations__, **of_typer}
-        return command
-
-    return decorate
-
-
-def file_option(words: str) -> Any:
-    """Return the option of a file that is read; it is a text, as "" is a folder for `Path`."""
-    return typer.Option(help=words, metavar="FILE")
-
-
-def file_argument(words: str) -> Any:
-    """Return the argument of a file that is read."""
-    return typer.Argument(help=words, metavar="FILE")
-
-
-def whole_option(words: str) -> Any:
-    """Return an option whose text `carom.quantities.units.whole` reads."""
-    return typer.Option(help=words, metavar="INTEGER")
 
 
 def named_values(option: str, texts: list[str] | None, example: str) -> dict[str, str]:
@@ -122,10 +75,7 @@ def tell_sweep(case: "Case") -> None:
 
 
 def told_case(path: str, *, losses: bool = False, swept: bool = False) -> "Case":
-    """Return the content of a case file; what is hardly meant in it is told on stderr.
-
-    So is a table [sweep] that a command leaves out, unless the case is `swept`.
-    """
+    """Return the content of a case file; what is hardly meant, or left out, is told on stderr."""
     from carom.bodies.cases import read_case
     from carom.bodies.plausibility import doubts_of_case
 
@@ -144,21 +94,21 @@ def outputs(case: "Case") -> Output:
     return Output(*(table.get(name) for name in Output._fields))
 
 
-def check_outputs(
-    outputs: Mapping[str, tuple[str | Path | None, tuple[str, ...]]], **inputs: str | Path | None
-) -> None:
+def check_outputs(outputs: Mapping[str, str | None], **inputs: str | Path | None) -> None:
     """Raise InputError if a file cannot be written, has another ending, or is another one, too.
 
-    Outputs are by what they are for, each with the endings that it may have.
+    Outputs are by what they are for, which says what endings they may have.
     """
+    from carom.io.files import FIGURES, TABLES
     from carom.io.paths import checked_output
 
+    figures = {"plot": FIGURES, "posterior": (*TABLES, *FIGURES), "map": (*FIGURES, *TABLES)}
     real: dict[str, str] = {}
-    for name, path in {**inputs, **{name: path for name, (path, _) in outputs.items()}}.items():
+    for name, path in {**inputs, **outputs}.items():
         if path is None:
             continue
         if name in outputs:
-            checked_output(path, outputs[name][1])
+            checked_output(path, figures.get(name, TABLES))
         try:
             same = real.setdefault(os.path.realpath(path), name)
         except ValueError:  # no file can have such a name, as its reader says

@@ -8,10 +8,9 @@ from carom.cli.curve import curve_command
 from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
 from carom.cli.impact import impact_command
-from carom.cli.lammps import app as lammps_app
-from carom.cli.liggghts import app as liggghts_app
 from carom.cli.materials import materials_command
-from carom.cli.once import Commands, Interrupted
+from carom.cli.options import Commands, Interrupted
+from carom.cli.programs import lammps_app, liggghts_app
 from carom.cli.sweep import sweep_command
 from carom.cli.verify import app as verify_app
 from carom.quantities.refusals import InputError, nearest

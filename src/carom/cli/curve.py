@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, described, require_some, stored, whole_option
+from carom.cli.cases import check_outputs, require_some, stored
+from carom.cli.options import described, whole_option
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import finite, or_none, positive, whole
 
@@ -44,8 +45,8 @@ def curve_command(
     start: str = "0",
     stop: str | None = None,
     points: str = "401",
-    as_json: Json = False,
-    plot: Plot = None,
+    as_json: bool = False,
+    plot: str | None = None,
     output: str | None = None,
     export: str | None = None,
 ) -> None:
@@ -68,9 +69,7 @@ def curve_command(
         return
     import numpy as np
 
-    from carom.io.files import FIGURES, TABLES
-
-    check_outputs({"plot": (plot, FIGURES), "output": (output, TABLES)})
+    check_outputs({"plot": plot, "output": output})
     values = [positive("chi", value) for value in chi]
     first = finite("from", start, "1")
     last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")
@@ -98,7 +97,6 @@ def _export(
     output: str | None,
     others: dict[str, Any],
 ) -> None:
-    """Print or store a header that holds the rebound at each chi."""
     from carom.io.paths import checked_output, replace_whole
     from carom.laws.header import c_header
 
@@ -128,7 +126,6 @@ def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:
 
 
 def _borders(part: "xr.Dataset") -> list[tuple[str, float]]:
-    """Return the regimes and where they begin."""
     return list(zip(part["regime_border"].values, part["border"].values, strict=True))
 
 

@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import typer
 
-from carom.cli.cases import described, whole_option
+from carom.cli.options import described, whole_option
 from carom.quantities.units import whole
 
 OPTIONS = {
@@ -66,7 +66,6 @@ def explore_command(
 
 
 def _export(folder: str, as_json: bool) -> None:
-    """Write a copy of the page, and tell where it is."""
     from carom.explorer.export import export
 
     copy = export(folder)

@@ -8,20 +8,8 @@ from typing import TYPE_CHECKING
 import typer
 
 import carom
-from carom.cli.cases import (
-    Column,
-    Json,
-    Plot,
-    check_outputs,
-    described,
-    file_argument,
-    file_option,
-    named_values,
-    store,
-    stored,
-    told_case,
-    whole_option,
-)
+from carom.cli.cases import check_outputs, named_values, store, stored, told_case
+from carom.cli.options import described, file_argument, file_option, whole_option
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import whole
 
@@ -66,7 +54,7 @@ def fit_command(
     vary: str | None = None,
     fix: list[str] | None = None,
     confidence: str = "0.95",
-    column: Column = None,
+    column: list[str] | None = None,
     squares: bool = False,
     template: bool = False,
     advice: str | None = None,
@@ -74,9 +62,9 @@ def fit_command(
     posterior: str | None = None,
     steps: str = "1000",
     seed: str = "0",
-    plot: Plot = None,
+    plot: str | None = None,
     output: str | None = None,
-    as_json: Json = False,
+    as_json: bool = False,
 ) -> None:
     """Fit friction, stiffness and restitution to measured rebounds.
 
@@ -100,19 +88,14 @@ def fit_command(
         _tell_template(data or dataset, as_json)
         return
     from carom.fitting.advice import PLAN
-    from carom.fitting.posterior import FEWEST_STEPS, MOST_SEED, MOST_STEPS
-    from carom.io.files import FIGURES, TABLES
+    from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
 
     source = _source(data, dataset)
     if about is not None and advice is None:
         raise refusal("for", about, "it has no effect without --advice; give that, too")
     count = None if advice is None else whole("advice", advice, 1, PLAN)
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
-    outputs = {
-        "plot": (plot, FIGURES),
-        "output": (output, TABLES),
-        "posterior": (posterior, (*TABLES, *FIGURES)),
-    }
+    outputs = {"plot": plot, "output": output, "posterior": posterior}
     check_outputs(outputs, data=source, case=case)
     found = carom.fit(
         source,
@@ -135,7 +118,6 @@ def fit_command(
 
 
 def _tell_template(source: str | None, as_json: bool) -> None:
-    """Print an empty table."""
     from carom.fitting.template import TEMPLATE
 
     if source is not None:
@@ -144,7 +126,6 @@ def _tell_template(source: str | None, as_json: bool) -> None:
 
 
 def _source(data: str | None, dataset: str | None) -> str | Path:
-    """Return the file of the data, or raise InputError."""
     if (data is None) == (dataset is None):
         known = ", ".join(carom.datasets.names())
         raise InputError(f"data: give a CSV file, or --dataset with one of {known}")
@@ -167,7 +148,6 @@ def _pair(case: str | None) -> "Pair | None":
 
 
 def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:
-    """Store samples of the posterior, or a corner plot of them, and return the file."""
     from carom.io.files import FIGURES
 
     samples = found.posterior(steps, seed)

@@ -8,19 +8,8 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
-from carom.cli.cases import (
-    Json,
-    Output,
-    Plot,
-    check_outputs,
-    described,
-    file_argument,
-    merged,
-    outputs,
-    stored,
-    tell_sweep,
-    whole_option,
-)
+from carom.cli.cases import Output, check_outputs, merged, outputs, stored, tell_sweep
+from carom.cli.options import described, file_argument, whole_option
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, one_of, refusal
 from carom.quantities.units import whole
@@ -133,8 +122,8 @@ def impact_command(
     method: str = "exact",
     elements: Text = None,
     steps: Text = None,
-    as_json: Json = False,
-    plot: Plot = None,
+    as_json: bool = False,
+    plot: str | None = None,
     animate: Text = None,
     output: Text = None,
     spectrum: Text = None,
@@ -168,13 +157,15 @@ def impact_command(
     tell_sweep(content)
     files = outputs(content)
     losses = losses_of(content)
-    _check_outputs(files)
+    check_outputs({"plot": files.plot, "output": files.data, "spectrum": files.spectrum})
+    if files.animation is not None:
+        carom.plots.checked_animation(files.animation)
     solver = _method(method, elements, steps)
     motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
     hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
     found = _peaks(hit) if peaks else None
     paths = list(_store(hit, files))
-    typer.echo(_record(hit, found) if as_json else _text(hit, found))
+    typer.echo(_told(hit, found, as_json))
     for path in paths:
         stored(path)
 
@@ -187,16 +178,12 @@ def _peaks(hit: "ImpactResult") -> "xr.Dataset":
     return hit.peaks()
 
 
-def _record(hit: "ImpactResult", peaks: "xr.Dataset | None") -> str:
-    from carom.impacts.peaks import peaks_record
+def _told(hit: "ImpactResult", peaks: "xr.Dataset | None", as_json: bool) -> str:
+    from carom.impacts.peaks import peaks_record, peaks_text
 
-    more = {} if peaks is None else {"peaks": peaks_record(peaks)}
-    return json.dumps(hit.to_dict() | more, indent=2)
-
-
-def _text(hit: "ImpactResult", peaks: "xr.Dataset | None") -> str:
-    from carom.impacts.peaks import peaks_text
-
+    if as_json:
+        more = {} if peaks is None else {"peaks": peaks_record(peaks)}
+        return json.dumps(hit.to_dict() | more, indent=2)
     return str(hit) if peaks is None else f"{hit}\n{peaks_text(peaks)}"
 
 
@@ -213,15 +200,6 @@ def _method(name: str, elements: str | None, steps: str | None) -> "str | Bounda
         key, value = next(iter(counts.items()))
         raise refusal(key, value, "it is an option of boundary elements; add --method halfspace")
     return carom.BoundaryElements(**counts)
-
-
-def _check_outputs(files: Output) -> None:
-    from carom.io.files import FIGURES, TABLES
-
-    tables = {"output": (files.data, TABLES), "spectrum": (files.spectrum, TABLES)}
-    check_outputs({"plot": (files.plot, FIGURES), **tables})
-    if files.animation is not None:
-        carom.plots.checked_animation(files.animation)
 
 
 def _store(hit: "ImpactResult", files: Output) -> Iterator[Path]:

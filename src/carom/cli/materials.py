@@ -7,7 +7,7 @@ import typer
 
 import carom
 from carom.bodies.materials import VALUES
-from carom.cli.cases import Json, described
+from carom.cli.options import described
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import refusal
 from carom.quantities.units import or_none
@@ -21,7 +21,7 @@ OPTIONS = {
 
 
 @described(OPTIONS)
-def materials_command(name: str | None = None, pairs: bool = False, as_json: Json = False) -> None:
+def materials_command(name: str | None = None, pairs: bool = False, as_json: bool = False) -> None:
     """List the materials that Carom knows by name.
 
     Use this command to find the name of a material, the values that Carom takes for it and where

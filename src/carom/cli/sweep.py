@@ -11,19 +11,15 @@ import typer
 
 import carom
 from carom.cli.cases import (
-    Column,
-    Json,
     check_outputs,
-    described,
-    file_argument,
     named_values,
     outputs,
     require_some,
     stored,
     tell,
     told_case,
-    whole_option,
 )
+from carom.cli.options import described, file_argument, whole_option
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
 from carom.quantities.refusals import refusal
@@ -31,7 +27,7 @@ from carom.quantities.units import or_none, whole
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
-    from carom.sweeps.summaries import Summary
+    from carom.sweeps.records import Summary
 
 
 OPTIONS = {
@@ -52,14 +48,14 @@ OPTIONS = {
 @described(OPTIONS)
 def sweep_command(
     case: str,
-    column: Column = None,
+    column: list[str] | None = None,
     store: str | None = None,
     resume: bool = False,
     quantities: str | None = None,
     output: str | None = None,
     scheduler: str | None = None,
     workers: str | None = None,
-    as_json: Json = False,
+    as_json: bool = False,
     progress: bool | None = None,
 ) -> None:
     """Solve many impacts: a grid, a Latin hypercube or a table.
@@ -75,13 +71,12 @@ def sweep_command(
     The speeds above which the second body yields:
       carom sweep examples/sweep.toml --quantities yield_speed_second
     """
-    from carom.io.files import TABLES
-    from carom.sweeps.plans import plan
-    from carom.sweeps.summaries import summary
+    from carom.sweeps.records import summary
+    from carom.sweeps.tables import plan
 
     content = told_case(case, losses=True, swept=True)
     file = _file(content) if output is None else output
-    check_outputs({"output": (file, TABLES)})
+    check_outputs({"output": file})
     design, chosen = plan(content, Path(case), named_values("column", column, "omega=spin"))
     if quantities is not None:
         chosen = [name.strip() for name in quantities.split(",")]
@@ -127,7 +122,6 @@ def _stopping() -> Iterator[None]:
 
 
 def _record(result: "Summary", store: str | None, output: str | None) -> dict[str, Any]:
-    """Return the summary as what JSON can hold; what is not a number becomes null."""
     ranges = {
         name: {"min": or_none(low), "max": or_none(high), "units": GLOSSARY[name].unit}
         for name, (low, high) in result.ranges.items()

@@ -11,9 +11,16 @@ from numpy.typing import NDArray
 from carom.bodies.pairs import Pair, check_second_spin, checked_pair
 from carom.collisions import records
 from carom.collisions.compiled import Motions, collide_all
-from carom.collisions.judged import Incidence, JudgedCollisions, Judgement, incidence, judged
 from carom.collisions.portable import collide_arrays
-from carom.collisions.records import Collisions, CollisionStatus, Inertia, vectors
+from carom.collisions.records import (
+    Collisions,
+    CollisionStatus,
+    Incidence,
+    Inertia,
+    JudgedCollisions,
+    Judgement,
+    vectors,
+)
 from carom.laws.exact import law_of
 from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
@@ -140,32 +147,27 @@ def collide(
     rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)
     along_the_same(**dict(zip(records.NAMES, given, strict=True)))
-    if flag("judge", judge):
-        met = _incidence(pair, given, law)
-        found = _collide_numpy(given, records.inertia_of(pair), rule, inplace, threads)
-        records.warn_of_unusable(found.status)
-        return judged(pair, met, found)
-    if any(is_foreign(each) for each in given):
+    met = _incidence(pair, given, law) if flag("judge", judge) else None
+    if any(map(is_foreign, given)):
         if inplace:
-            raise refusal(
-                "inplace", inplace, "only NumPy arrays can be written in place; leave it out"
-            )
+            allowed = "only NumPy arrays can be written in place; leave it out"
+            raise refusal("inplace", inplace, allowed)
         found = collide_arrays(given, records.inertia_of(pair), rule)
     else:
         found = _collide_numpy(given, records.inertia_of(pair), rule, inplace, threads)
     records.warn_of_unusable(found.status)
-    return found
+    return found if met is None else records.judged(pair, met, found)
 
 
 def _incidence(pair: Pair, given: tuple[Any, ...], law: CollisionLaw | None) -> Incidence:
     """Return how bodies meet, before they may be written over."""
     if law is not None:
         raise refusal("law", law, "judge=True judges the exact law; leave law or judge out")
-    if any(is_foreign(each) for each in given):
+    if any(map(is_foreign, given)):
         raise refusal("judge", True, "it needs NumPy arrays; convert yours, or leave judge out")
     arrays = [vectors(name, values) for name, values in zip(records.NAMES, given, strict=True)]
     shape = records.common_shape(arrays)
-    return incidence(pair, tuple(_whole(each, shape, np.dtype(float)) for each in arrays))
+    return records.incidence(pair, tuple(_whole(each, shape, np.dtype(float)) for each in arrays))
 
 
 def _rule(law: CollisionLaw | None, pair: Pair) -> Rule:

@@ -57,37 +57,27 @@ def collide_arrays(
 
 def _alike(given: tuple[Any, ...]) -> tuple[list[Any], Any]:
     """Return what is given as arrays of one library and type, and that library."""
-    foreign = [each for each in given if is_foreign(each)]
+    named = dict(zip(records.NAMES, given, strict=True))
+    foreign = {name: each for name, each in named.items() if is_foreign(each)}
     try:
-        xp = array_api_compat.array_namespace(*foreign)
+        xp = array_api_compat.array_namespace(*foreign.values())
     except TypeError:
-        names = sorted({type(each).__module__.partition(".")[0] for each in foreign})
+        names = sorted({type(each).__module__.partition(".")[0] for each in foreign.values()})
         raise InputError(
             f"arrays: those of {' and '.join(names)} cannot be mixed; give all of one library"
         ) from None
-    real = {
-        name: _real(name, each)
-        for name, each in zip(records.NAMES, given, strict=True)
-        if is_foreign(each)
-    }
-    kind = reduce(xp.result_type, (each.dtype for each in real.values()))
-    real = {name: xp.astype(each, kind, copy=False) for name, each in real.items()}
-    sample = next(iter(real.values()))
-    return [
-        real[name] if name in real else _converted(name, each, sample, xp)
-        for name, each in zip(records.NAMES, given, strict=True)
-    ], xp
-
-
-def _real(name: str, array: Any) -> Any:
-    if tuple(array.shape[-1:]) != (3,):
-        raise refusal(name, array, records.ALLOWED)
-    return floating(name, array)[0]
-
-
-def _converted(name: str, values: Any, sample: Any, xp: Any) -> Any:
-    plain = records.vectors(name, values)
-    return None if plain is None else constants(plain, sample, xp)
+    for name, array in foreign.items():
+        if tuple(array.shape[-1:]) != (3,):
+            raise refusal(name, array, records.ALLOWED)
+        foreign[name] = floating(name, array)[0]
+    kind = reduce(xp.result_type, (each.dtype for each in foreign.values()))
+    alike = {name: xp.astype(each, kind, copy=False) for name, each in foreign.items()}
+    sample = next(iter(alike.values()))
+    for name, each in named.items():
+        if name not in alike:
+            plain = records.vectors(name, each)
+            alike[name] = None if plain is None else constants(plain, sample, xp)
+    return [alike[name] for name in named], xp
 
 
 def _approach(motions: list[Any], inertia: records.Inertia, xp: Any) -> Approach:
@@ -102,7 +92,6 @@ def _approach(motions: list[Any], inertia: records.Inertia, xp: Any) -> Approach
 
 
 def _status(approach: Approach, xp: Any) -> Any:
-    """Return what becomes of each pair."""
     skew, closing = xp.abs(approach.skew), approach.closing
 
     def code(status: records.CollisionStatus) -> Any:

@@ -3,46 +3,33 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
 from carom.contacts.contact import Contact
-from carom.contacts.fields import radial_fields, surface_fields
-from carom.contacts.stress import stress_dataset
-from carom.quantities.units import counted
+from carom.contacts.fields import radial_fields, stress_dataset, surface_fields
+from carom.old_names import with_old_keywords
+from carom.quantities.units import Value, counted
 
 if TYPE_CHECKING:
     import xarray as xr
 
 MOST_RADII = 100_000
-PARAMETER, MEANING = "instant : float, str or int", "Time since the first touch in s, or a step."
 
 
 class InContact(ABC):
-    """A result with a contact at each time in s, or after each step of a load path.
+    """A result with a contact at each time in s, or after each step of a load path."""
 
-    The instant is called `time` in an `Impact` and `step` in a `LoadPath`. Both classes repeat the
-    methods with that argument, and take the docstrings from here.
-    """
-
-    _told_by: ClassVar[tuple[str, str]]  # the parameter with its type, and what it is
-
-    def __init_subclass__(cls) -> None:
-        super().__init_subclass__()
-        parameter, meaning = cls._told_by
-        for name in ("contact", "fields", "stress", "radial"):
-            words = str(getattr(InContact, name).__doc__).replace(PARAMETER, parameter)
-            getattr(cls, name).__doc__ = words.replace(MEANING, meaning)
-
-    @abstractmethod
-    def contact(self, instant: Any, /) -> Contact:
+    @with_old_keywords
+    def contact(self, at: Value | None = None) -> Contact:
         """Return the contact at an instant, from which fields and stresses are computed.
 
         Parameters
         ----------
-        instant : float, str or int
-            Time since the first touch in s, or a step.
+        at : float, str or int
+            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
+            step, from the end if negative, by default the last.
 
         Returns
         -------
@@ -64,14 +51,15 @@ class InContact(ABC):
         >>> round(hit.contact(0.5 * hit.duration).penetration, 12)  # of the largest
         1.0
         >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
-        >>> path.contact(step=-1).attributes["phase_kind"]
+        >>> path.contact(at=-1).attributes["phase_kind"]
         'slip'
         """
+        return self._contact(at)
 
+    @with_old_keywords
     def fields(
         self,
-        instant: Any,
-        /,
+        at: Value | None = None,
         x: ArrayLike | None = None,
         y: ArrayLike | None = None,
         *,
@@ -89,8 +77,9 @@ class InContact(ABC):
 
         Parameters
         ----------
-        instant : float, str or int
-            Time since the first touch in s, or a step.
+        at : float, str or int
+            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
+            step, from the end if negative, by default the last.
         x, y : array_like, shapes (nx,) and (ny,)
             Positions in m of a grid around the centre of the contact, with x along V_x; by default
             101 by 101 points over 1.5 contact radii.
@@ -125,12 +114,12 @@ class InContact(ABC):
         >>> round(float(path.fields(points=[[0.0, 0.0]]).pressure[0]) / 1e9, 2)  # in GPa
         1.01
         """
-        return surface_fields(self.contact(instant), x, y, points=points)
+        return surface_fields(self.contact(at), x, y, points=points)
 
+    @with_old_keywords
     def stress(
         self,
-        instant: Any,
-        /,
+        at: Value | None = None,
         x: ArrayLike | None = None,
         z: ArrayLike | None = None,
         *,
@@ -147,8 +136,9 @@ class InContact(ABC):
 
         Parameters
         ----------
-        instant : float, str or int
-            Time since the first touch in s, or a step.
+        at : float, str or int
+            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
+            step, from the end if negative, by default the last.
         x, z : array_like, shapes (nx,) and (nz,)
             Positions in m of a grid in the plane y = 0, with x along V_x and z the depth; by
             default 101 by 61 points over 2 contact radii.
@@ -182,15 +172,18 @@ class InContact(ABC):
         >>> round(float(below.max_shear[0]) / hit.max_pressure, 2)
         0.31
         """
-        return stress_dataset(self.contact(instant), x=x, z=z, points=points, body=body)
+        self._refuse_stress()
+        return stress_dataset(self.contact(at), x=x, z=z, points=points, body=body)
 
-    def radial(self, instant: Any, /, n: int = 401) -> xr.Dataset:
+    @with_old_keywords
+    def radial(self, at: Value | None = None, n: int = 401) -> xr.Dataset:
         """Return the pressure, the traction and the memory, g and q, along a radius.
 
         Parameters
         ----------
-        instant : float, str or int
-            Time since the first touch in s, or a step.
+        at : float, str or int
+            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
+            step, from the end if negative, by default the last.
         n : int
             Number of distances from the centre, from 2 to 100,000.
 
@@ -215,4 +208,11 @@ class InContact(ABC):
         >>> bool((abs(along.traction_x) <= 1.000001 * along.friction_limit).all())
         True
         """
-        return radial_fields(self.contact(instant), counted("n", n, 2, MOST_RADII))
+        return radial_fields(self.contact(at), counted("n", n, 2, MOST_RADII))
+
+    @abstractmethod
+    def _contact(self, at: Any) -> Contact:
+        """Return the contact at an instant as users give it."""
+
+    def _refuse_stress(self) -> None:  # noqa: B027
+        """Raise InputError where the stress below the surface is not known."""

@@ -7,15 +7,13 @@ from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from carom import plots
 from carom.bodies.pairs import ContactScales, Pair, with_friction
 from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
-from carom.contacts.following import followed
 from carom.contacts.in_contact import InContact
-from carom.contacts.load_steps import Given, Steps, read_steps
+from carom.contacts.load_steps import Given, Steps, followed, read_steps
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import SLOPE, profile_of
 from carom.io.citations import LOADS, TURNING, bibtex
@@ -64,8 +62,6 @@ class LoadPath(InContact, Result):
     >>> path.tangential_force.round(4)
     array([0.    , 1.6381])
     """
-
-    _told_by = "step : int", "Number of the step, from the end if negative; by default the last."
 
     pair: Pair
     penetration: Array
@@ -127,25 +123,11 @@ class LoadPath(InContact, Result):
         return _load_path(self.pair, self._steps.followed_by(more), progress)
 
     def cite(self) -> str:
-        """Return what to cite for this result, as BibTeX.
-
-        Returns
-        -------
-        str
-            The entries in BibTeX format.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
-        >>> "Mindlin, R. D. and Deresiewicz, H." in path.cite()
-        True
-        """
+        """Return what to cite for this result, as BibTeX."""
         return bibtex(*LOADS, *([TURNING] if self.displacement.ndim == 2 else []))
 
-    def contact(self, step: int = -1) -> Contact:
+    def _contact(self, at: Any) -> Contact:
+        step = -1 if at is None else at
         k = self._step(step)
         if self.displacement.ndim == 2:
             allowed = "fields and stresses are available only for paths in one direction"
@@ -168,33 +150,10 @@ class LoadPath(InContact, Result):
             attributes=_state(path.stack) | {"inputs": self.inputs()},
         )
 
-    def fields(
-        self,
-        step: int = -1,
-        x: ArrayLike | None = None,
-        y: ArrayLike | None = None,
-        *,
-        points: ArrayLike | None = None,
-    ) -> xr.Dataset:
-        return super().fields(step, x, y, points=points)
-
-    def stress(
-        self,
-        step: int = -1,
-        x: ArrayLike | None = None,
-        z: ArrayLike | None = None,
-        *,
-        points: ArrayLike | None = None,
-        body: str = "second",
-    ) -> xr.Dataset:
-        return super().stress(step, x, z, points=points, body=body)
-
-    def radial(self, step: int = -1, n: int = 401) -> xr.Dataset:
-        return super().radial(step, n)
-
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        rows = {GLOSSARY[name].meaning: _span(name, getattr(self, name)) for name in COLUMNS}
+        columns = {GLOSSARY[name]: getattr(self, name) for name in COLUMNS}
+        rows = {it.meaning: it.span(float(v.min()), float(v.max())) for it, v in columns.items()}
         figure = self.plot() if len(self) > 1 else None
         return card(f"Load path of {len(self)} steps", rows, figure)
 
@@ -229,7 +188,7 @@ class LoadPath(InContact, Result):
         first, second = describe(self.pair.first), describe(self.pair.second)
         return {"first": first, "second": second, "friction": self.pair.friction}
 
-    def _step(self, step: int) -> int:
+    def _step(self, step: Any) -> int:
         n = len(self)
         whole = isinstance(step, Integral) and is_real(step)
         try:
@@ -237,10 +196,6 @@ class LoadPath(InContact, Result):
         except IndexError:
             allowed = f"must be a whole number from 0 to {n - 1}, or negative to count from the end"
             raise refusal("step", step, allowed) from None
-
-
-def _span(name: str, values: Array) -> str:
-    return GLOSSARY[name].span(float(values.min()), float(values.max()))
 
 
 def _state(stack: Array) -> dict[str, Any]:

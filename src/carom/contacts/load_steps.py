@@ -1,18 +1,24 @@
-"""The steps of a load path, read from forces or displacements and checked."""
+"""The steps of a load path: read and checked, and the contact after each of them, in SI units."""
 
+from collections.abc import Callable
+from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.pairs import ContactScales, Pair
+from carom.dimensionless.load_paths import paths, turning
 from carom.quantities.arrays import Array, along_the_same, numbers
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Given = ArrayLike | str | None
+ROUNDING = 1e-12
+BEYOND = "its forces are too large or small for floating point; check the units"
 
 
 class Steps(NamedTuple):
@@ -63,8 +69,8 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
     along_the_same(
         normal_force=normal,
         penetration=depth,
-        tangential_force=_first_direction(tangential),
-        displacement=_first_direction(moved),
+        tangential_force=_directions_last(tangential, first=True),
+        displacement=_directions_last(moved, first=True),
     )
     across = _one_of(1, normal_force=normal, penetration=depth)
     along = _one_of(2, tangential_force=tangential, displacement=moved)
@@ -87,17 +93,12 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
     return Steps(depth, force, target, np.full(n, along[0] == "tangential_force"))
 
 
-def _directions_last(given: Given) -> Given:
-    """Return an array of xarray's with its dimension `direction` as the last one."""
-    if "direction" in getattr(given, "dims", ()):
-        return cast("xr.DataArray", given).transpose(..., "direction")
-    return given
-
-
-def _first_direction(given: Given) -> Given:
-    if "direction" in getattr(given, "dims", ()):
-        return cast("xr.DataArray", given).isel(direction=0)
-    return given
+def _directions_last(given: Given, first: bool = False) -> Given:
+    """Return an array of xarray's with its `direction` as the last dimension, or the first one."""
+    if "direction" not in getattr(given, "dims", ()):
+        return given
+    array = cast("xr.DataArray", given)
+    return array.isel(direction=0) if first else array.transpose(..., "direction")
 
 
 def _one_of(most: int, **controls: Given) -> tuple[str, Array]:
@@ -122,3 +123,60 @@ def _values(name: str, given: ArrayLike | str, most: int) -> Array:
         at = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
         raise refusal(name, float(values[at]), f"step {at[0] if at else 0}: it must be finite")
     return values
+
+
+def followed(
+    pair: Pair, steps: Steps, advance: Callable[[int], object]
+) -> tuple[ContactScales, dict[str, Array]]:
+    """Return the scales of a path, and its columns, or raise InputError."""
+    scales = _scales(pair, float(steps.penetration.max()))
+    with np.errstate(all="ignore"):
+        depths, targets, by_force = steps.dimensionless(scales)
+        if targets.ndim == 1:
+            results, _, refused = paths.follow_path(depths, targets, by_force)
+            moved, force, rest = results[:, 0], results[:, 1], results[:, 2:]
+        else:
+            results, refused = turning.follow_path(depths, targets, by_force, advance)
+            moved, force, rest = results[:, :2], results[:, 2:4], results[:, 4:]
+        if refused != paths.INSIDE:
+            raise _refused(steps, refused, pair.friction)
+        energy = scales.tangential_force * scales.tangential_length
+        moved, force = steps.as_given(
+            moved * scales.tangential_length, force * scales.tangential_force
+        )
+        columns = {
+            "displacement": moved,
+            "normal_force": steps.normal_force,
+            "tangential_force": force,
+            "contact_radius": np.sqrt(np.maximum(depths, 0.0)) * scales.radius,
+            "stick_radius": rest[:, 0] * scales.radius,
+            "tangential_elastic_energy": rest[:, 1] * energy,
+            "frictional_work": rest[:, 2] * energy,
+        }
+    if not all(np.all(np.isfinite(values)) for values in columns.values()):
+        raise refusal("penetration", float(steps.penetration.max()), BEYOND)
+    return scales, columns
+
+
+def _refused(steps: Steps, n: int, friction: float) -> InputError:
+    wanted, normal = steps.target[n], float(steps.normal_force[n])
+    most = friction * normal
+    limit, pressed = text(most, "N"), text(normal, "N")
+    allowed = f"step {n}: Coulomb's law allows at most {limit} at F_z = {pressed}"
+    if float(np.linalg.norm(wanted)) <= most * (1.0 + ROUNDING):
+        allowed += "; near this limit give displacements instead"
+    return refusal("tangential_force", wanted.tolist(), allowed)
+
+
+def _scales(pair: Pair, deepest: float) -> ContactScales:
+    """Return the scales of the deepest penetration; of any, where the bodies never touch."""
+    try:
+        scales = pair.contact_scales(deepest if deepest > 0.0 else pair.effective_radius)
+        energy = scales.tangential_force * scales.tangential_length
+        values = [scales.length, scales.force, scales.tangential_length, energy]
+        fits = all(isfinite(value) and value > 0.0 for value in values)
+    except OverflowError:
+        fits = False
+    if not fits:
+        raise refusal("penetration", deepest, BEYOND)
+    return scales

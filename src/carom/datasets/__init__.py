@@ -7,8 +7,7 @@ Examples
 ('foerster1994', 'kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
 """
 
-from carom.datasets.published import parameters
-from carom.datasets.shipped import load, names, path, table
+from carom.datasets.shipped import load, names, parameters, path, table
 
 __all__ = ["load", "names", "parameters", "path", "table"]
 __dir__ = __all__.copy

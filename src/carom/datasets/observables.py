@@ -115,8 +115,7 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
     with np.errstate(all="ignore"):
         found = np.asarray(getattr(_rebound(pair, given, wanted), wanted))
     if np.isinf(found).any():
-        allowed = "the results are too large for floating point; check the units"
-        raise InputError(f"known: {allowed}")
+        raise InputError("known: the results are too large for floating point; check the units")
     result = np.broadcast_to(found, shape)
     return result.copy() if shape else result.item()
 
@@ -202,17 +201,13 @@ def _slowing(start: Rebound, speed: Array) -> Any:
     normal, before = start.normal_speed_out, start.tangential_speed
     _refuse(SPEED, speed, speed < normal * (1.0 - ROUNDING), "it is below the normal speed after")
     along = np.sqrt(np.maximum((speed - normal) * (speed + normal), 0.0))
-    ends = before, before - 2.0 * _carried(start)
+    ratio = start.pair.tangential_mass / start.pair.normal_mass
+    ends = before, before - 2.0 * (ratio * start.contact_velocity)
     low, high = np.minimum(*ends), np.maximum(*ends)
     on, back = (np.maximum(low - x, x - high) for x in (along, -along))  # how far outside
     unsure = (np.maximum(on, back) <= 0.0) & (along > ROUNDING * speed)
     _refuse(SPEED, speed, unsure, "the centre may go on or turn back; give rebound_angle, too")
     return start.pair.normal_mass * (before - np.where(on <= back, along, -along))
-
-
-def _carried(start: Rebound) -> Any:
-    """Return by how much an impulse m_t V_x changes the speed of the centre."""
-    return start.pair.tangential_mass / start.pair.normal_mass * start.contact_velocity
 
 
 def _one_of(what: str, given: Given, names: tuple[str, ...]) -> str:
@@ -237,17 +232,12 @@ def _before(pair: Pair, given: Given, wanted: str) -> tuple[Any, Tangential]:
     if scaled and "normal_speed" not in given:
         raise InputError(f"speed: missing; {scaled[0]} needs speed and angle, or normal_speed")
     normal = given.get("normal_speed", np.ones(()))
-    moved = _moved(pair, normal, way, given[way])
+    moved = given[way]
+    if way != "tangential_speed":
+        moved = moved * _psi_unit(pair, normal) if way == "psi_in" else normal * np.tan(moved)
     if way in ("contact_angle", "psi_in"):
         moved = moved - Tangential(0.0, *spins).contact_velocity(pair)
     return normal, Tangential(moved, *spins)
-
-
-def _moved(pair: Pair, normal: Any, name: str, value: Array) -> Any:
-    """Return the tangential velocity before, of the centre or the contact point."""
-    if name == "psi_in":
-        return value * _psi_unit(pair, normal)
-    return value if name == "tangential_speed" else normal * np.tan(value)
 
 
 def _restitution(normal: Any, given: Given) -> Any:

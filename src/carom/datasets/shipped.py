@@ -1,4 +1,4 @@
-"""The tables of measured rebounds, found by name and read as columns or datasets."""
+"""Measured rebounds and published parameters, found by name and read as columns or datasets."""
 
 from functools import lru_cache
 from importlib.resources import files
@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.datasets.observables import OBSERVABLES
-from carom.io.columns import ERROR, entry, in_units
+from carom.io.columns import ERROR, entry, in_units, with_errors
 from carom.io.labels import attributes, labelled_dataset
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable
@@ -30,7 +30,7 @@ def names() -> tuple[str, ...]:
     >>> carom.datasets.names()
     ('foerster1994', 'kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
     """
-    return tuple(sorted(file.stem for file in _folder().glob("*.csv")))
+    return tuple(sorted(file.stem for file in _data("measured").glob("*.csv")))
 
 
 def path(name: str) -> Path:
@@ -57,7 +57,7 @@ def path(name: str) -> Path:
     >>> carom.datasets.path("kharaz2001").name
     'kharaz2001.csv'
     """
-    return _folder() / f"{one_of('dataset', name, names())}.csv"
+    return _data("measured") / f"{one_of('dataset', name, names())}.csv"
 
 
 def table(name: str) -> UserTable:
@@ -86,7 +86,7 @@ def table(name: str) -> UserTable:
     >>> measured["spin_out"][8:10].round(1), measured["rebound_angle"][8:10]
     (array([-136.2, -265.7]), array([nan, nan]))
     """
-    cells = _read(path(name).stem)
+    cells = _read(path(name))
     return in_units(cells, cells.names, gaps=OBSERVABLES)
 
 
@@ -121,21 +121,14 @@ def load(name: str) -> "xr.Dataset":
     ('rad/s', 7, '10.1016/S0032-5910(01)00283-2')
     """
     columns = table(name).columns
-    variables = {key: ("point", values, column_attributes(key)) for key, values in columns.items()}
-    told = dict(_read(name).comments)
+    variables = {key: ("point", values, _attributes(key)) for key, values in columns.items()}
+    told = dict(_read(path(name)).comments)
     told["references"] = told.pop("source")  # "source" is the version of Carom, as everywhere
     return labelled_dataset(variables, {}, {"name": name, **told})
 
 
-def column_attributes(name: str) -> dict[str, Any]:
-    """Return unit and meaning of a column of values or of their errors.
-
-    Examples
-    --------
-    >>> from carom.datasets.shipped import column_attributes
-    >>> column_attributes("spin_out_error")["long_name"]
-    'standard deviation of spin of the first body after'
-    """
+def _attributes(name: str) -> dict[str, Any]:
+    """Return unit and meaning of a column of values or of their errors."""
     known = attributes(entry(name))
     if not name.endswith(ERROR):
         return known
@@ -146,9 +139,50 @@ def column_attributes(name: str) -> dict[str, Any]:
 
 
 @lru_cache
-def _read(name: str) -> UserTable:
-    return read_table(path(name))
+def _read(file: Path) -> UserTable:
+    return read_table(file)
 
 
-def _folder() -> Path:
-    return Path(str(files("carom").joinpath("data/measured")))
+def _data(name: str) -> Path:
+    return Path(str(files("carom").joinpath("data", name)))
+
+
+NUMBERS = ("diameter", "density", *with_errors(("normal_restitution", "friction", "beta_0")))
+WORDS = {  # columns of text
+    "body": "sphere that strikes",
+    "other": "what it strikes",
+    "shape": "sphere, of the same size, or plane",
+    "reference": "where it was published",
+}
+
+
+def parameters() -> "xr.Dataset":
+    """Return published values of restitution e, friction mu and beta_0 for pairs of bodies.
+
+    These are the three parameters of Walton's law. The exact law has the same mu, but there beta_0,
+    which is -V_x'/V_x of a contact point that sticks, follows from the elastic constants. All
+    values depend on surfaces, size and speed, so use them as first estimates.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along `pair`: `normal_restitution`, `friction` and `beta_0`, each also with `_error` as the
+        authors state it; `diameter` in m and `density` in kg/m^3 of the sphere, NaN if not stated;
+        and the texts `body`, `other`, `shape` (sphere or plane) and `reference`.
+
+    Examples
+    --------
+    >>> import carom
+    >>> known = carom.datasets.parameters()
+    >>> glass = known.isel(pair=(known.body == "soda-lime glass") & (known.other == "aluminium"))
+    >>> glass.friction.item(), glass.friction_error.item(), glass.reference.item()[:16]
+    (0.125, 0.007, 'Louge, M. Y. (19')
+    """
+    cells = _read(_data("parameters.csv"))
+    numbers = in_units(cells, NUMBERS, gaps=("diameter", "density")).columns
+    found = {name: ("pair", numbers[name], _attributes(name)) for name in NUMBERS}
+    words = {
+        name: ("pair", [str(cell) for cell in cells.column(name).cells], {"long_name": meaning})
+        for name, meaning in WORDS.items()
+    }
+    return labelled_dataset(found, words, {"name": "parameters", **cells.comments})

@@ -1,7 +1,6 @@
 from .contact_step import ContactStep as ContactStep
 from .function import FunctionLaw as FunctionLaw, FunctionRebound as FunctionRebound
 from .hard import HardSphere as HardSphere
-from .incremental import ThorntonLaw as ThorntonLaw, WaltonBraunLaw as WaltonBraunLaw
 from .memory import ExactContactLaw as ExactContactLaw
 from .mindlin import (
     EdemHertzMindlin as EdemHertzMindlin,
@@ -13,4 +12,6 @@ from .springs import (
     HertzLinearHistory as HertzLinearHistory,
     LinearSpring as LinearSpring,
     StrongeLaw as StrongeLaw,
+    ThorntonLaw as ThorntonLaw,
+    WaltonBraunLaw as WaltonBraunLaw,
 )

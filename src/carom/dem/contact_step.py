@@ -98,11 +98,6 @@ class Bodies(NamedTuple):
     linear: bool
     damping: float
 
-    @property
-    def tangential_speed(self) -> float:
-        """V_x of psi = 1."""
-        return self.constants[0] * self.speed / self.kappa
-
     def normal_force(self, d: float, v: float) -> float:
         """Return the normal force in N, its damping included."""
         part, rate = d / self.length, v / self.speed
@@ -137,7 +132,7 @@ def stepped_by(
     The record is in the units of Hertz's impact, its tangential force positive against V_x > 0.
     """
     friction, radius, modulus, _, m_n, m_t = bodies.constants
-    unit, limit = bodies.tangential_speed, friction * bodies.force
+    unit, limit = friction * bodies.speed / bodies.kappa, friction * bodies.force
     whole = bodies.length / bodies.speed  # unit of time
     dt = DURATION * whole / steps
     d, v, along, f_n, f_t = 0.0, bodies.speed, psi * unit, 0.0, 0.0

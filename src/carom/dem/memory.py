@@ -83,15 +83,15 @@ class ExactContactLaw(ContactLaw):
         alpha = viscous_loss(self.restitution)
         return alpha, alpha if self.viscous_shear else 0.0
 
-    def _memory(self) -> Array:
-        return np.empty(lattice.places(self.springs))
+    def _given(self, chi: float, steps: int) -> tuple[float, int, float, float, int, Array, Array]:
+        """Return what kernels want beside psi, with room for their memory and for loads."""
+        memory = np.empty(lattice.places(self.springs))
+        return chi, steps, *self._losses(), self.springs, memory, np.empty(LOADS)
 
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
         out, nothing = np.empty(psi.size), np.empty((0, len(HISTORY)))
-        given = chi, steps or CONVERGED, *self._losses(), self.springs, self._memory()
-        lattice.impacts(psi, *given, np.empty(LOADS), nothing, out)
+        lattice.impacts(psi, *self._given(chi, steps or CONVERGED), nothing, out)
         return out
 
     def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
-        given = chi, steps, *self._losses(), self.springs, self._memory()
-        return lattice.impact(psi, *given, np.empty(LOADS), record)[0]
+        return lattice.impact(psi, *self._given(chi, steps), record)[0]

@@ -20,7 +20,7 @@ from carom.explorer.results import Row, findings_of, rows_of
 from carom.explorer.stages import MovingBodies, precise, short, stage_of_bodies, stage_of_numbers
 from carom.explorer.views import View
 from carom.impacts.exact import Impact
-from carom.impacts.history import history_columns
+from carom.impacts.outcome import history_columns
 from carom.impacts.solve import impact
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import prefixed

@@ -14,8 +14,7 @@ from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS, Refused
 from carom.explorer.results import in_words
 from carom.explorer.views import View
 from carom.fitting import Fit, fit
-from carom.fitting.heights import HEIGHTS
-from carom.fitting.reading import read_measurements, read_problem
+from carom.fitting.reading import HEIGHTS, read_measurements, read_problem
 from carom.io.columns import entry
 from carom.io.tables import read_table
 from carom.io.user_table import Column

@@ -5,15 +5,12 @@ from math import inf
 from typing import Any
 
 from carom.bodies.pairs import Pair
-from carom.fitting.assembly import assembled
-from carom.fitting.errors import RobustLoss
 from carom.fitting.estimates import Estimate
 from carom.fitting.intervals import settle
-from carom.fitting.laws import EXACT, OFFSET, STRAIGHT
-from carom.fitting.model import Model
-from carom.fitting.options import check_count, checked_confidence, read_options
-from carom.fitting.reading import read_problem
-from carom.fitting.result import Fit
+from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model
+from carom.fitting.problem import RobustLoss
+from carom.fitting.reading import check_count, checked_confidence, read_options, read_problem
+from carom.fitting.result import Fit, assembled
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
 from carom.quantities.units import Value
@@ -107,5 +104,4 @@ def fit(
     law = STRAIGHT if problem.is_normal and not turns else EXACT
     model = Model(law, problem, (), options.start).freeing(options.free)
     loss = RobustLoss() if limited else RobustLoss(inf)
-    settled = settle(model, loss, options.start)
-    return assembled(settled, level)
+    return assembled(settle(model, loss, options.start), level)

@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.fitting.best import Best, information
-from carom.fitting.errors import NORMAL, RobustLoss, gaussian_mean
-from carom.fitting.estimates import FitRecord
-from carom.fitting.problem import FitProblem
+from carom.fitting.comparison import FitRecord
+from carom.fitting.estimation import Best, information
+from carom.fitting.problem import NORMAL, FitProblem, RobustLoss, gaussian_mean
 from carom.impacts.curves import REGIMES
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, nearest
@@ -72,12 +71,10 @@ class Advice:
 
 
 def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
-    """Return the n incidences that shorten the interval of a parameter most (c-optimal design).
+    """Return the n incidences that shorten the interval of a parameter most, as `Fit.advice`.
 
-    Expected Fisher information (Atkinson, Donev & Tobias 2007, chapter 10): one more impact at an
-    angle, at the usual speed, with the responses and errors measured so far, adds J^T J.
-
-    Raises InputError for a parameter that was not to be fitted, or an n below 1 or above 1000.
+    One more impact at an angle, at the usual speed, with the responses and errors measured so far,
+    adds J^T J to the information.
     """
     count = counted("n", n, 1, PLAN)
     best = _with_all(fit)

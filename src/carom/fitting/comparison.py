@@ -1,24 +1,31 @@
-"""The exact law against rigid Coulomb and Walton's on the same data, by Akaike's criterion."""
+"""Laws on the same data by Akaike's criterion: of rebound, and of losses against speed."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache, cached_property
 from math import inf, isfinite, nan
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 from scipy.special import stdtrit
 
-from carom.fitting.best import Best, likelihood
-from carom.fitting.errors import OUTLYING, RobustLoss
-from carom.fitting.estimation import estimate, fitted
-from carom.fitting.intervals import settle
-from carom.fitting.laws import EXACT, OFFSET, RIVALS, FittedLaw
+from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw
+from carom.bodies.pairs import Pair
+from carom.datasets.observables import NORMAL
+from carom.dimensionless.lossy.panels.stages import restitution
+from carom.dimensionless.lossy.panels.work import new_work
+from carom.fitting import model as laws
+from carom.fitting.estimates import Estimate, estimate_of
+from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan
+from carom.fitting.intervals import profiled, settle
 from carom.fitting.least_squares import descend
-from carom.fitting.model import Model
-from carom.fitting.starts import scan
+from carom.fitting.model import EXACT, OFFSET, FittedLaw, Model, Parameter, Values
+from carom.fitting.problem import OUTLYING, FitProblem, RobustLoss
 from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import span
 from carom.quantities.units import or_none
 
 START = {"tangential_restitution": 0.4}  # of a solid sphere that sticks, about
@@ -26,23 +33,46 @@ APART = 2.0  # difference of the criterion from which laws are told apart (Burnh
 CLEAR = 10.0  # from which one is out of the question
 SQUARES = RobustLoss(inf)
 ALARM = 0.001  # probability of calling a value of a response that has none an outlier
+FEWEST, RANGE = 4, 1.2  # values; of the speeds, largest over smallest: below nothing can be told
+LEAST, MOST = 1e-8, 10.0  # of a loss time, in units of d_max/V_1
+SLOWEST = 1e-5  # yield velocity, in units of the smallest speed
+CONSTANT = "constant"
 LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
 
 @dataclass(frozen=True, eq=False)
-class LawFit:
-    """A law fitted: its criterion, how much it exceeds the least, parameters by name.
-
-    `free` counts what was fitted, parameters and errors that were taken from the scatter.
-    """
+class Standing:
+    """A law fitted: by how much its criterion exceeds the least, and Akaike's weight, or NaN."""
 
     law: str
-    criterion: float
     excess: float
     weight: float
-    free: int
-    values: dict[str, float]
     best: Best = field(repr=False)
+
+    @property
+    def cells(self) -> tuple[str, str]:
+        """Excess and weight as they are printed."""
+        if isfinite(self.excess):
+            return f"{self.excess:.1f}", f"{self.weight:.3f}"
+        return "-", "-"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return excess and weight, None where they cannot be computed."""
+        return {"excess": or_none(self.excess), "weight": or_none(self.weight)}
+
+
+@dataclass(frozen=True, eq=False)
+class LawFit(Standing):
+    """A law of rebound fitted, with its criterion."""
+
+    criterion: float
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The parameters of the law, and the offset of the spin if it was fitted."""
+        offset = (OFFSET,) if OFFSET in self.best.model.free else ()
+        values = self.best.values
+        return {name: values[name] for name in (*self.best.model.law.names, *offset)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,9 +112,8 @@ class Comparison:
         return {
             each.law: {
                 "aicc": or_none(each.criterion),
-                "excess": or_none(each.excess),
-                "weight": or_none(each.weight),
-                "free": each.free,
+                **each.to_dict(),
+                "free": _free(each.best),
                 "parameters": each.values,
             }
             for each in self.standings
@@ -96,9 +125,7 @@ class Comparison:
             shown = ", ".join(
                 f"{name} {GLOSSARY[name].text(value, 4)}" for name, value in each.values.items()
             )
-            excess, weight = f"{each.excess:.1f}", f"{each.weight:.3f}"
-            if not isfinite(each.criterion):
-                excess = weight = "-"
+            excess, weight = each.cells
             lines.append(f"  {each.law:14s} {excess:>10s}  {weight:>6s}  {shown}")
         return "\n".join([*lines, self.verdict])
 
@@ -109,27 +136,25 @@ def compare(best: Best) -> Comparison:
     Values that lie far from the law that describes the others best are left out for all laws, and
     the errors are those of the best law on what is left: none gains by the scatter that it leaves.
     """
-    own = [best, *(_rival(law, best) for law in RIVALS)]
-    fits = on_common_ground(own)
-    criteria = np.array([criterion(each) for each in fits])
-    numbers = zip(criteria.tolist(), *standing(criteria), strict=True)
+    criteria, fits = on_common_ground([best, *(_rival(law, best) for law in laws.RIVALS)])
+    numbers = zip([best, *fits[1:]], *weighed(criteria), criteria.tolist(), strict=True)
     return Comparison(
         tuple(
-            LawFit(each.model.law.name, *known, _free(each), _values(each), each)
-            for each, known in zip([best, *fits[1:]], numbers, strict=True)
+            LawFit(each.model.law.name, excess, weight, each, own)
+            for each, excess, weight, own in numbers
         )
     )
 
 
-def standing(criteria: Array) -> tuple[list[float], list[float]]:
+def weighed(criteria: Array) -> tuple[list[float], list[float]]:
     """Return by how much each exceeds the least, and Akaike's weights; NaN where there is none."""
     least = np.nanmin(criteria) if np.isfinite(criteria).any() else nan
     weights = np.exp(-0.5 * (criteria - least))
     return (criteria - least).tolist(), (weights / np.nansum(weights)).tolist()
 
 
-def on_common_ground(fits: Sequence[Best]) -> list[Best]:
-    """Return laws fitted anew without the outliers of one of them, with its errors."""
+def on_common_ground(fits: Sequence[Best]) -> tuple[Array, list[Best]]:
+    """Return laws fitted anew without the outliers of one of them, by its errors, and criteria."""
     reference = min(fits, key=criterion)
     problem = reference.model.problem
     kept = replace(problem, measured=np.where(_far(reference), nan, problem.measured))
@@ -141,7 +166,8 @@ def on_common_ground(fits: Sequence[Best]) -> list[Best]:
         for model, each in zip(models, fits, strict=True)
     ]
     best = min(left, key=criterion)
-    return [_refitted(each.model, each.at, best) for each in left]
+    anew = [_refitted(each.model, each.at, best) for each in left]
+    return np.array([criterion(each) for each in anew]), anew
 
 
 def _far(best: Best) -> Mask:
@@ -173,25 +199,16 @@ def _refitted(model: Model, at: Array, common: Best) -> Best:
     return fitted(model, SQUARES, found.at[np.argmin(found.sums)], common.sigma, common.scale)
 
 
-def _price(free: int, values: int) -> float:
-    """Return what parameters cost, NaN where there are too few values."""
-    return 2.0 * free * values / (values - free - 1) if values > free + 1 else nan
-
-
 def criterion(best: Best) -> float:
     """Return AICc = -2 log L + 2 k n/(n - k - 1) (Hurvich & Tsai 1989); NaN for few values."""
-    return likelihood(best) + _price(_free(best), best.model.problem.count)
+    free, values = _free(best), best.model.problem.count
+    price = 2.0 * free * values / (values - free - 1) if values > free + 1 else nan
+    return likelihood(best) + price
 
 
 def _free(best: Best) -> int:
+    """Return how much was fitted: parameters, and errors that were taken from the scatter."""
     return len(best.model.free) + int(best.estimated.sum() + (best.scale > 1.0).sum())
-
-
-def _values(best: Best) -> dict[str, float]:
-    """Return the parameters of a law, and the offset of the spin if it was fitted."""
-    offset = (OFFSET,) if OFFSET in best.model.free else ()
-    values = best.values
-    return {name: values[name] for name in (*best.model.law.names, *offset)}
 
 
 def _rival(law: FittedLaw, best: Best) -> Best:
@@ -200,3 +217,184 @@ def _rival(law: FittedLaw, best: Best) -> Best:
     free = tuple(name for name in (*law.names, OFFSET) if name not in held)
     model = Model(law, best.model.problem, free, held)
     return settle(model, best.loss, START | best.values).best
+
+
+@dataclass(frozen=True, eq=False)
+class FitRecord:
+    """What a fit found, as data: the parameters by name, rows by regime, notes, the best fit."""
+
+    estimates: Mapping[str, Estimate]
+    confidence: float
+    regimes: Mapping[str, int]
+    notes: tuple[str, ...]
+    best: Best = field(repr=False)
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""
+        return compare(self.best)
+
+
+@dataclass(frozen=True, eq=False)
+class LossFit(Standing):
+    """A law of losses fitted to restitutions, with its one parameter."""
+
+    parameter: Estimate
+
+    @property
+    def losses(self) -> LossLaw:
+        """The law with its parameter, as `impact` takes it."""
+        value = self.parameter.value
+        if self.parameter.name == "yield_velocity":
+            return ElasticPlastic(yield_velocity=value)
+        return KelvinVoigt(**{self.parameter.name: value})
+
+    def restitution(self, normal_speed: Array) -> Array:
+        """Return the restitution at normal speeds."""
+        model = self.best.model
+        values = model.values(self.best.at[np.newaxis])
+        return np.asarray(model.law.restitution(model.problem.pair, normal_speed, values)[0])
+
+
+@dataclass(frozen=True, eq=False)
+class LossComparison:
+    """Laws of losses by Akaike's criterion on the same normal velocities, the best one first."""
+
+    standings: tuple[LossFit, ...]
+    speeds: Array
+    measured: Array
+    errors: Array
+
+    def __getitem__(self, law: str) -> LossFit:
+        return {each.law: each for each in self.standings}[law]
+
+    @property
+    def verdict(self) -> str:
+        """What the data say of the laws, in a sentence."""
+        first, *others = self.standings
+        if not isfinite(first.excess):
+            return "there are too few values to tell laws of losses apart"
+        close = [each.law for each in others if not each.excess > APART]
+        if close:
+            return f"the data cannot tell {first.law} from {' and '.join(close)}"
+        next_law = others[0].law
+        how = f"the data rule out {next_law}"
+        if others[0].excess <= CLEAR:
+            how = f"{next_law} is less likely"
+        varies = f"depends on the speed as in {first.law}"
+        told = "is the same at all speeds" if first.law == CONSTANT else varies
+        return f"the restitution {told}; {how}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the comparison as plain numbers, by law; what cannot be computed is None."""
+        return {
+            each.law: {**each.to_dict(), each.parameter.name: each.parameter.to_dict()}
+            for each in self.standings
+        }
+
+    def __str__(self) -> str:
+        speeds = span(float(self.speeds.min()), float(self.speeds.max()), "m/s", 3)
+        head = f"losses at normal speeds of {speeds}"
+        fitted = [f"{each.law}: {each.parameter.name} {each.parameter}" for each in self.standings]
+        wide = max(48, *map(len, fitted))
+        lines = [f"{head:{wide}s}AICc excess  weight"]
+        for each, told in zip(self.standings, fitted, strict=True):
+            excess, weight = each.cells
+            lines.append(f"  {told:{wide}s} {excess:>8s}  {weight:>6s}")
+        return "\n".join([*lines, self.verdict])
+
+
+def compare_losses(best: Best, confidence: float) -> LossComparison | None:
+    """Return laws of losses on the normal velocities of a fit; None where they tell nothing.
+
+    A constant restitution, the viscoelastic solid of one loss time (Kuwabara & Kono 1987), and the
+    sphere that yields (Thornton 1997), on common ground as laws of rebound are.
+    """
+    problem = _normal(best.model.problem)
+    if problem is None:
+        return None
+    own = [
+        settle(Model(law, problem, law.names, {OFFSET: 0.0}), best.loss, _elastic(law)).best
+        for law in _laws(problem)
+    ]
+    criteria, fits = on_common_ground(own)
+    excess, weights = weighed(criteria)
+    standings = []
+    for place in np.argsort(criteria):
+        found = profiled(fits[place], confidence)
+        law = found.best.model.law
+        parameter = estimate_of(found, law.names[0])
+        standings.append(LossFit(law.name, excess[place], weights[place], found.best, parameter))
+    measured, errors = _restitutions(problem, standings[0].best)
+    return LossComparison(tuple(standings), problem.motion.normal_speed, measured, errors)
+
+
+def _normal(problem: FitProblem) -> FitProblem | None:
+    """Return the normal responses alone, if their speeds are known and differ."""
+    places = [place for place, name in enumerate(problem.responses) if name in NORMAL]
+    if not places or not problem.has_speeds:
+        return None
+    there = problem.present[:, places]
+    speeds = problem.motion.normal_speed[there.any(axis=1)]
+    if there.sum() < FEWEST or speeds.max() < RANGE * speeds.min():
+        return None
+    names = tuple(problem.responses[place] for place in places)
+    measured, errors = problem.measured[:, places], problem.errors[:, places]
+    return replace(problem, responses=names, measured=measured, errors=errors)
+
+
+def _restitutions(problem: FitProblem, best: Best) -> tuple[Array, Array]:
+    """Return measured restitutions, outliers too, and their errors; the first response counts."""
+    is_speed = problem.responses[0] == "normal_speed_out"
+    scale = 1.0 / problem.motion.normal_speed if is_speed else 1.0
+    return scale * problem.measured[:, 0], scale * best.sigma[:, 0] * best.scale[0]
+
+
+def _laws(problem: FitProblem) -> tuple[FittedLaw, ...]:
+    """Return the laws, with ranges beyond which nothing changes at these speeds."""
+    speeds = problem.motion.normal_speed
+    times = _times(problem.pair, speeds)
+    loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None)
+    yielding = Parameter("yield_velocity", SLOWEST * speeds.min(), float(speeds.max()), None)
+    return (
+        FittedLaw(CONSTANT, (laws.ANY_RESTITUTION,), laws.untouched),
+        FittedLaw("KelvinVoigt", (loss_time,), laws.untouched, viscous),
+        FittedLaw("ElasticPlastic", (yielding,), laws.untouched, plastic),
+    )
+
+
+def _elastic(law: FittedLaw) -> dict[str, float]:
+    """Return the parameter with which a law loses next to nothing."""
+    (parameter,) = law.parameters
+    is_time = parameter.name == "loss_time"
+    return {parameter.name: parameter.low if is_time else parameter.high}
+
+
+def _times(pair: Pair, normal_speed: Any) -> Array:
+    """Return d_max/V_1 at each speed."""
+    return np.asarray(pair.scales(normal_speed).time)
+
+
+def viscous(pair: Pair, normal_speed: Array, values: Values) -> Array:
+    """Return e(alpha), alpha = tau V_1/d_max (Kuwabara & Kono 1987), without tension."""
+    alpha = values["loss_time"] / _times(pair, normal_speed)
+    return np.asarray(np.exp(-np.exp(_viscous()(np.log(alpha)))))
+
+
+@cache
+def _viscous() -> CubicSpline:
+    """Return log(-log e) of log alpha, which is nearly straight at both ends."""
+    alphas, work = np.geomspace(1e-7, 90.0, 241), new_work()
+    found = np.array([restitution(float(alpha), work) for alpha in alphas])
+    return CubicSpline(np.log(alphas), np.log(-np.log(found)))
+
+
+def plastic(pair: Pair, normal_speed: Array, values: Values) -> Array:
+    """Return e = P_max/d_max^(1/4) of a sphere that yields, 1 below V_y (Thornton 1997, (28)).
+
+    In units of the elastic impact, y = (V_y/V_1)^(2/5) and P_max^2 = (6/5) y - y^6/5.
+    """
+    y = np.minimum(values["yield_velocity"] / normal_speed, 1.0) ** 0.4
+    peak = np.sqrt(1.2 * y - 0.2 * y**6)
+    deepest = y**2 + (peak - y**3) / (1.5 * y)
+    return np.asarray(peak / deepest**0.25)

@@ -1,13 +1,9 @@
-"""What a fit found: parameters with intervals, or why there is none, and what else is known."""
+"""What a fit found: parameters with intervals, or why there is none."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
 from math import floor, inf, isfinite, isnan, log10, nan
 from typing import Any
 
-from carom.fitting.best import Best
-from carom.fitting.comparison import Comparison, compare
 from carom.fitting.intervals import ProfiledFit
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
@@ -94,31 +90,8 @@ def estimate_of(found: ProfiledFit, name: str) -> Estimate:
     return Estimate(name, value, low, high)
 
 
-@dataclass(frozen=True, eq=False)
-class FitRecord:
-    """What a fit found, as data: the parameters by name, rows by regime, notes, the best fit."""
-
-    estimates: Mapping[str, Estimate]
-    confidence: float
-    regimes: Mapping[str, int]
-    notes: tuple[str, ...]
-    best: Best = field(repr=False)
-
-    @cached_property
-    def comparison(self) -> Comparison:
-        """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""
-        return compare(self.best)
-
-
 def significant(value: float, width: float) -> int:
-    """Return how many digits of a value to show, two of the width of its interval.
-
-    Examples
-    --------
-    >>> from carom.fitting.estimates import significant
-    >>> significant(0.0921, 0.0014), significant(-3.0, 40.0)
-    (3, 2)
-    """
+    """Return how many digits of a value to show, two of the width of its interval."""
     if not (isfinite(width) and width > 0.0 and value):
         return 4
     return max(2, min(8, 2 + floor(log10(abs(value))) - floor(log10(width))))

@@ -1,18 +1,176 @@
-"""The best fit: descents from a few starts, errors from the scatter, and lmfit at the end."""
+"""The best fit: a scan, descents, errors from the scatter, lmfit; what the values tell."""
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.fitting import errors
-from carom.fitting.best import Best, information, normalization
-from carom.fitting.least_squares import descend
+from carom.fitting import problem as errors
+from carom.fitting.least_squares import Minimum, descend, jacobian
 from carom.fitting.model import Model
-from carom.fitting.starts import scan
+from carom.fitting.problem import FitProblem
 from carom.io.extras import extra
 from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 
+WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell
+
+
+@dataclass(frozen=True, eq=False)
+class Information:
+    """Derivatives of residuals, of shape (rows, responses, parameters), in standard deviations."""
+
+    slopes: Array
+
+    @cached_property
+    def matrix(self) -> Array:
+        """Fisher's information, of shape (parameters, parameters)."""
+        return np.asarray(np.einsum("rjp,rjq->pq", self.slopes, self.slopes))
+
+    @cached_property
+    def covariance(self) -> Array:
+        """Covariance of the coordinates; one that is not told is uncertain by 1/WEAK."""
+        sizes, directions = np.linalg.eigh(self.matrix)
+        known = np.maximum(sizes, 0.0) + WEAK**2 * 1e-2
+        return np.asarray((directions / known) @ directions.T)
+
+    @property
+    def used(self) -> Array:
+        """How many of the parameters each response determines."""
+        taken = np.einsum("rjp,pq,rjq->j", self.slopes, self.covariance, self.slopes)
+        return np.asarray(taken)
+
+    @property
+    def shares(self) -> Array:
+        """Variances of the coordinates from each response, of shape (parameters, responses)."""
+        gains = np.einsum("pq,rjq->prj", self.covariance, self.slopes)
+        return np.asarray(np.square(gains).sum(axis=1))
+
+
+def information(
+    model: Model, at: Array, weights: errors.Weights, loss: errors.RobustLoss
+) -> Information:
+    """Return what the values tell at coordinates of shape (parameters,)."""
+    residuals = model.residuals(weights, loss)
+    start = at[np.newaxis]
+    slopes = jacobian(residuals, start, residuals(start), model.bounds)[0]
+    return Information(slopes.reshape(*model.problem.measured.shape, -1))
+
+
+@dataclass(frozen=True, eq=False)
+class Best:
+    """A model fitted: coordinates, loss there, and the errors that were used.
+
+    `estimated` tells of which responses the errors come from the scatter, `scale` by how much
+    errors that were given had to be made larger, `others` where descents from other starts ended.
+    """
+
+    model: Model
+    at: Array
+    sum: float
+    weights: errors.Weights
+    loss: errors.RobustLoss
+    sigma: Array
+    scale: Array
+    estimated: Mask
+    others: Array
+    result: Any = None
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Values of all parameters."""
+        return self.model.values_at(self.at)
+
+    @property
+    def expected(self) -> Array:
+        """The responses that the fit gives, of shape (rows, responses)."""
+        return np.asarray(self.model.expected(self.at[np.newaxis])[0])
+
+    @property
+    def residuals(self) -> Array:
+        """Residuals in standard deviations, of shape (rows, responses), 0 where not measured."""
+        return np.asarray(self.weights.whitened(self.model.problem, self.expected[np.newaxis])[0])
+
+    @cached_property
+    def rivals(self) -> Minimum:
+        """Minima found from other starts."""
+        residuals = self.model.residuals(self.weights, self.loss)
+        return descend(residuals, self.others, self.model.bounds)
+
+    @cached_property
+    def information(self) -> Information:
+        """What the values tell of the free parameters."""
+        return information(self.model, self.at, self.weights, self.loss)
+
+    @property
+    def freedom(self) -> Array:
+        """Degrees of freedom of the error of each parameter (Welch & Satterthwaite 1946-47)."""
+        with np.errstate(divide="ignore"):
+            return np.asarray(1.0 / (self._shares**2 * self._doubts).sum(axis=1))
+
+    @property
+    def caution(self) -> Array:
+        """What weights from the scatter, uncertain themselves, add to variances (Meier 1953).
+
+        1 + 4 sum p (1 - p)/nu over responses, with the part p of each in a variance, for each
+        parameter.
+        """
+        parts = self._shares
+        return np.asarray(1.0 + 4.0 * (parts * (1.0 - parts) * self._doubts).sum(axis=1))
+
+    @property
+    def _shares(self) -> Array:
+        """Part of each response in the variance of each parameter, (parameters, responses)."""
+        shares = self.information.shares
+        return np.asarray(shares / np.maximum(shares.sum(axis=1, keepdims=True), 1e-300))
+
+    @property
+    def _doubts(self) -> Array:
+        """One over the degrees of freedom of errors from the scatter, 0 where they are known."""
+        own = np.maximum(self.model.problem.present.sum(axis=0) - self.information.used, 1.0)
+        return np.asarray((self.estimated | (self.scale > 1.0)) / own)
+
+    @property
+    def spread(self) -> float:
+        """What the loss rises by, in units of chi squared, where a parameter is one sigma off.
+
+        E[influence^2]/E[slope] (Huber 1981, section 7.6), 1 for squares: that of normal errors, or
+        more where those found say so.
+        """
+        if self.loss.is_square:
+            return 1.0
+        found = self.residuals[self.model.problem.present]
+        used = float(self.information.used.sum())
+
+        def ratio(mean: Callable[[Callable[[Array], Array]], float]) -> float:
+            return mean(lambda r: self.loss.influence(r) ** 2) / mean(self.loss.slope)
+
+        normal = ratio(lambda f: errors.gaussian_mean(f(errors.NORMAL)))
+        return max(normal, ratio(lambda f: errors.mean_over(found, f, used)))
+
+
+def likelihood(best: Best) -> float:
+    """Return -2 log likelihood."""
+    return best.sum + normalization(best.model, best.weights, best.loss)
+
+
+def normalization(model: Model, weights: errors.Weights, loss: errors.RobustLoss) -> float:
+    """Return -2 log likelihood of residuals of zero."""
+    problem = model.problem
+    return weights.sizes(problem.present) + problem.count * loss.size
+
+
+STARTS = 6  # starting points that are followed to the end
+FINE = {  # levels of the scan
+    "friction": 25,
+    "kappa": 12,
+    "tangential_restitution": 9,
+    "loss_time": 40,
+    "yield_velocity": 40,
+}
 TURNS = 8  # times that errors are estimated and the fit is made anew
 FOLLOWED = 3  # minima that are followed with errors of their own
 HOPELESS = 20.0  # of -2 log likelihood behind the best, after two turns
@@ -49,14 +207,8 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
     ]
     found = min(followed, key=lambda each: each.against)
     others = [each.at for each in (*followed, *begun) if each is not found]
-    return fitted(
-        model,
-        found.loss,
-        found.at,
-        found.sigma,
-        found.scale,
-        np.array([*others, *minima[FOLLOWED:]]),
-    )
+    elsewhere = np.array([*others, *minima[FOLLOWED:]])
+    return fitted(model, found.loss, found.at, found.sigma, found.scale, elsewhere)
 
 
 def rough_minima(model: Model, loss: errors.RobustLoss, start: Array | None = None) -> Array:
@@ -84,18 +236,9 @@ def fitted(
     best, result = polished(model, weights, loss, at)
     total = float(np.square(model.residuals(weights, loss)(best[np.newaxis])).sum())
     elsewhere = np.empty((0, len(at))) if others is None or not len(others) else others
-    return Best(
-        model,
-        best,
-        total,
-        weights,
-        loss,
-        sigma,
-        scale,
-        np.asarray(unknown.any(axis=0)),
-        elsewhere,
-        result,
-    )
+    by_scatter = np.asarray(unknown.any(axis=0))
+    errors_used = weights, loss, sigma, scale, by_scatter
+    return Best(model, best, total, *errors_used, elsewhere, result)
 
 
 def distinct(points: Array) -> Array:
@@ -163,3 +306,65 @@ def polished(
     found = np.array(list(result.params.valuesdict().values()))
     before, after = np.square(of(parameters)).sum(), np.square(residuals(found[None])).sum()
     return (found if after <= before else at), result
+
+
+def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
+    """Return a few starting points: the best of a grid over the ranges, unlike each other.
+
+    Valleys along one parameter, the others following, come first: there may be other minima.
+    """
+    levels = [_levels(model, name) for name in model.free]
+    grid = np.array(list(product(*levels)))
+    inverse = 1.0 / np.where(model.problem.present, sigma, 1.0)
+    weights = errors.Weights(inverse[:, :, np.newaxis] * np.eye(sigma.shape[1]))
+    sums = np.square(model.residuals(weights, loss)(grid)).sum(axis=1)
+    chosen: list[int] = []
+    apart = np.array([max(np.ptp(column), 1e-9) for column in grid.T]) / 8.0
+    valley = _valleys(sums.reshape([len(each) for each in levels]))
+    for place in np.lexsort((sums, ~valley)):
+        if all(np.any(np.abs(grid[place] - grid[other]) > apart) for other in chosen):
+            chosen.append(int(place))
+        if len(chosen) == STARTS:
+            break
+    return grid[chosen]
+
+
+def _valleys(sums: Array) -> Mask:
+    """Return which points of a grid, counted in one row, are least along one of its axes.
+
+    Along an axis counts the least of all points with the same place on it.
+    """
+    found = np.zeros(sums.size, dtype=bool)
+    places = np.arange(sums.size).reshape(sums.shape)
+    for axis, count in enumerate(sums.shape):
+        across = np.moveaxis(sums, axis, 0).reshape(count, -1)
+        least, at = across.min(axis=1), across.argmin(axis=1)
+        beside = np.concatenate([[np.inf], least, [np.inf]])
+        low = (least <= beside[:-2]) & (least <= beside[2:])
+        found[np.moveaxis(places, axis, 0).reshape(count, -1)[low, at[low]]] = True
+    return found
+
+
+def _levels(model: Model, name: str) -> Array:
+    """Return the coordinates of a parameter in the scan."""
+    if name == "restitution":
+        return _likely_restitutions(model.problem)
+    if name not in FINE:
+        return np.zeros(1)
+    place = model.free.index(name)
+    low, high = model.bounds.low[place], model.bounds.high[place]
+    if name == "friction":
+        low, high = np.log(5e-3), np.log(3.0)
+    return np.linspace(low, high, FINE[name] + 2)[1:-1]
+
+
+def _likely_restitutions(problem: FitProblem) -> Array:
+    """Return normal restitutions to start from: what was measured, or a few."""
+    measured = dict(zip(problem.responses, problem.measured.T, strict=True))
+    if "normal_restitution" in measured:
+        found = measured["normal_restitution"]
+    elif "normal_speed_out" in measured:
+        found = measured["normal_speed_out"] / problem.motion.normal_speed
+    else:
+        return np.array([0.6, 0.8, 0.95])
+    return np.clip([float(np.nanmedian(found))], 0.35, 0.999)

@@ -8,12 +8,10 @@ import numpy as np
 from scipy.special import ndtri, stdtrit
 
 from carom.dimensionless.rebounds import THROUGHOUT
-from carom.fitting.best import WEAK, Best, Information
-from carom.fitting.errors import RobustLoss
-from carom.fitting.estimation import estimate
-from carom.fitting.laws import OFFSET
+from carom.fitting.estimation import WEAK, Best, Information, estimate
 from carom.fitting.least_squares import descend
-from carom.fitting.model import Model
+from carom.fitting.model import OFFSET, Model
+from carom.fitting.problem import RobustLoss
 from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 
@@ -78,7 +76,7 @@ def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Arr
     variance = covariance[place]
     directions = covariance / variance[:, np.newaxis]  # how the others follow, to first order
     width = np.minimum(np.sqrt(rises) * np.sqrt(variance), ((high - low) / FIRST)[which])
-    brackets = _Brackets.around(2 * count)
+    brackets = _Brackets(*(np.full(2 * count, end) for end in (0.0, np.inf, 0.0, np.inf)))
     at = np.tile(best.at, (2 * count, 1))
     ends, done, rise = at.copy(), np.zeros(2 * count, dtype=bool), np.zeros(2 * count)
     better = None
@@ -110,11 +108,6 @@ class _Brackets(NamedTuple):
     outside: Array
     root_in: Array
     root_out: Array
-
-    @classmethod
-    def around(cls, count: int) -> "_Brackets":
-        """Return brackets that may end anywhere."""
-        return cls(*(np.full(count, end) for end in (0.0, np.inf, 0.0, np.inf)))
 
     def narrowed(self, distance: Array, root: Array) -> "_Brackets":
         """Return the brackets with one end moved to a distance where the root is known."""
@@ -195,7 +188,12 @@ def _held(best: Best, group: tuple[str, ...], start: float) -> Best:
 def reason(group: tuple[str, ...], best: Best) -> str:
     """Return why the data do not tell a group of parameters."""
     if len(group) > 1:
-        return _together(group)
+        others = f"fix one of them, e.g. fixed={{'{group[0]}': {EXAMPLES[group[0]]}}}"
+        if set(group) == {"friction", "restitution"}:
+            cure = f"{others}, or measure normal_restitution"
+            return f"only friction (1 + restitution) matters; {cure}"
+        *most, last = sorted(group)
+        return f"the data determine {', '.join(most)} and {last} only together; {others}"
     name, found = group[0], best.model.regimes(best.at)
     if name == "kappa" and np.all(found == THROUGHOUT):
         return "every row slips throughout, where the stiffness does not matter"
@@ -204,11 +202,3 @@ def reason(group: tuple[str, ...], best: Best) -> str:
     if name == "restitution":
         return "nothing that was measured depends on it; measure normal_restitution, too"
     return "over its whole range it changes the values by less than their scatter"
-
-
-def _together(group: tuple[str, ...]) -> str:
-    others = f"fix one of them, e.g. fixed={{'{group[0]}': {EXAMPLES[group[0]]}}}"
-    if set(group) == {"friction", "restitution"}:
-        return f"only friction (1 + restitution) matters; {others}, or measure normal_restitution"
-    *most, last = sorted(group)
-    return f"the data determine {', '.join(most)} and {last} only together; {others}"

@@ -1,14 +1,15 @@
-"""What was measured: rows of motion before, responses after, their errors."""
+"""What was measured, and errors of it: a robust loss, weights, scatter from which errors come."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
+from scipy.special import gammaln
 
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import convert_observables
-from carom.fitting.laws import IncomingMotion
 from carom.io.user_table import Mask, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -16,6 +17,15 @@ from carom.quantities.glossary import GLOSSARY
 ONE = np.radians(0.1)  # incidences that are one
 NOTHING = 1e-9  # part of the speed that is no tangential speed
 STEEPEST = np.radians(89.9)
+
+
+class IncomingMotion(NamedTuple):
+    """Motion before the impacts, one a row, in SI units."""
+
+    normal_speed: Array
+    tangential_speed: Array
+    spin: Array
+    spin2: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,3 +127,182 @@ class FitProblem:
             (self.moved({name: error}), self.moved({name: -error}))
             for name, error in self.before_errors.items()
         )
+
+
+NORMAL = np.linspace(-10.0, 10.0, 2001)  # where means over a normal distribution are taken
+SURE = 3.09  # standard deviations beyond which errors that were given are called too small
+RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
+OUTLYING = 4.0  # standard deviations of an outlier
+LARGER = 10.0  # times the median: larger values are outliers before anything is fitted
+TINY = 1e-2  # of what a response may be: values below are as good as zero
+SHARES = (0.0, 0.5, 0.99)  # of a variance that go like the value squared
+LARGEST = 1e70  # residual whose powers do not overflow
+DEGREES = (3.0, 5.0, 10.0, 30.0)  # of freedom of Student's t
+TRUSTED = 10.0  # values that a normal distribution counts for where a mean over few is taken
+
+
+@dataclass(frozen=True)
+class RobustLoss:
+    """Loss (nu + 1) log(1 + r^2/nu) of a residual r in standard deviations.
+
+    -2 log likelihood of Student's t with nu degrees of freedom (Lange, Little & Taylor 1989): about
+    r^2 (nu + 1)/nu for small r, while outliers hardly pull. With nu infinite it is r^2.
+    """
+
+    degrees: float = 5.0
+
+    @property
+    def size(self) -> float:
+        """-2 log of the density of a residual of zero."""
+        if self.is_square:
+            return float(np.log(2.0 * np.pi))
+        half = 0.5 * self.degrees
+        return float(np.log(self.degrees * np.pi) - 2.0 * (gammaln(half + 0.5) - gammaln(half)))
+
+    @property
+    def is_square(self) -> bool:
+        """Whether it is the loss of least squares."""
+        return self.degrees == np.inf
+
+    def root(self, residual: Array) -> Array:
+        """Return the residual whose square is the loss, of the same sign."""
+        if self.is_square:
+            return residual
+        r = np.clip(residual, -LARGEST, LARGEST)
+        return np.copysign(np.sqrt((self.degrees + 1.0) * np.log1p(r**2 / self.degrees)), r)
+
+    def influence(self, residual: Array) -> Array:
+        """Return half the derivative of the loss."""
+        if self.is_square:
+            return residual
+        r = np.clip(residual, -LARGEST, LARGEST)
+        return np.asarray((self.degrees + 1.0) * r / (self.degrees + r**2))
+
+    def slope(self, residual: Array) -> Array:
+        """Return the derivative of the influence."""
+        if self.is_square:
+            return np.ones_like(residual)
+        square = np.clip(residual, -LARGEST, LARGEST) ** 2
+        return np.asarray(
+            (self.degrees + 1.0) * (self.degrees - square) / (self.degrees + square) ** 2
+        )
+
+
+def gaussian_mean(values: Array) -> float:
+    """Return the mean of a function, given at NORMAL, over a standard normal distribution."""
+    density = np.exp(-0.5 * NORMAL**2)
+    return float((values * density).sum() / density.sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Weights:
+    """What makes residuals independent and of unit variance: inverse Cholesky factors by row."""
+
+    factors: Array
+
+    def whitened(self, problem: FitProblem, expected: Array) -> Array:
+        """Return the residuals in standard deviations, 0 where nothing was measured."""
+        residual = np.where(problem.present, problem.measured - expected, 0.0)
+        return np.asarray(np.einsum("rij,brj->bri", self.factors, residual))
+
+    def sizes(self, present: Mask) -> float:
+        """Return the logarithm of the determinant of the covariances."""
+        return -2.0 * float(np.log(np.einsum("rjj->rj", self.factors)[present]).sum())
+
+
+def first_errors(problem: FitProblem) -> Array:
+    """Return errors to begin with where none are known: a part of the spread of each response."""
+    low, high = np.nanpercentile(problem.measured, (10.0, 90.0), axis=0)
+    spread = (high - low) / 2.56  # few outliers do not move it
+    return np.asarray(0.1 * spread + least_error(problem))
+
+
+def usable_errors(problem: FitProblem) -> Array:
+    """Return the errors that were given, none smaller than that of the curves."""
+    return np.maximum(problem.errors, least_error(problem))
+
+
+def least_error(problem: FitProblem) -> Array:
+    """Return the error of the interpolated curves, by response."""
+    sizes = np.abs(problem.measured)
+    largest = np.minimum(np.nanmax(sizes, axis=0), LARGER * np.nanmedian(sizes, axis=0))
+    return np.asarray(RESOLVED * np.maximum(largest, TINY * problem.sizes))
+
+
+def mean_over(values: Array, function: Callable[[Array], Array], used: float = 0.0) -> float:
+    """Return the mean of a function over residuals, a few of a normal distribution among them."""
+    count = max(values.size - used, 1.0)
+    own = values.size * float(function(values).mean()) / count
+    return (count * own + TRUSTED * gaussian_mean(function(NORMAL))) / (count + TRUSTED)
+
+
+def scattered(
+    problem: FitProblem, deviations: Array, expected: Array, used: Array, loss: RobustLoss
+) -> Array:
+    """Return standard deviations of responses, of shape (rows, responses), from how they scatter.
+
+    Angles and ratios scatter by a constant, sigma = s; speeds and spins by a constant and a share
+    of the value, sigma^2 = s^2 (1 - a + a y^2/median(y)^2), y the expected values. Variances are a
+    mean over a, weighted by the likelihood (Burnham & Anderson 2002, section 4.2); in least squares
+    they are constant.
+    """
+    shares = np.array(SHARES[:1] if loss.is_square else SHARES)[:, np.newaxis]
+    sigma, least = np.ones((len(shares), *problem.present.shape)), least_error(problem)
+    for place, there in enumerate(problem.present.T):
+        sizes = expected[there, place] ** 2 / max(np.median(expected[there, place] ** 2), 1e-300)
+        parts = shares * problem.scales_with_speed[place]
+        shapes = np.sqrt(1.0 - parts + parts * sizes)
+        scales = _scales(deviations[there, place] / shapes, used[place], loss)
+        sigma[:, there, place] = np.maximum(scales[:, np.newaxis] * shapes, least[place])
+    own, there = sigma[:, problem.present], deviations[problem.present]
+    against = (2.0 * np.log(own) + loss.root(there / own) ** 2).sum(axis=1)
+    weights = np.exp(-0.5 * (against - against.min()))
+    return np.asarray(np.sqrt(np.tensordot(weights / weights.sum(), sigma**2, axes=1)))
+
+
+def likeliest(residuals: Array) -> RobustLoss:
+    """Return the loss with those degrees of freedom by which residuals are likeliest."""
+
+    def against(loss: RobustLoss) -> float:
+        return float((loss.root(residuals) ** 2 + loss.size).sum())
+
+    return min((RobustLoss(degrees) for degrees in DEGREES), key=against)
+
+
+def scatter(residuals: Array, present: Mask, used: Array, loss: RobustLoss) -> Array:
+    """Return by how much the scatter of each response exceeds its errors."""
+    columns = zip(residuals.T, present.T, used, strict=True)
+    return np.array(
+        [float(_scales(r[there], part, loss)) if there.any() else 1.0 for r, there, part in columns]
+    )
+
+
+def _scales(residuals: Array, used: float, loss: RobustLoss) -> Array:
+    """Return the scales of residuals along the last axis: mean r psi(r) as normal ones have it."""
+    kept = max(1.0 - used / residuals.shape[-1], 0.05)
+    wanted = kept * gaussian_mean(NORMAL * loss.influence(NORMAL))
+    factor = np.sqrt(np.mean(residuals**2, axis=-1))
+    for _ in range(50):
+        scaled = residuals / np.maximum(factor, 1e-300)[..., np.newaxis]
+        step = np.sqrt(np.mean(scaled * loss.influence(scaled), axis=-1) / wanted)
+        factor = factor * step
+        if np.all((np.abs(step - 1.0) < 1e-5) | (factor == 0.0)):
+            break
+    return np.asarray(factor)
+
+
+def typical_deviation(residuals: Array, present: Mask) -> Array:
+    """Return the median deviation of each response, in its errors; few outliers do not move it."""
+    shown = np.where(present, np.abs(residuals), np.nan)
+    return np.asarray(np.nanmedian(shown, axis=0) / 0.6745)
+
+
+def too_small(present: Mask, factors: Array, typical: Array) -> Mask:
+    """Tell which scatter is larger than errors that were given allow.
+
+    Chi squared (Wilson & Hilferty 1931) and the median deviation (Huber 1981, section 5.1) must
+    both say so: not a few outliers, but most of the values.
+    """
+    counts = np.maximum(present.sum(axis=0), 1)
+    bound = (1.0 - 2.0 / (9.0 * counts) + SURE * np.sqrt(2.0 / (9.0 * counts))) ** 1.5
+    return np.asarray((factors > bound) & (typical > 1.0 + SURE * 1.17 / np.sqrt(counts)))

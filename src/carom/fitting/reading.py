@@ -1,48 +1,45 @@
-"""Measurements read and checked: what contradicts itself, or has another unit, is refused."""
+"""What a user gives to a fit, read and checked: measurements, and which parameters are varied."""
 
-from collections.abc import Collection, Mapping
-from typing import Any
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from carom.bodies.cases import check_case, pair_of
 from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair, alike, checked_pair
-from carom.datasets.observables import (
-    BEFORE,
-    FASTEST,
-    INCIDENCE,
-    OBSERVABLES,
-    RELATIVE,
-    SCALED,
-    SLOWEST,
-)
+from carom.datasets import observables
+from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.rebound_tables import STORED_CHI
-from carom.fitting.heights import HEIGHTS, with_speeds
-from carom.fitting.laws import IncomingMotion
-from carom.fitting.problem import NOTHING, FitProblem
+from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged
+from carom.fitting.problem import NOTHING, FitProblem, IncomingMotion
 from carom.io.columns import ERROR, entry, in_units, others, with_errors
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError
-from carom.quantities.units import WHY_POSITIVE
+from carom.quantities.refusals import InputError, checked_type, clipped, nearest, refusal
+from carom.quantities.units import WHY_POSITIVE, number
 
-MOST = 1.5  # restitution that scatter may reach; beyond it is a percentage, or another unit
+MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit
 LARGEST = 1e9  # of what has no unit
 NO_LARGER = "must be positive and, apart from scatter, no larger than {}"
 START = 0.3  # friction of bodies of which none is known, to begin with
+HEIGHTS = {"drop_height": "normal_speed", "rebound_height": "normal_speed_out"}
+TWICE = ("speed", "angle", "tangential_speed", "contact_angle", "psi_in", "normal_restitution")
+GRAVITY = 9.80665  # m/s^2
+DRAG, AIR = 0.45, 1.2  # drag coefficient of a sphere at Reynolds numbers of 1e3 to 1e5; kg/m^3
+NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
+EXAMPLES = {"friction": 0.2, "restitution": 0.98}
+FIRST = ("friction", "kappa", "restitution")  # varied unless something else is said
 
 
 def read_problem(
     data: Any, pair: Pair | None, columns: Mapping[str, str] | None = None
 ) -> FitProblem:
-    """Return what was measured, or raise InputError for all that cannot be used.
-
-    `columns` tells what heads of the data stand for.
-    """
+    """Return what was measured, or raise InputError for all that cannot be used."""
     table = read_table(data, columns)
     with Faults() as faults:
         return _problem(table, pair, faults)
@@ -51,10 +48,7 @@ def read_problem(
 def read_measurements(
     table: UserTable, faults: Faults | None = None
 ) -> tuple[UserTable, tuple[str, ...]]:
-    """Return a table of measurements in SI units, with speeds of drops, and what it holds besides.
-
-    Adds to the faults what no bodies make right: cells, units and names of columns.
-    """
+    """Return measurements in SI units, with speeds of drops, and what the table holds besides."""
     known = with_errors((*BEFORE, *OBSERVABLES, *HEIGHTS))
     ignored = others(table, known, faults)
     rows = in_units(table, known, (*OBSERVABLES, "rebound_height"), faults)
@@ -107,17 +101,18 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
 
 def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bool]:
     """Return the bodies, and whether their friction is known; otherwise it is a guess."""
-    own = None if case is None else _bodies_of(case)
+    own = None
+    if case is not None:
+        check_case(case)
+        own = pair_of({"friction": 0.0, **case})
     if pair is not None:
         checked_pair(pair)
         if own is not None and not alike(pair, own):
             raise InputError(
                 "pair: its bodies differ from those in the data; leave it, or --case, out"
             )
-        bodies = pair
-    elif own is not None:
-        bodies = own
-    else:
+    bodies = own if pair is None else pair
+    if bodies is None:
         raise InputError(
             "pair: missing, and the data do not name the bodies; give pair=carom.Pair(...) in "
             "Python or --case FILE in a shell, or write the bodies as JSON into a comment "
@@ -131,11 +126,6 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
         )
     known = bodies.friction > 0.0
     return bodies if known else Pair(bodies.first, bodies.second, START), known
-
-
-def _bodies_of(case: Mapping[str, Any]) -> Pair:
-    check_case(case)
-    return pair_of({"friction": 0.0, **case})
 
 
 def _errors(rows: UserTable, name: str) -> Array:
@@ -155,7 +145,7 @@ def _errors(rows: UserTable, name: str) -> Array:
 
 def _check_sizes(rows: UserTable, pair: Pair) -> None:
     """Raise InputError for numbers, or errors of them, in a unit that cannot be theirs."""
-    most = {"m/s": FASTEST, "rad/s": FASTEST / pair.first.radius}
+    most = {"m/s": observables.FASTEST, "rad/s": observables.FASTEST / pair.first.radius}
     for name in rows.columns:
         unit = GLOSSARY[entry(name)].unit if entry(name) in GLOSSARY else ""
         rows.refuse(name, np.abs(rows[name]) > most.get(unit, LARGEST), "check its unit")
@@ -163,8 +153,8 @@ def _check_sizes(rows: UserTable, pair: Pair) -> None:
 
 def _check_before(rows: UserTable, before: Mapping[str, Array], responses: Collection[str]) -> None:
     """Raise InputError if the motion before is missing, said twice, or out of range."""
-    ways = [name for name in INCIDENCE if name in before]
-    needing = sorted(set(SCALED) & {*before, *responses})
+    ways = [name for name in observables.INCIDENCE if name in before]
+    needing = sorted(observables.SCALED & {*before, *responses})
     if not ways:
         rows.require("angle")
     if len(ways) > 1:
@@ -176,7 +166,7 @@ def _check_before(rows: UserTable, before: Mapping[str, Array], responses: Colle
             f"speed: column missing; {needing[0]} needs speed and angle, or normal_speed"
         )
     for name in filter(before.__contains__, WHY_POSITIVE):
-        rows.refuse(name, before[name] < SLOWEST, "check its unit")
+        rows.refuse(name, before[name] < observables.SLOWEST, "check its unit")
     for name in before:
         if (error := name + ERROR) in rows.columns:
             rows.refuse(error, rows[error] < 0.0, "a standard deviation is zero or positive")
@@ -187,7 +177,7 @@ def _check_before(rows: UserTable, before: Mapping[str, Array], responses: Colle
 
 def _check_responses(pair: Pair, rows: UserTable, motion: IncomingMotion, velocity: Array) -> None:
     """Raise InputError for responses that contradict the motion before, or are out of range."""
-    for name in filter(rows.columns.__contains__, RELATIVE):
+    for name in filter(rows.columns.__contains__, observables.RELATIVE):
         basis = velocity if name.startswith("contact") else motion.tangential_speed
         rested = np.abs(basis) <= NOTHING * motion.normal_speed
         allowed = "the tangential velocity before is zero; write '-', or give tangential_speed_out"
@@ -199,7 +189,7 @@ def _check_responses(pair: Pair, rows: UserTable, motion: IncomingMotion, veloci
     }
     for name in filter(rows.columns.__contains__, most):
         ratio = rows[name] / most[name][0]
-        rows.refuse(name, (ratio < 0.0) | (ratio > MOST), most[name][1])
+        rows.refuse(name, (ratio < 0.0) | (ratio > MOST_RESTITUTION), most[name][1])
     _check_sense(rows, motion, velocity)
 
 
@@ -222,3 +212,147 @@ def _check_sense(rows: UserTable, motion: IncomingMotion, velocity: Array) -> No
             f"spin_out: friction would have speeded up the contact point in {rows.named(moving)}; "
             "positive spin adds to its tangential speed, so change the signs of the spins"
         )
+
+
+def with_speeds(rows: UserTable) -> UserTable:
+    """Return the columns with the speeds of drops, V = sqrt(2 g h) and V' = sqrt(2 g h')."""
+    there = [name for name in HEIGHTS if name in rows.columns]
+    if not there:
+        return rows
+    rows.require("drop_height")
+    twice = [name for name in (*TWICE, *HEIGHTS.values()) if name in rows.columns]
+    if twice:
+        raise InputError(f"{there[0]}: it gives the same as {twice[0]}; leave one of them out")
+    columns = dict(rows.columns)
+    for height, speed in HEIGHTS.items():
+        if height in columns:
+            rows.refuse(height, columns[height] <= 0.0, "must be positive")
+            values = np.where(columns[height] > 0.0, columns[height], np.nan)
+            columns[speed] = np.sqrt(2.0 * GRAVITY * values)
+        if height + ERROR in columns:
+            with np.errstate(divide="ignore", invalid="ignore"):
+                columns[speed + ERROR] = GRAVITY * columns[height + ERROR] / columns[speed]
+    columns["tangential_speed"] = np.zeros(len(rows))
+    if "rebound_height" in columns:
+        too_high = columns["normal_speed_out"] > MOST_RESTITUTION * columns["normal_speed"]
+        allowed = "must, apart from scatter, be no larger than drop_height"
+        rows.refuse("rebound_height", too_high, allowed)
+    return replace(rows, columns=columns)
+
+
+def taken_by_air(heights: Mapping[str, Array], radius: float, mass: float) -> float:
+    """Return by which part of itself a restitution from heights is too small, to first order.
+
+    e = sqrt(h'/h) (1 + k (h + h')/4), k = C_d rho pi R^2/m, in air.
+    """
+    k = DRAG * AIR * np.pi * radius**2 / mass
+    whole = heights["drop_height"] + heights["rebound_height"]
+    return float(0.25 * k * np.nanmedian(whole))
+
+
+class Options(NamedTuple):
+    """Names of free parameters, and the values of all to begin with, or to hold."""
+
+    free: tuple[str, ...]
+    start: Mapping[str, float]
+
+
+def read_options(
+    problem: FitProblem, vary: Collection[str] | str | None, fixed: Mapping[str, Any] | None
+) -> Options:
+    """Return what is varied and what it starts from, or raise InputError."""
+    held = _fixed(problem, {} if fixed is None else fixed)
+    tells_restitution = problem.is_normal and set(NORMAL) & set(problem.responses)
+    first = ("restitution",) if tells_restitution else FIRST
+    wanted = [name for name in first if name not in held] if vary is None else _varied(vary)
+    for name in filter(held.__contains__, wanted):
+        raise InputError(f"{name}: it is both varied and fixed; leave it out of vary or of fixed")
+    if OFFSET in (*wanted, *held) and not problem.has_speeds:
+        raise InputError(
+            f"{OFFSET}: it needs speeds in the data; add a column speed or normal_speed"
+        )
+    if set(wanted) & {"friction", "kappa"} and OFFSET not in wanted and problem.is_normal:
+        raise InputError(
+            "data: every impact is a normal one, in which friction and stiffness do not matter; "
+            "measure at other angles, or fit restitution alone, vary='restitution'"
+        )
+    if not wanted:
+        raise InputError("vary: nothing is left to fit; fix fewer parameters")
+    _refuse_assumed(problem, {*wanted, *held})
+    pair = problem.pair
+    start = {"friction": pair.friction, "kappa": pair.kappa, "restitution": 1.0, OFFSET: 0.0}
+    return Options(tuple(wanted), {**start, **held})
+
+
+def _refuse_assumed(problem: FitProblem, told: Collection[str]) -> None:
+    """Raise InputError for a parameter that would be held at a value that nobody has given."""
+    measured = [name for name in NORMAL if name in problem.responses]
+    why = {"restitution": f"{measured[0]} is in the data" if measured else ""}
+    if not problem.knows_friction and not problem.is_normal and {*problem.responses} - {*NORMAL}:
+        why["friction"] = "the bodies have none"
+    for name, reason in why.items():
+        if reason and name not in told:
+            example = f"fixed={{'{name}': {EXAMPLES[name]}}}"
+            raise InputError(
+                f"{name}: {reason}, but it is neither varied nor fixed; add it to vary, or fix it, "
+                f"e.g. {example}"
+            )
+
+
+def checked_confidence(value: Any) -> float:
+    """Return a confidence, or raise InputError if it is out of range."""
+    confidence = number("confidence", value, "1")
+    if not 0.5 <= confidence < 1.0:
+        raise refusal("confidence", value, "must lie between 0.5 and 1, e.g. 0.95")
+    return confidence
+
+
+def check_count(problem: FitProblem, free: Sequence[str]) -> None:
+    """Raise InputError if there are too few values for so many parameters."""
+    least = len(free) + (not problem.all_errors_known)
+    if problem.count < least:
+        values = f"{problem.count} measured value{'s' * (problem.count != 1)}"
+        told = f"{len(free)} parameters ({', '.join(free)})" if len(free) > 1 else free[0]
+        fewer = ", or fix some, e.g. fixed={'restitution': 0.98}" if len(free) > 1 else ""
+        raise InputError(
+            f"data: {values} cannot determine {told}; measure more, at least {least}{fewer}"
+        )
+
+
+def _varied(vary: Collection[str] | str) -> list[str]:
+    try:
+        names = [vary] if isinstance(vary, str) else list(vary)
+    except TypeError:
+        raise refusal("vary", vary, f"must be names of {', '.join(NAMES)}") from None
+    for name in names:
+        _check_name("vary", name)
+    plain = ["kappa" if name == "chi" else name for name in names]
+    return list(dict.fromkeys(plain))
+
+
+def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
+    """Return the parameters that are held, in SI units; chi becomes kappa."""
+    checked_type("fixed", fixed, Mapping, "must be values by name, e.g. {'restitution': 0.98}")
+    ranges = {each.name: ranged(each, problem.pair) for each in EXACT.parameters}
+    held: dict[str, float] = {}
+    for name, value in fixed.items():
+        _check_name("fixed", name)
+        found = number(name, value, "rad/s" if name == OFFSET else "1")
+        if name == "chi":
+            if "kappa" in fixed:
+                raise InputError("kappa and chi: each follows from the other; fix one of them")
+            name, found = "kappa", found / half_ratio(problem.pair)
+        parameter = ranges.get(name) or offset_parameter(problem)
+        if not parameter.low <= found <= parameter.high:
+            low, high = (GLOSSARY[name].text(end) for end in (parameter.low, parameter.high))
+            allowed = f"{name} must lie between {low} and {high}"
+            raise refusal(f"fixed {name}", value, allowed)
+        held[name] = found
+    return held
+
+
+def _check_name(where: str, name: Any) -> None:
+    known = f"parameters are {', '.join(NAMES)}"
+    shown = clipped(checked_type(where, name, str, known))
+    if name not in NAMES:
+        raise InputError(f"{where}: {shown!r} is no parameter; {nearest(shown, NAMES) or known}")

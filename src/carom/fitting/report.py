@@ -1,22 +1,194 @@
-"""The result of a fit in words."""
+"""The result of a fit in words, with usual mistakes in tables that would explain a bad one."""
 
-from collections.abc import Mapping
-from math import isnan
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from math import isnan, log, pi
+from typing import NamedTuple
 
 import numpy as np
 
-from carom.fitting.best import Best
-from carom.fitting.errors import OUTLYING, least_error
-from carom.fitting.estimates import LIMITS, Estimate, FitRecord
-from carom.fitting.heights import HEIGHTS, taken_by_air
+from carom.fitting.comparison import FitRecord
+from carom.fitting.estimates import LIMITS, Estimate
+from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
 from carom.fitting.intervals import ProfiledFit
-from carom.fitting.mistakes import likely_mistake
-from carom.fitting.problem import FitProblem
+from carom.fitting.model import Model
+from carom.fitting.problem import OUTLYING, FitProblem, RobustLoss, least_error, typical_deviation
+from carom.fitting.reading import HEIGHTS, taken_by_air
+from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
+
+ANGLES = ("angle", "contact_angle", "rebound_angle", "contact_rebound_angle")
+SPINS = ("spin", "spin2", "spin_out")
+TWINS = {  # what is taken for each other: before and after
+    "speed": "rebound_speed",
+    "normal_speed": "normal_speed_out",
+    "tangential_speed": "tangential_speed_out",
+    "angle": "rebound_angle",
+    "contact_angle": "contact_rebound_angle",
+    "spin": "spin_out",
+}
+NAMES = {  # and responses: of the centre, of the contact point, its negative
+    "contact_restitution": ("tangential_restitution", "contact_beta"),
+    "contact_beta": ("contact_restitution",),
+    "tangential_restitution": ("contact_restitution", "contact_beta"),
+}
+RPM, DEGREE = pi / 30.0, pi / 180.0
+SCALES = {  # of spins; a radius only matters beside them
+    "spins of the other sign": -1.0,
+    "spins in rpm": RPM,
+    "spins in rad/s, not in rpm": 1.0 / RPM,
+    "those of half the radius (is the radius a diameter?)": 0.5,
+    "those of twice the radius (is the radius half of it?)": 2.0,
+}
+ROUGH = 0.1  # of the range of a response, which scatter does not exceed where a law fits
+FAR, PART = 20.0, 0.25  # by how much and to which part chi squared must fall
+HOPEFUL = 0.9  # of the scatter as given: a rough fit must leave less, in one response at least
+LEAST = 0.75  # of the values that must not be outliers then
+
+
+def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
+    """Return the mistake with which the data are far likelier than as they stand, if there is one.
+
+    Mistakes are tried only where something is odd: scatter beyond what errors allow or a tenth of
+    the range, or a kappa that the bodies cannot have; and with the kappa of the elastic constants.
+    `whole` is the fit with nothing held that was to be found.
+    """
+    if not _is_odd(whole, estimates):
+        return []
+    tried = [_tried(whole, trial) for trial in _trials(whole.model.problem)]
+    likely = sorted((each for each in tried if each is not None), key=lambda each: each[0])
+    return [words for _, words in likely[:1]]
+
+
+def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
+    """Tell whether the data hardly fit as they stand."""
+    problem, kappa = best.model.problem, estimates["kappa"]
+    low, high = np.nanpercentile(problem.measured, (10.0, 90.0), axis=0)
+    sigma = np.where(problem.present, best.sigma, np.nan)
+    is_rough = best.estimated & (np.nanmedian(sigma, axis=0) > ROUGH * (high - low))
+    varies = np.array([name != "normal_restitution" for name in problem.responses])
+    typical = typical_deviation(best.residuals * best.scale, problem.present)
+    excluded = kappa.determined and not kappa.low <= problem.pair.kappa <= kappa.high
+    at_end = "restitution" in best.model.free and best.values["restitution"] > 1.0 - 1e-6
+    return bool(np.any(is_rough & varies) or np.any(typical > 2.0) or excluded or at_end)
+
+
+class Trial(NamedTuple):
+    """What the data may be in truth: words, the problem then, factors of the responses in it."""
+
+    words: str
+    problem: FitProblem
+    factors: Array
+
+
+def _trials(problem: FitProblem) -> Iterator[Trial]:
+    """Yield what may have been mistaken in the columns that there are."""
+    if _has(problem, ANGLES):
+        yield _changed("angles from the surface", problem, ANGLES, lambda a: pi / 2.0 - a)
+        if all(np.nanmax(np.abs(v)) < 0.5 * pi * DEGREE for v in _columns(problem, ANGLES)):
+            yield _scaled("angles in radians", problem, ANGLES, 1.0 / DEGREE)
+    if _has(problem, SPINS):
+        for words, factor in SCALES.items():
+            yield _scaled(words, problem, SPINS, factor)
+    yield from _swapped(problem)
+    for place, name in enumerate(problem.responses):
+        for other in set(NAMES.get(name, ())) - set(problem.responses):
+            names = (*problem.responses[:place], other, *problem.responses[place + 1 :])
+            renamed = replace(problem, responses=names)
+            yield Trial(f"{other} in the column {name}", renamed, np.ones(len(names)))
+
+
+def _has(problem: FitProblem, names: tuple[str, ...]) -> bool:
+    return any(name in names for name in (*problem.before, *problem.responses))
+
+
+def _columns(problem: FitProblem, names: tuple[str, ...]) -> list[Array]:
+    before = [values for name, values in problem.before.items() if name in names]
+    places = [place for place, name in enumerate(problem.responses) if name in names]
+    return [*before, *problem.measured.T[places]]
+
+
+def _changed(
+    words: str,
+    problem: FitProblem,
+    names: tuple[str, ...],
+    change: Callable[[Array], Array],
+    factor: float = 1.0,
+) -> Trial:
+    """Return the trial with columns changed, and their errors multiplied by a factor."""
+    chosen = np.array([name in names for name in problem.responses])
+    before = {n: change(v) if n in names else v for n, v in problem.before.items()}
+    errors = {n: v * abs(factor) if n in names else v for n, v in problem.before_errors.items()}
+    factors = np.where(chosen, factor, 1.0)
+    changed = replace(
+        problem,
+        before=before,
+        before_errors=errors,
+        measured=np.where(chosen, change(problem.measured), problem.measured),
+        errors=problem.errors * np.abs(factors),
+    )
+    return Trial(words, changed, factors)
+
+
+def _scaled(words: str, problem: FitProblem, names: tuple[str, ...], factor: float) -> Trial:
+    return _changed(words, problem, names, lambda values: factor * values, factor)
+
+
+def _swapped(problem: FitProblem) -> Iterator[Trial]:
+    """Yield the trial with columns before and after exchanged, if these have no gaps."""
+    pairs = {a: b for a, b in TWINS.items() if a in problem.before and b in problem.responses}
+    places = {b: problem.responses.index(b) for b in pairs.values()}
+    after = {a: problem.measured[:, places[b]] for a, b in pairs.items()}
+    speeds = [after[name] for name in ("speed", "normal_speed") if name in after]
+    if not speeds or not np.all(np.isfinite([*after.values()])) or np.min(speeds) <= 0.0:
+        return
+    measured = problem.measured.copy()
+    for name, other in pairs.items():
+        measured[:, places[other]] = problem.before[name]
+    swapped = replace(problem, before={**problem.before, **after}, measured=measured)
+    words = "the motion before and the motion after exchanged"
+    yield Trial(words, swapped, np.ones(len(problem.responses)))
+
+
+def _tried(best: Best, trial: Trial) -> tuple[float, str] | None:
+    """Return -2 log likelihood of the data with a mistake that explains them far better, in words.
+
+    kappa is that of the bodies.
+    """
+    free = tuple(name for name in best.model.free if name != "kappa")
+    held = {**best.model.held, "kappa": best.model.problem.pair.kappa}
+    model = replace(best.model, problem=trial.problem, free=free, held=held)
+    present = trial.problem.present
+    as_given = (best.model.problem.measured - best.expected) * trial.factors
+    if not _is_promising(model, best.loss, as_given):
+        return None
+    other = estimate(model, best.loss)
+    kept = present & (np.abs(other.residuals) <= OUTLYING)
+    told = float(np.square(other.residuals[kept]).sum())
+    size = np.where(present, other.sigma * other.scale, 1.0)
+    instead = float(np.square(as_given[kept] / size[kept]).sum())
+    few = kept.sum() * log(max(instead, 1e-300) / max(told, 1e-300)) < FAR
+    if few or instead - told < FAR or told > PART * instead or kept.sum() < LEAST * present.sum():
+        return None
+    changed = 2.0 * float((present.sum(axis=0) * np.log(np.abs(trial.factors))).sum())
+    words = f"these data fit as {trial.words}: chi-square {told:.3g} instead of {instead:.3g}"
+    return likelihood(other) - changed, words
+
+
+def _is_promising(model: Model, loss: RobustLoss, as_given: Array) -> bool:
+    """Tell whether a response may scatter less than as it was given, by a rough fit."""
+    found, present = rough_minima(model, loss)[0], model.problem.present
+    left = model.problem.measured - model.expected(found[np.newaxis])[0]
+    typical = typical_deviation(left, present) < HOPEFUL * typical_deviation(as_given, present)
+    return bool(typical.any())
+
 
 AT_END = 1e-6  # of a coordinate from an end of its range
 APART = 0.1  # of a coordinate between two minima
 COLUMN = 14
+ONE_INCIDENCE = (
+    "one incidence determines friction or kappa, not both; fix one, or measure at other angles"
+)
 THIN = 2e-3  # part of a restitution that air may take unsaid
 POSSIBLE = (2.0 / 3.0, 1.0)  # kappa for Poisson's ratios from 1/2 to 0
 
@@ -48,13 +220,13 @@ def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) ->
     """Return what is to be known besides the numbers; `whole` is the fit with nothing held."""
     best = found.best
     problem = best.model.problem
-    lines = [*_about_errors(best), *_about_outliers(best), *_about_regimes(found)]
-    lines += [*_about_ranges(best), *_about_incidence(whole), *_about_others(whole, estimates)]
-    lines += _about_bodies(estimates["kappa"])
-    mistake = likely_mistake(whole, estimates)
-    if mistake is not None:
-        lines.append(str(mistake))
-    lines += _about_air(problem)
+    far = np.asarray((np.abs(best.residuals) > OUTLYING).any(axis=1))
+    lines = [*_about_errors(best), *([f"outliers: {problem.rows.named(far)}"] if far.any() else [])]
+    lines += [*_about_regimes(found), *_about_ranges(best)]
+    if {"friction", "kappa"} <= set(whole.model.free) and problem.is_one:  # all psi_1 are one
+        lines.append(ONE_INCIDENCE)
+    lines += [*_about_others(whole, estimates), *_about_bodies(estimates["kappa"])]
+    lines += [*_likely_mistake(whole, estimates), *_about_air(problem)]
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -110,12 +282,6 @@ def _about_ranges(best: Best) -> list[str]:
     return lines
 
 
-def _about_outliers(best: Best) -> list[str]:
-    far = np.asarray((np.abs(best.residuals) > OUTLYING).any(axis=1))
-    rows = best.model.problem.rows
-    return [f"outliers: {rows.named(far)}"] if far.any() else []
-
-
 def _about_bodies(kappa: Estimate) -> list[str]:
     """Return what the bodies have to say of a kappa that was fitted."""
     if not kappa.determined or kappa.low <= kappa.elastic <= kappa.high:
@@ -137,15 +303,6 @@ def _about_regimes(found: ProfiledFit) -> list[str]:
     if not unsure.any():
         return []
     return [f"the regime may differ within the intervals: {model.problem.rows.named(unsure)}"]
-
-
-def _about_incidence(whole: Best) -> list[str]:
-    """Return that rows at one incidence, whose psi_1 are one, tell one number of two."""
-    if not {"friction", "kappa"} <= set(whole.model.free) or not whole.model.problem.is_one:
-        return []
-    return [
-        "one incidence determines friction or kappa, not both; fix one, or measure at other angles"
-    ]
 
 
 def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:

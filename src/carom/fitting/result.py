@@ -1,16 +1,23 @@
 """The result of a fit, as users have it."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
+from math import nan
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.fitting.advice import Advice, advise
-from carom.fitting.datasets import fit_dataset
-from carom.fitting.estimates import Estimate, FitRecord
-from carom.fitting.losses import LossComparison, compare_losses
-from carom.fitting.posterior import sample
-from carom.fitting.report import as_text
+from carom.fitting.comparison import FitRecord, LossComparison, compare_losses
+from carom.fitting.datasets import fit_dataset, sample
+from carom.fitting.estimates import Estimate, estimate_of
+from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
+from carom.fitting.model import half_ratio
+from carom.fitting.reading import NAMES
+from carom.fitting.report import as_text, notes
+from carom.impacts.curves import REGIMES
 from carom.io.citations import FITS, SAMPLES, VISCOUS, bibtex, with_doi
 from carom.io.progress import Progress
 from carom.plots.result import Result, card
@@ -242,3 +249,51 @@ class Fit(FitRecord, Result):
 
     def __str__(self) -> str:
         return "\n".join([as_text(self), *([str(self.losses)] if self.losses else [])])
+
+
+def assembled(settled: Settled, confidence: float) -> Fit:
+    """Return the result of a fit: intervals, what is not determined, regimes, notes."""
+    found = profiled(settled.best, confidence)
+    best, model = found.best, found.best.model
+    estimates = {name: estimate_of(found, name) for name in best.values}
+    for name in model.free:
+        if not estimates[name].determined:
+            estimates[name] = replace(estimates[name], reason=reason((name,), best))
+    estimates |= _undetermined(settled, found, estimates, confidence)
+    pair, kappa = model.problem.pair, estimates["kappa"]
+    value, low, high = (half_ratio(pair) * each for each in (kappa.value, kappa.low, kappa.high))
+    estimates["chi"] = Estimate("chi", value, low, high, kappa.reason)
+    counts = np.bincount(model.regimes(best.at), minlength=len(REGIMES))
+    regimes = dict(zip(REGIMES, counts.tolist(), strict=True))
+    for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
+        estimates[name] = replace(estimates[name], elastic=elastic)
+    ordered = {name: estimates[name] for name in NAMES}
+    return Fit(ordered, confidence, regimes, notes(found, settled.whole, ordered), best)
+
+
+def _undetermined(
+    settled: Settled, found: ProfiledFit, estimates: Mapping[str, Estimate], confidence: float
+) -> dict[str, Estimate]:
+    """Return the estimates of parameters that the data do not tell, or tell from one side only."""
+    result: dict[str, Estimate] = {}
+    whole: ProfiledFit | None = None
+    for group in settled.groups:
+        if len(group) == 1:
+            whole = whole or profiled(settled.whole, confidence)
+            one_sided = estimate_of(whole, group[0])
+            if one_sided.determined:
+                result[group[0]] = one_sided
+                continue
+        why = reason(group, found.best) + _product(group, found, estimates)
+        for name in group:
+            result[name] = replace(estimates[name], low=nan, high=nan, reason=why)
+    return result
+
+
+def _product(group: tuple[str, ...], found: ProfiledFit, estimates: Mapping[str, Estimate]) -> str:
+    """Return what is known of mu (1 + e), where only that is."""
+    if set(group) != {"friction", "restitution"} or "friction" not in found.best.model.free:
+        return ""
+    friction, factor = estimates["friction"], 1.0 + estimates["restitution"].value
+    numbers = (factor * each for each in (friction.value, friction.low, friction.high))
+    return "; that product is {:.4g} ({:.4g} to {:.4g})".format(*numbers)

@@ -149,7 +149,6 @@ class HalfspaceImpact(ImpactResult):
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:
-        """Angle of slip against the direction of motion in each phase, in rad."""
         return tuple(
             SlipAngle(*self.solution.slip_angles(phase.start, phase.end))
             for phase in self.solution.phases
@@ -159,9 +158,8 @@ class HalfspaceImpact(ImpactResult):
     def validity(self) -> Validity:
         """Whether the remaining assumptions hold, and whether the grid is fine enough."""
         psi = self.psi_in if isfinite(self.psi_in) else 0.0
-        strength = judge_strength(
-            struck_bodies(self.pair, self.scales, theory.solve(psi, self.pair.chi))
-        )
+        solution = theory.solve(psi, self.pair.chi)
+        strength = judge_strength(struck_bodies(self.pair, self.scales, solution))
         if abs(self.pair.dundurs_beta) > WEAK_COUPLING:
             strength = tuple(
                 finding._replace(holds=None, verdict=f"{finding.verdict}; {BY_THEORY}")
@@ -171,13 +169,11 @@ class HalfspaceImpact(ImpactResult):
         return Validity((*assumed, *judge_errors(self.psi_out_error, self.energy_error)))
 
     def scalars(self) -> dict[str, float]:
-        """Return the numbers of the result by name."""
         errors = {"psi_out_error": self.psi_out_error, "energy_error": self.energy_error}
         names = ("normal_spin_out", "contact_velocity_across") if self.normal_spin else ()
         return super().scalars() | {name: getattr(self, name) for name in names} | errors
 
     def inputs(self) -> dict[str, Any]:
-        """Return what the impact was made from, as plain numbers and words."""
         return super().inputs() | {"method": "halfspace", **self.solution.resolution._asdict()}
 
     def cite(self) -> str:
@@ -304,10 +300,8 @@ def solve_by_elements(
     materials = Materials(pair.kappa, pair.dundurs_beta, pair.friction)
     spin = spin_about_normal(pair, normal_speed, normal_spin)
     if not abs(spin.speed) <= LARGEST_SPIN:
-        most = LARGEST_SPIN * abs(normal_spin / spin.speed)
-        allowed = (
-            f"boundary elements solve up to {most:.3g} rad/s here, {LARGEST_SPIN:g} mu V_1/a_max"
-        )
+        most = f"{LARGEST_SPIN * abs(normal_spin / spin.speed):.3g} rad/s here"
+        allowed = f"boundary elements solve up to {most}, {LARGEST_SPIN:g} mu V_1/a_max"
         raise refusal("normal_spin", normal_spin, allowed)
     fine = Resolution(method.elements, method.steps)
     grids = (fine.half.half, fine.half, fine)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite, nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -58,8 +58,6 @@ class Impact(ImpactResult, InContact):
 
     solution: Solution | LossySolution = field(repr=False)
 
-    _told_by = "time : float or str", "Time since the first touch in s, 0 to `duration`."
-
     @property
     def validity(self) -> Validity:
         """Whether the assumptions of the theory hold, as numbers with limits and verdicts."""
@@ -87,37 +85,12 @@ class Impact(ImpactResult, InContact):
             return (SlipAngle(0.0, 0.0),)
         return self.solution.slip_angles(self.pair.lateral_ratio)
 
-    def contact(self, time: Value) -> Contact:
+    def _contact(self, at: Any) -> Contact:
         drift = 0.0 if isfinite(self.psi_in) else self.contact_velocity
         inputs = {"inputs": self.inputs()}
         return contact_in_impact(
-            self.pair, self.normal_speed, drift, self.solution, self._instant(time), inputs
+            self.pair, self.normal_speed, drift, self.solution, self._instant(at), inputs
         )
-
-    def fields(
-        self,
-        time: Value,
-        x: ArrayLike | None = None,
-        y: ArrayLike | None = None,
-        *,
-        points: ArrayLike | None = None,
-    ) -> xr.Dataset:
-        return super().fields(time, x, y, points=points)
-
-    def stress(
-        self,
-        time: Value,
-        x: ArrayLike | None = None,
-        z: ArrayLike | None = None,
-        *,
-        points: ArrayLike | None = None,
-        body: str = "second",
-    ) -> xr.Dataset:
-        self._refuse_yielded()
-        return super().stress(time, x, z, points=points, body=body)
-
-    def radial(self, time: Value, n: int = 401) -> xr.Dataset:
-        return super().radial(time, n)
 
     def wear(
         self,
@@ -225,7 +198,7 @@ class Impact(ImpactResult, InContact):
         >>> round(float(peaks.peak_tension) / 1e6), round(float(peaks.toughness_ratio), 2)  # MPa
         (1234, 6.92)
         """
-        self._refuse_yielded()
+        self._refuse_stress()
         from_depth = None if depth is None else not_negative("depth", depth, "m")
         if from_depth == 0.0 and isinstance(self.solution, ViscoelasticSolution):
             allowed = "viscous bodies have infinite stresses at the surface; give a positive depth"
@@ -237,7 +210,7 @@ class Impact(ImpactResult, InContact):
         bodies = struck_bodies(self.pair, self.scales, self.solution, from_depth)
         return peaks_dataset(self.pair, bodies, {"inputs": self.inputs()})
 
-    def _refuse_yielded(self) -> None:
+    def _refuse_stress(self) -> None:
         if isinstance(self.solution, LossySolution) and self.solution.losses.loss == Loss.PLASTIC:
             unknown = "what stress a yielded contact leaves below it is not known"
             cure = "take KelvinVoigt, or leave losses out"
@@ -288,19 +261,16 @@ def solve_exactly(
 def _solution(
     pair: Pair, normal_speed: float, psi: float, losses: LossLaw | None
 ) -> Solution | LossySolution:
-    given = pair, normal_speed, psi
-    found = solve(psi, pair.chi) if losses is None else _with_losses(*given, losses)
+    found: Solution | LossySolution
+    if losses is None:
+        found = solve(psi, pair.chi)
+    else:
+        loss, *numbers = checked_law(losses, "loss")(pair, normal_speed)
+        if any(map(np.ndim, numbers)):
+            raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
+        found = solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))
     if found.status is not Status.SOLVED:
         name, value = ("chi", pair.chi) if losses is None else ("losses", losses)
         what = f"the impact at psi_1 = {psi:g}, chi = {pair.chi:g} is {found.status.message}"
         raise refusal(name, value, what)
     return found
-
-
-def _with_losses(
-    pair: Pair, normal_speed: float, psi: float, losses: LossLaw
-) -> Solution | LossySolution:
-    loss, *numbers = checked_law(losses, "loss")(pair, normal_speed)
-    if any(map(np.ndim, numbers)):
-        raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
-    return solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))

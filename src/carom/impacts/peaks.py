@@ -1,17 +1,22 @@
-"""The largest stresses of an impact as a dataset, and what the strengths of its bodies say."""
+"""What an impact does to its bodies: the largest stresses, against the strengths of each."""
+
+from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite, isnan, nan
+from dataclasses import dataclass, field
+from math import inf, isfinite, isnan, nan, pi, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.bodies.materials import STRENGTHS, Material
 from carom.bodies.pairs import Pair, Scales
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution
+from carom.dimensionless.strength.cracking import cracking_width, intensity
+from carom.dimensionless.strength.peaks import SHEAR, TENSION, VON_MISES, peaks
 from carom.dimensionless.strength.searching import Contacts, Peak
-from carom.impacts.strength import BODIES, MEASURES, StruckBody, strengths_of, units_of
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.labels import Finding, labelled_dataset
 from carom.quantities.glossary import GLOSSARY, PEAKS
@@ -21,6 +26,9 @@ from carom.quantities.units import or_none
 if TYPE_CHECKING:
     import xarray as xr
 
+BODIES = ("first", "second")
+MEASURES = {"peak_von_mises": VON_MISES, "peak_shear": SHEAR, "peak_tension": TENSION}
+GROWTH = 2.5  # speeds go with stresses to this power: stress ~ sqrt(d_max) ~ V^(2/5)
 DEPTH = 0.2  # of viscous bodies, in radii of the largest contact: what lies deeper is told
 RATIOS = {  # what they are a share of, and what tells how much the body bears
     "yield_ratio": ("von Mises stress/Y", ("yield_strength",)),
@@ -45,6 +53,87 @@ UNCOUPLED = (
 )
 
 
+@dataclass(frozen=True, eq=False)
+class StruckBody:
+    """One body of an impact; stress grows as V^(2/5) where all velocities grow alike.
+
+    `side` is 1 for the second body, -1 for the first, in which friction acts the other way: its
+    stresses are those of the second, mirrored.
+    """
+
+    contacts: Contacts = field(repr=False)
+    material: Material
+    scales: Scales
+    side: float = 1.0
+
+    def bears(self, strength: str) -> float:
+        """Return a strength of the material by its name, NaN where that is not known."""
+        value = getattr(self.material, strength)
+        return nan if value is None else value
+
+    def peak(self, name: str) -> Peak:
+        """Return a peak of stress by its name in `MEASURES`, in SI units."""
+        found = peaks(self.contacts, self.material.poisson, (MEASURES[name],))[0]
+        return self._told(found, self.scales.pressure)
+
+    def intensity(self) -> Peak:
+        """Return the largest stress intensity at flaws up to `flaw_size`, z the depth of the flaw.
+
+        NaN where the depth of flaws is not known, or viscous bodies have no bound at the surface.
+        """
+        flaw, width = self.bears("flaw_size"), self.scales.radius
+        if not (flaw > 0.0 and self.judges_flaws):
+            return Peak(*(nan,) * 5)
+        found = intensity(self.contacts, self.material.poisson, flaw / width)
+        return self._told(found, self.scales.pressure * sqrt(pi * width))
+
+    @property
+    def judges_flaws(self) -> bool:
+        """Whether the stress is known up to the surface."""
+        return isinstance(self.contacts.solution, Solution)
+
+    @property
+    def searched_depth(self) -> float:
+        """Depth in m from which on peaks of stress are searched for."""
+        return self.contacts.depth * self.scales.radius
+
+    def yield_ratio(self) -> float:
+        """Return the largest von Mises stress over the yield strength."""
+        return self._share("peak_von_mises", self.bears("yield_strength"))
+
+    def tension_ratio(self) -> float:
+        """Return the largest tensile stress over the tensile strength."""
+        return self._share("peak_tension", self.bears("tensile_strength"))
+
+    def toughness_ratio(self) -> float:
+        """Return the largest stress intensity over the fracture toughness."""
+        toughness = self.bears("fracture_toughness")
+        return self.intensity().value / toughness if toughness > 0.0 else nan
+
+    def cracking(self) -> float:
+        """Return the factor by which all velocities must grow for flaws to crack; inf for never."""
+        toughness, flaw = self.bears("fracture_toughness"), self.bears("flaw_size")
+        if not (toughness > 0.0 and flaw > 0.0 and self.judges_flaws):
+            return nan
+        width = self.scales.radius
+        wanted = toughness / (self.scales.pressure * sqrt(pi * width))
+        ratio = cracking_width(self.contacts, self.material.poisson, flaw / width, wanted)
+        return float(ratio**GROWTH)
+
+    def _share(self, name: str, strength: float) -> float:
+        return self.peak(name).value / strength if strength > 0.0 else nan
+
+    def _told(self, found: Peak, unit: float) -> Peak:
+        width = self.scales.radius
+        place = self.side * found.x * width + 0.0, found.y * width, found.z * width
+        return Peak(found.value * unit, *place, found.time * self.scales.time)
+
+
+def growth(ratio: float) -> float:
+    """Return the factor by which all velocities must grow for a share of a strength to be 1."""
+    return float(ratio**-GROWTH) if ratio > 0.0 else (inf if ratio <= 0.0 else nan)
+
+
 def struck_bodies(
     pair: Pair, scales: Scales, solution: Solution | LossySolution, depth: float | None = None
 ) -> dict[str, StruckBody]:
@@ -52,18 +141,17 @@ def struck_bodies(
     singular = isinstance(solution, ViscoelasticSolution)
     usual = DEPTH * solution.max_radius if singular else 0.0
     contacts = Contacts(solution, pair.friction, usual if depth is None else depth / scales.radius)
-    bodies = {}
-    for name, side in zip(BODIES, (-1.0, 1.0), strict=True):
-        stuff = getattr(pair, name).material
-        if not stuff.is_rigid:
-            given = contacts, stuff.poisson, units_of(scales), strengths_of(stuff)
-            bodies[name] = StruckBody(*given, side)
-    return bodies
+    materials = {-1.0: pair.first.material, 1.0: pair.second.material}
+    return {
+        name: StruckBody(contacts, stuff, scales, side)
+        for name, (side, stuff) in zip(BODIES, materials.items(), strict=True)
+        if not stuff.is_rigid
+    }
 
 
 def peaks_dataset(
     pair: Pair, bodies: dict[str, StruckBody], attributes: dict[str, Any]
-) -> "xr.Dataset":
+) -> xr.Dataset:
     """Return the largest stresses of an impact along `body`; as `Impact.peaks`."""
     columns: dict[str, list[float]] = {}
     for body in bodies.values():
@@ -105,12 +193,12 @@ def _places(name: str, peak: Peak) -> Iterator[tuple[str, float]]:
 
 def _missing(body: StruckBody) -> str:
     """Return what is not known of a body, in words."""
-    names = [name for name in body.strengths._fields if isnan(getattr(body.strengths, name))]
+    names = _lacking(body, STRENGTHS)
     lost = [] if body.judges_flaws else ["stress_intensity (not bounded with losses)"]
     return ", ".join(names + lost) or "nothing"
 
 
-def peaks_record(dataset: "xr.Dataset") -> dict[str, Any]:
+def peaks_record(dataset: xr.Dataset) -> dict[str, Any]:
     """Return peaks as what JSON can hold, by body; what is not known is None."""
     bodies = {
         str(body): {
@@ -125,7 +213,7 @@ def peaks_record(dataset: "xr.Dataset") -> dict[str, Any]:
     return {**bodies, "searched_depth": depth, **words}
 
 
-def peaks_text(dataset: "xr.Dataset") -> str:
+def peaks_text(dataset: xr.Dataset) -> str:
     """Return peaks as text to read."""
     lines = []
     rows = {
@@ -182,7 +270,7 @@ def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
 
 def _lacking(body: StruckBody, needed: tuple[str, ...]) -> list[str]:
     """Return the strengths that are not known of those that are needed."""
-    return [name for name in needed if isnan(getattr(body.strengths, name))]
+    return [name for name in needed if isnan(body.bears(name))]
 
 
 def _why_not(needed: tuple[str, ...], lacks: dict[str, list[str]]) -> str:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import isfinite
+from math import degrees, isfinite, isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,15 +15,13 @@ from numpy.typing import ArrayLike
 
 from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
-from carom.impacts.history import InTime, history_columns
-from carom.impacts.outcome import Outcome
-from carom.impacts.report import impact_text, phase_times
+from carom.impacts.outcome import RESULTS, InTime, Outcome, history_columns
 from carom.impacts.spectrum import Source, read_frequencies, spectrum_dataset
-from carom.io.labels import Validity, labelled
+from carom.io.labels import MARKS, Validity, labelled
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.prefixes import text
+from carom.quantities.prefixes import column, text
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted, number, or_none
 
@@ -33,6 +31,13 @@ if TYPE_CHECKING:
 
 
 MOST_FRAMES = 10_000
+OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")  # 1 and 0 without
+OF_ELEMENTS = ("normal_spin_out", "contact_velocity_across", "psi_out_error", "energy_error")
+NOTES = {
+    "exact": "  * angle between the slip and x in degrees, which the theory neglects",
+    "lossy": "  * angle between the slip and x, which is known only without losses",
+    "halfspace": "  * angle between the slip and x in degrees",
+}
 SHOWN = (  # in a notebook
     "psi_in",
     "psi_out",
@@ -208,13 +213,13 @@ class ImpactResult(Outcome, Result):
         return instant
 
     def __str__(self) -> str:
-        return impact_text(self)
+        return _impact_text(self)
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
         numbers = self.scalars()
         rows = {GLOSSARY[name].meaning: GLOSSARY[name].text(numbers[name]) for name in SHOWN}
-        times, unit = phase_times(self.phases)
+        times, unit = _phase_times(self.phases)
         phases = (
             f"{start:>10s} to {end:>8s} {unit}  {p.kind}"
             for p, (start, end) in zip(self.phases, times, strict=True)
@@ -311,3 +316,42 @@ class ImpactResult(Outcome, Result):
     @abstractmethod
     def _picture(self, time: float) -> xr.Dataset:
         """Return the fields on a grid over the whole contact at a time."""
+
+
+def _impact_text(hit: ImpactResult) -> str:
+    """Return the result as text to read."""
+    scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
+    note = NOTES["lossy" if hit.losses is not None else method]
+    loses = hit.losses is not None or (method != "exact" and hit.pair.dundurs_beta != 0.0)
+    shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
+    shown += [name for name in OF_ELEMENTS if name in scalars]
+    if len(hit.pair.moving) == 1:
+        shown.remove("spin2_out")
+    lines = [
+        f"  {GLOSSARY[name].meaning:58s} {GLOSSARY[name].text(scalars[name])}" for name in shown
+    ]
+    times, unit = _phase_times(hit.phases)
+    phases = [
+        f"  {_slip(p.kind, p.sign):14s}{start:>12s} {end:>12s}"
+        f" {_in_degrees(angle.mean)} {_in_degrees(angle.largest)}   {p.cause}"
+        for p, (start, end), angle in zip(hit.phases, times, hit.slip_angles, strict=True)
+    ]
+    columns = f"{f'from ({unit})':>12s} {f'to ({unit})':>12s} {'mean*':>9s} {'max*':>9s}"
+    head = f"  {'':14s}{columns}   ended by"
+    findings = [f"  {MARKS[f.holds]} {f.told:38s} {f.verdict}" for f in hit.validity.findings]
+    parts = ("Rebound", *lines, "Phases", head, *phases, note, "Validity", *findings)
+    return "\n".join(parts)
+
+
+def _phase_times(phases: Sequence[Phase]) -> tuple[list[tuple[str, str]], str]:
+    """Return start and end of each phase, as cells of two columns, and their unit."""
+    cells, unit = column([time for p in phases for time in (p.start, p.end)], "s")
+    return list(zip(cells[::2], cells[1::2], strict=True)), unit
+
+
+def _in_degrees(angle: float) -> str:
+    return "-".rjust(9) if isnan(angle) else f"{degrees(angle):9.2f}"
+
+
+def _slip(kind: str, sign: int) -> str:
+    return kind if sign == 0 else f"{kind} {'+' if sign > 0 else '-'}"

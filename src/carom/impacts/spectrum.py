@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics.corners import corners, widest
 from carom.dimensionless.numerics.fourier import Pulse, sampled
-from carom.impacts.history import InTime
+from carom.impacts.outcome import InTime
 from carom.io.labels import attributes, labelled_dataset
 from carom.quantities.arrays import Array, numbers
 from carom.quantities.prefixes import text
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 COUNT, WIDTH = 601, 6.0  # frequencies where none are told, and up to how many over the duration
+NO_NOTCH = f"the amplitude has no minimum up to {WIDTH:g} over the duration"
 MOST, FARTHEST = 20_000, 1000.0  # the most that there may be, likewise
 
 
@@ -93,28 +94,22 @@ def spectrum_dataset(
     columns = {
         f"{name}_spectrum{part}": ("frequency", values)
         for name, spectrum in spectra.items()
-        for part, values in _parts(spectrum).items()
+        for part, values in (
+            ("", np.abs(spectrum)),
+            ("_real", spectrum.real),
+            ("_imag", spectrum.imag),
+        )
     }
     numbers = {"duration": source.duration, **more}
-    found = {
-        name: ((), value, attributes(name) | ({"comment": _why_none(name)} if isnan(value) else {}))
-        for name, value in corner_frequencies(source).items()
-    }
+    found = {}
+    for name, value in corner_frequencies(source).items():
+        why = NO_NOTCH if name == "normal_notch_frequency" else "there is no tangential force"
+        found[name] = (), value, attributes(name) | ({"comment": why} if isnan(value) else {})
     return labelled_dataset(
         {**columns, **numbers, **found},
         {"frequency": frequencies},
         {"title": "spectra of the forces of an oblique impact", "inputs": inputs},
     )
-
-
-def _why_none(name: str) -> str:
-    if name == "normal_notch_frequency":
-        return f"the amplitude has no minimum up to {WIDTH:g} over the duration"
-    return "there is no tangential force"
-
-
-def _parts(spectrum: Any) -> dict[str, Array]:
-    return {"": np.abs(spectrum), "_real": spectrum.real, "_imag": spectrum.imag}
 
 
 def corner_frequencies(source: Source) -> dict[str, float]:

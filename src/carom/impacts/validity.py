@@ -1,8 +1,7 @@
 """Whether the assumptions of the theory hold for an impact, as numbers with a verdict."""
 
-from math import inf, isfinite, isinf, nan, sqrt
+from math import isfinite, nan, sqrt
 
-from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
 from carom.dimensionless.lossy.law import Loss, LossNumbers
@@ -33,10 +32,7 @@ def judge(
     losses: tuple[Finding, ...] = (),
     normal_spin: float = 0.0,
 ) -> Validity:
-    """Return the findings on an impact: small contact, no yield, slow contact, no coupling.
-
-    `strength` are those on what the bodies bear.
-    """
+    """Return the findings on an impact; `strength` are those on what the bodies bear."""
     coupling = _judged(
         "Dundurs beta",
         pair.dundurs_beta,
@@ -55,17 +51,13 @@ def _judge_rebound(pair: Pair, psi: float, loses: bool, spins: bool) -> Finding:
     """Return the finding on what slip off the motion and coupling may do to psi_2."""
     name, numbers = "error of psi_2", (pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
     if pair.friction == 0.0 or not isfinite(psi):
-        return Finding(
-            name, 0.0, CLOSE_REBOUND, True, "without friction the theory neglects nothing"
-        )
-    outside = not_studied(*numbers)
-    if outside:
-        words = f"not studied: {outside}; method='halfspace' solves the full contact"
-        return Finding(name, nan, CLOSE_REBOUND, None, words)
+        nothing = "without friction the theory neglects nothing"
+        return Finding(name, 0.0, CLOSE_REBOUND, True, nothing)
+    if outside := not_studied(*numbers):
+        return _unknown(name, f"{outside}; method='halfspace' solves the full contact")
     error = float(rebound_error(*numbers, psi))
     if loses:
-        words = f"not studied with losses; for elastic bodies it is at most {error:.2g}"
-        return Finding(name, nan, CLOSE_REBOUND, None, words)
+        return _unknown(name, f"with losses; for elastic bodies it is at most {error:.2g}")
     but = "apart from the spin about the normal, " if spins else ""
     good = f"{but}psi_2 is at most this far from {FULL}, by a study of such impacts"
     bad = f"{but}psi_2 may be this far from {FULL}, which method='halfspace' solves"
@@ -85,10 +77,9 @@ def _judge_spin(
     if spin > SPIN.most:
         outside = f"spin of {spin:.3g} mu V_1/a_max is above {SPIN.most:g}"
     if loses:
-        words = "not studied with losses; the theory neglects this spin"
-        return Finding(name, nan, CLOSE_REBOUND, None, words)
+        return _unknown(name, "with losses; the theory neglects this spin")
     if outside:
-        return Finding(name, nan, CLOSE_REBOUND, None, f"not studied: {outside}; {cure}")
+        return _unknown(name, f"{outside}; {cure}")
     good = "the spin about the normal, which the theory neglects, hardly matters"
     bad = f"the theory neglects the spin about the normal; {cure}"
     error = float(spin_error(pair.chi, psi, spin))
@@ -126,11 +117,8 @@ def _others(loss: int, restitution: float, chi: float) -> str:
 def judge_contact(
     pair: Pair, normal_speed: float, duration: float, strength: tuple[Finding, ...]
 ) -> tuple[Finding, ...]:
-    """Return the findings on a contact by whatever method: small, strong bodies, slow.
-
-    Before them those on values that are hardly meant.
-    """
-    scales, transits = pair.scales(normal_speed), duration / max(_transit(pair), 1e-300)
+    """Return the findings on values that are hardly meant, a small contact, strength, slowness."""
+    scales, transits = (pair.scales(normal_speed), duration / max(_transit(pair), 1e-300))
     slow = transits >= SLOW_CONTACT
     small = _judged(
         "a_max/R*",
@@ -146,6 +134,12 @@ def judge_contact(
     )
     waves = Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
     return *doubts(pair), small, *strength, waves
+
+
+def _unknown(name: str, why: str) -> Finding:
+    """Return the finding on what was not studied: here, or with losses."""
+    colon = "" if why.startswith("with losses") else ":"
+    return Finding(name, nan, CLOSE_REBOUND, None, f"not studied{colon} {why}")
 
 
 def _judged(name: str, value: float, limit: float, good: str, bad: str) -> Finding:
@@ -173,16 +167,13 @@ def judge_pressure(pair: Pair, pressure: float) -> Finding:
 
 def _transit(pair: Pair) -> float:
     """Return the time of a bar wave through the slower sphere and back, 4 R sqrt(rho/E)."""
-    return max(4.0 * body.radius / _wave_speed(body.material) for body in pair.moving)
-
-
-def _wave_speed(material: Material) -> float:
-    return inf if isinf(material.young) else sqrt(material.young / (material.density or 1.0))
+    bodies = [(body.radius, body.material) for body in pair.moving if not body.material.is_rigid]
+    return max([4.0 * r / sqrt(m.young / (m.density or 1.0)) for r, m in bodies], default=0.0)
 
 
 def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
     """Return the findings on what a grid and steps leave of psi_2 and of the energy."""
     good = "the grid and the time steps are fine enough"
     bad = "the grid and the time steps are too coarse; take more elements and steps"
-    named = (("error of psi_2", psi_out), ("error of energy", energy))
-    return tuple(_judged(name, value, CLOSE_REBOUND, good, bad) for name, value in named)
+    limits = CLOSE_REBOUND, good, bad
+    return _judged("error of psi_2", psi_out, *limits), _judged("error of energy", energy, *limits)

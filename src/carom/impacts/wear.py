@@ -127,7 +127,7 @@ def read_coefficient(given: Value) -> float:
 def rubbing(hit: ImpactResult, radii: Array) -> Rubbing:
     """Return the integral of pressure times slip rate at radii in m, and at more of them."""
     unit = hit.scales.radius
-    nodes, areas = _quadrature(_trajectory(hit))
+    nodes, areas = _quadrature(cast(Trajectory, hit.solution))
     inner = np.union1d(nodes * unit, hit.max_radius * np.linspace(0.0, 1.0, EVEN))
     apart = np.append(np.diff(inner) > ALIKE * hit.max_radius, True)
     asked = np.union1d(radii, inner)
@@ -138,7 +138,7 @@ def rubbing(hit: ImpactResult, radii: Array) -> Rubbing:
 
 def rubbed_at(hit: ImpactResult, radii: Array) -> tuple[Array, Array]:
     """Return the integral of pressure times slip rate at radii in m, mean and lateral, in Pa m."""
-    solution, scales = _trajectory(hit), hit.scales
+    solution, scales = cast(Trajectory, hit.solution), hit.scales
     within = radii / scales.radius
     if hit.pair.friction > FRICTIONLESS:
         work = scales.pressure * scales.tangential_length * solution.friction_work(within)
@@ -156,10 +156,6 @@ def rubbed(outcome: Outcome) -> Any:
         return np.maximum(outcome.dissipated_energy, 0.0) / outcome.pair.friction
     impulse = outcome.pair.normal_mass * outcome.normal_speed * (1.0 + outcome.normal_restitution)
     return abs(outcome.contact_velocity) * impulse
-
-
-def _trajectory(hit: ImpactResult) -> Trajectory:
-    return cast(Trajectory, hit.solution)
 
 
 def _quadrature(solution: Trajectory) -> tuple[Array, Array]:

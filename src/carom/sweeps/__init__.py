@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
 from math import prod
 from pathlib import Path
@@ -12,8 +12,7 @@ from carom.io.extras import extra
 from carom.io.progress import Progress, advancing
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, flag
-from carom.sweeps.blocks import Box, Values, points_in
-from carom.sweeps.designs import Design
+from carom.sweeps.designs import Design, points_in
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import MemoryRecord, SweepStopped
 from carom.sweeps.schedulers import team
@@ -89,22 +88,15 @@ def sweep(
     """
     resume, problem = flag("resume", resume), SweepProblem(case, design, outputs)
     with team(scheduler, workers, problem) as those, _record(problem, store, resume) as record:
-        with _telling_what_is_safe(record), closing(those.results(record.todo)) as results:
-            _fill(record, prod(design.shape), results, progress)
+        total = prod(design.shape)
+        done = total - sum(points_in(box) for box in record.todo)
+        showing = advancing("solving the sweep", total, progress, unit="points", done=done)
+        results = closing(those.results(record.todo))
+        with _telling_what_is_safe(record), results as blocks, showing as advance:
+            for box, values in blocks:
+                record.write(box, values)
+                advance(points_in(box))
         return record.dataset()
-
-
-def _fill(
-    record: BlockRecord, total: int, results: Iterable[tuple[Box, Values]], progress: Progress
-) -> None:
-    """Write blocks as they come, and show how far it is."""
-    left = sum(points_in(box) for box in record.todo)
-    with advancing(
-        "solving the sweep", total, progress, unit="points", done=total - left
-    ) as advance:
-        for box, values in results:
-            record.write(box, values)
-            advance(points_in(box))
 
 
 def _record(
@@ -112,9 +104,8 @@ def _record(
 ) -> AbstractContextManager[BlockRecord]:
     """Return what keeps the results: a store, or memory."""
     if store is not None:
-        record: AbstractContextManager[StoreRecord] = extra(
-            "carom.sweeps.stores", "a store"
-        ).opened(store, problem, resume)
+        stores = extra("carom.sweeps.stores", "a store")
+        record: AbstractContextManager[StoreRecord] = stores.opened(store, problem, resume)
         return record
     if resume:
         raise InputError("resume: there is no store to continue; give the store, too")

@@ -1,20 +1,20 @@
-"""Designs: which impacts a sweep consists of. Here a full grid and a Latin hypercube."""
+"""Designs: which impacts a sweep consists of, cut into blocks; here a grid, and samples."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import chain
-from typing import Any, ClassVar
+from itertools import chain, product
+from math import ceil, inf, isfinite, pi, prod
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.plausibility import doubts_of_values
 from carom.dimensionless.numerics.permutation import fractions, secrets
-from carom.quantities.refusals import refusal
-from carom.quantities.units import counted
-from carom.sweeps.axes import Range, read_axis, read_range
-from carom.sweeps.blocks import Box
+from carom.quantities.arrays import Array, numbers
+from carom.quantities.refusals import InputError, one_of, refusal
+from carom.quantities.units import counted, number, told_unit
 from carom.sweeps.inputs import (
     CHOSEN,
     CODE,
@@ -26,7 +26,135 @@ from carom.sweeps.inputs import (
     variable,
 )
 
-MOST = 10**12  # samples, which leaves room for their places in a float
+Box = tuple[slice, ...]
+Values = dict[str, NDArray[Any]]
+
+FEWEST, MOST = 1024, 2**14  # points of a block
+BLOCKS = 32  # that a sweep of middling size is cut into
+
+
+def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
+    """Return the shape of the blocks of a sweep, filled from its last axis on.
+
+    Blocks have fewer points where each point costs more.
+    """
+    room = min(max(prod(shape) // BLOCKS, FEWEST // cost), MOST // cost)
+    chunks = []
+    for length in reversed(shape):
+        pieces = ceil(length / max(1, min(length, room)))
+        chunks.append(ceil(length / pieces))
+        room //= chunks[-1]
+    return tuple(reversed(chunks))
+
+
+def boxes(shape: Sequence[int], chunks: Sequence[int]) -> Iterator[Box]:
+    """Yield every block of an array of this shape, the last axis fastest."""
+    starts = (range(0, length, chunk) for length, chunk in zip(shape, chunks, strict=True))
+    for corner in product(*starts):
+        yield tuple(
+            slice(start, min(start + chunk, length))
+            for start, chunk, length in zip(corner, chunks, shape, strict=True)
+        )
+
+
+def points_in(box: Box) -> int:
+    """Return the number of points of a block."""
+    return prod(part.stop - part.start for part in box)
+
+
+SPACINGS = ("linear", "log")
+RANGE = ("from", "to", "spacing")
+MOST_VALUES = 10**8  # of an axis, which is in memory
+
+
+class Range(NamedTuple):
+    """From where to where, and whether evenly in the logarithm."""
+
+    start: float
+    stop: float
+    log: bool
+
+    def at(self, fraction: Array) -> Array:
+        """Return the values at fractions of the way, 0 to 1."""
+        if self.log:
+            return np.asarray(self.start * (self.stop / self.start) ** fraction)
+        return np.asarray(self.start + (self.stop - self.start) * fraction)
+
+
+def read_values(name: str, given: ArrayLike) -> Array:
+    """Return the values of an axis in SI units, or raise InputError."""
+    key, allowed = leaf(name), "must be a list of finite numbers or texts with units"
+    values = np.atleast_1d(numbers(key, given, allowed))
+    if values.ndim != 1 or values.size == 0:
+        raise refusal(name, given, f"{allowed}, at least one")
+    fits = np.isfinite(values) | ((key == "young") & (values == np.inf))
+    if not np.all(fits):
+        raise refusal(name, float(values[~fits][0]), allowed)
+    if key == "angle" and np.abs(values).max() > pi and not _has_text(given):
+        raise refusal(name, given, "bare angles are in radians; write '30 deg'")
+    return values
+
+
+def _has_text(given: Any) -> bool:
+    return isinstance(given, str) or any(isinstance(value, str) for value in np.atleast_1d(given))
+
+
+def read_axis(name: str, given: Any) -> Array:
+    """Return the values of an axis from a list, or from a range with its number of points."""
+    if not isinstance(given, Mapping):
+        return read_values(name, given)
+    points = counted(f"{name}.points", given.get("points"), 1, MOST_VALUES)
+    ends = {key: value for key, value in given.items() if key != "points"}
+    reach = read_range(name, ends, apart=points > 1)
+    values = reach.at(np.linspace(0.0, 1.0, points))
+    if points > 1:
+        values[-1] = reach.stop
+    return values
+
+
+def read_range(name: str, given: Any, *, apart: bool = True) -> Range:
+    """Return a range from (first, last), or from a mapping with from, to and spacing."""
+    whole = _as_table(name, given)
+    start, stop = _end(name, "from", whole.get("from")), _end(name, "to", whole.get("to"))
+    spacing = whole.get("spacing", SPACINGS[0])
+    one_of(f"{name}.spacing", spacing, SPACINGS)
+    if apart and start == stop:
+        raise refusal(name, start, "a range must not end where it starts")
+    if spacing == "log" and min(start, stop) <= 0.0:
+        raise refusal(name, min(start, stop), "logarithmic spacing needs positive ends")
+    log = spacing == "log"
+    if not isfinite(stop - start) or (log and not 0.0 < stop / start < inf):
+        raise refusal(name, [start, stop], "these ends are too far apart for floating point")
+    return Range(start, stop, log)
+
+
+def _as_table(name: str, given: Any) -> Mapping[str, Any]:
+    ends = np.atleast_1d(told_unit(name, given)[0]) if isinstance(given, np.ndarray) else given
+    ends = ends.tolist() if isinstance(ends, np.ndarray) else ends
+    if isinstance(ends, list | tuple) and len(ends) == 2:
+        return dict(zip(RANGE, ends, strict=False))
+    if not isinstance(given, Mapping):
+        raise refusal(name, given, "must be a range: (first, last), or {from, to, spacing}")
+    for key in given:
+        if key not in RANGE:
+            allowed = f"a range has {', '.join(RANGE)} and, on a grid, points"
+            raise InputError(f"{name}.{key}: unknown; {allowed}")
+    return given
+
+
+def _end(name: str, which: str, value: Any) -> float:
+    if value is None:
+        raise InputError(f"{name}.{which}: missing; a range needs from and to")
+    result = number(leaf(name), value)
+    if not isfinite(result):
+        raise refusal(f"{name}.{which}", value, "must be finite")
+    if leaf(name) == "angle" and abs(result) > pi and not isinstance(value, str):
+        allowed = f"a bare angle is in radians; write '{value} deg'"
+        raise refusal(f"{name}.{which}", value, allowed)
+    return result
+
+
+MOST_SAMPLES = 10**12  # which leaves room for their places in a float
 MOST_SEED = 2**128 - 1
 
 
@@ -35,8 +163,7 @@ class Design(ABC):
     """What a sweep needs to know of its points: the names of their inputs, and how these vary.
 
     `choices` are what the codes of an input that has names stand for. Points are `sampled` if their
-    inputs are variables along `point`, rather than coordinates. `_given` has the values or the
-    range of each input. A box is a slice of every dimension.
+    inputs are variables along `point`, rather than coordinates.
     """
 
     names: tuple[str, ...]
@@ -133,16 +260,13 @@ class Grid(Design):
 
     @property
     def dims(self) -> tuple[str, ...]:
-        """Names of the dimensions, one per axis."""
         return tuple(variable(name) for name in self.names)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of values of every axis."""
         return tuple(values.size for values in self._given.values())
 
     def coords(self) -> dict[str, Any]:
-        """Return every axis with its unit and meaning."""
         labels = {name: [one.label for one in self.choices[name]] for name in self.choices}
         return {
             dim: (dim, labels.get(name, values), input_attributes(name, self.choices))
@@ -150,13 +274,11 @@ class Grid(Design):
         }
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        """Return the inputs of the points of a box."""
         parts = [values[part] for values, part in zip(self._given.values(), box, strict=True)]
         lattice = np.meshgrid(*parts, indexing="ij")
         return {name: at.ravel() for name, at in zip(self.names, lattice, strict=True)}
 
     def description(self) -> dict[str, Any]:
-        """Return the values of every axis."""
         axes = self._described(np.ndarray.tolist)
         return {"kind": "grid", "order": list(self.names), "axes": axes}
 
@@ -197,7 +319,7 @@ class LatinHypercube(Design):
 
     def __init__(self, ranges: Mapping[str, Any], *, samples: int, seed: int = 0) -> None:
         choices = _choices("ranges", ranges)
-        samples = counted("samples", samples, 1, MOST)
+        samples = counted("samples", samples, 1, MOST_SAMPLES)
         seed = counted("seed", seed, 0, MOST_SEED)
         reaches = {
             name: Range(0.0, len(choices[name]), False)
@@ -209,11 +331,9 @@ class LatinHypercube(Design):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of samples."""
         return (self.samples,)
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        """Return the inputs of the points of a box."""
         index = np.arange(*box[0].indices(self.samples), dtype=np.uint64)
         words = secrets(self.seed, len(self.names))
         found: dict[str, NDArray[Any]] = {}
@@ -223,7 +343,6 @@ class LatinHypercube(Design):
         return found
 
     def description(self) -> dict[str, Any]:
-        """Return the ranges, the number of samples and the seed."""
         whole = {"samples": self.samples, "seed": self.seed, "order": list(self.names)}
         return {"kind": "latin hypercube", **whole, "ranges": self._described(Range._asdict)}
 

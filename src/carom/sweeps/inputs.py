@@ -10,7 +10,7 @@ import numpy as np
 from carom.bodies import cases
 from carom.bodies.materials import STRENGTHS
 from carom.io.labels import attributes
-from carom.quantities.refusals import InputError, clipped, hint, refusal
+from carom.quantities.refusals import InputError, clipped, hint, one_of, refusal
 from carom.quantities.symbols import meant, remark
 
 CODE = np.int8
@@ -130,7 +130,7 @@ def checked_choices(name: str, choices: list[Choice]) -> tuple[Choice, ...]:
 def read_choice(name: str, value: Any) -> Choice:
     """Return a choice, or raise InputError if there is none of that name."""
     if leaf(name) == "kind":
-        return Choice(cases.as_kind(value), {})
+        return Choice(one_of("kind", value, cases.KINDS), {})
     stuff = cases.read_material(value)
     values = cases.material_values(stuff)
     known = {key: number for key, number in values.items() if key in ELASTIC}

@@ -1,8 +1,11 @@
 """Impacts of many points at once: bodies whose numbers are arrays, and a status for each point."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping, Sequence
-from math import pi
-from typing import Any, NamedTuple
+from dataclasses import fields, is_dataclass
+from math import nan, pi
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +21,77 @@ from carom.dimensionless.lossy.law import LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebounds import rebound
-from carom.impacts.history import PAIR
-from carom.impacts.outcome import Outcome
+from carom.dimensionless.solution import solve
+from carom.impacts.outcome import PAIR, Outcome
+from carom.impacts.peaks import BODIES, MEASURES, StruckBody, growth, struck_bodies
 from carom.quantities.arrays import Array
+from carom.quantities.glossary import NEEDED_STRENGTHS
 from carom.quantities.statuses import WordedStatus
 from carom.sweeps.inputs import ELASTIC, leaf
-from carom.sweeps.strength import WANTED, strength_values
+
+
+class Wanted(NamedTuple):
+    """An output of a sweep that is of one of the bodies."""
+
+    quantity: str
+    body: str
+
+
+WANTED = {
+    f"{quantity}_{body}": Wanted(quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES
+}
+SPEEDS: dict[str, Callable[[StruckBody], float]] = {  # as a multiple of the speed of the impact
+    "yield_speed": lambda body: growth(body.yield_ratio()),
+    "tensile_speed": lambda body: growth(body.tension_ratio()),
+    "crack_speed": StruckBody.cracking,
+}
+
+
+def needed_strengths(outputs: Sequence[str]) -> tuple[str, ...]:
+    """Return the strengths of materials on which outputs depend."""
+    needed = {name for each in outputs for name in needed_by(each)}
+    return tuple(name for name in STRENGTHS if name in needed)
+
+
+def needed_by(output: str) -> tuple[str, ...]:
+    """Return the strengths of its body that an output needs."""
+    return NEEDED_STRENGTHS[WANTED[output].quantity] if output in WANTED else ()
+
+
+def strength_values(
+    outcome: Outcome, size: int, solved: NDArray[np.bool_], names: Sequence[str]
+) -> dict[str, Array]:
+    """Return these outputs of so many impacts, NaN where they are not solved or cannot be told."""
+    found = {name: np.full(size, nan) for name in names}
+    for i in np.flatnonzero(solved).tolist():
+        psi, chi = _number(outcome.psi_in, i), _number(outcome.pair.chi, i)
+        solution = solve(psi if np.isfinite(psi) else 0.0, chi)
+        bodies = struck_bodies(_entry(outcome.pair, i), _entry(outcome.scales, i), solution)
+        speed = np.hypot(_number(outcome.normal_speed, i), _number(outcome.tangential_speed, i))
+        for name in names:
+            quantity, body = WANTED[name]
+            if body in bodies:
+                found[name][i] = _value(quantity, bodies[body], speed)
+    return found
+
+
+def _value(quantity: str, body: StruckBody, speed: float) -> float:
+    if quantity in SPEEDS:
+        return float(speed * SPEEDS[quantity](body))
+    return body.peak(quantity).value if quantity in MEASURES else body.intensity().value
+
+
+def _entry(record: Any, i: int) -> Any:
+    """Return a record of numbers and arrays at one point: numbers alone."""
+    if is_dataclass(record):
+        own = {each.name: getattr(record, each.name) for each in fields(record)}
+        return unchecked(type(record), **{name: _entry(value, i) for name, value in own.items()})
+    return record if record is None or isinstance(record, str) else _number(record, i)
+
+
+def _number(values: Any, i: int) -> float:
+    return float(values[i] if np.ndim(values) else values)
+
 
 Codes = NDArray[np.int8]
 Columns = Mapping[str, Any]  # inputs by name: a number, or an array with one for every point
@@ -81,6 +149,11 @@ class BlockSolution(NamedTuple):
     max_pressure: Any = 1.0
     shear_lost: Any = 0.0
 
+    @classmethod
+    def blank(cls, size: int, losses: object) -> BlockSolution:
+        """Return what is filled before an outcome is asked: all with losses, else psi_out."""
+        return cls(*np.full((1 if losses is None else len(cls._fields), size), np.nan))
+
 
 def evaluate(
     columns: Columns,
@@ -93,16 +166,14 @@ def evaluate(
     """Return the outputs of so many impacts, NaN where one is not solved, and their status."""
     with np.errstate(all="ignore"):
         status = _status(columns, kind, size)
-        count = 1 if loss is None else len(BlockSolution._fields)
-        solution = BlockSolution(*np.full((count, size), np.nan))
-        outcome = _outcome(columns, kind, solution)  # which is filled before it is asked for
+        first, second = _sphere(columns, "first"), _second(columns, kind)
+        pair = unchecked(Pair, first=first, second=second, friction=columns["friction"])
+        solution, spins = BlockSolution.blank(size, loss), (columns["spin"], columns["spin2"])
+        outcome = Outcome(pair, *velocities(columns), *spins, solution)
         lost = (status == PointStatus.SOLVED) & np.logical_not(outcome.fits)
         status[lost] = PointStatus.BEYOND_FLOATING_POINT
-        if loss is None:
-            solve_elastic(outcome, solution, status, threads)
-        else:
-            law = law_of(loss, columns.get(loss), columns.get(RATIO))
-            solve_with_losses(outcome, law, solution, status, threads)
+        law = None if loss is None else law_of(loss, columns.get(loss), columns.get(RATIO))
+        solve_block(outcome, law, status, threads)
         solved = status == PointStatus.SOLVED
         searched = [name for name in outputs if name in WANTED]
         told = strength_values(outcome, size, solved, searched) if searched else {}
@@ -114,32 +185,27 @@ def evaluate(
     return values, status
 
 
-def solve_elastic(
-    outcome: Outcome, solution: BlockSolution, status: Codes, threads: int | None
-) -> None:
-    """Fill in the elastic impacts whose status is SOLVED, and what became of them."""
-    psi, chi = (np.broadcast_to(x, status.shape) for x in (outcome.psi_in, outcome.pair.chi))
-    run = (status == PointStatus.SOLVED) & np.isfinite(psi)  # without friction psi is infinite
-    found, ended = rebound(psi[run], chi[run], threads=threads, return_status=True)
-    solution.psi_out[run], status[run] = found, FROM_SOLVER[ended]
-
-
-def solve_with_losses(
-    outcome: Outcome, law: LossLaw, solution: BlockSolution, status: Codes, threads: int | None
-) -> None:
-    """Fill in the impacts with losses, also those without friction: e and the like differ."""
-    loss, *numbers = law.loss(outcome.pair, outcome.normal_speed)
+def solve_block(outcome: Outcome, law: LossLaw | None, status: Codes, threads: int | None) -> None:
+    """Fill in the solution of the impacts whose status is SOLVED, and what became of them."""
+    solution = cast(BlockSolution, outcome.solution)
+    loss, *numbers = (None,) if law is None else law.loss(outcome.pair, outcome.normal_speed)
     given = (outcome.psi_in, outcome.pair.chi, *numbers)
-    psi, chi, parameter, extra = (np.broadcast_to(x, status.shape) for x in given)
-    unknown = np.isnan(parameter) | np.isnan(extra)
-    status[(status == PointStatus.SOLVED) & unknown] = PointStatus.NOT_A_NUMBER
+    psi, chi, *parameters = (np.broadcast_to(x, status.shape) for x in given)
     run = status == PointStatus.SOLVED
-    psi = np.where(np.isfinite(psi), psi, 0.0)
-    losses = LossNumbers(loss, parameter[run], extra[run])
-    found = lossy_rebounds(psi[run], chi[run], losses, threads)
+    if loss is None:
+        run &= np.isfinite(psi)  # without friction psi is infinite
+        found, ended = rebound(psi[run], chi[run], threads=threads, return_status=True)
+        solution.psi_out[run], status[run] = found, FROM_SOLVER[ended]
+        return
+    unknown = np.logical_or.reduce(np.isnan(parameters))
+    status[run & unknown] = PointStatus.NOT_A_NUMBER
+    run &= ~unknown
+    psi = np.where(np.isfinite(psi), psi, 0.0)  # e and the like differ without friction, too
+    losses = LossNumbers(loss, *(values[run] for values in parameters))
+    lossy = lossy_rebounds(psi[run], chi[run], losses, threads)
     for name in BlockSolution._fields:
-        getattr(solution, name)[run] = getattr(found, name)
-    status[run] = FROM_SOLVER[found.status]
+        getattr(solution, name)[run] = getattr(lossy, name)
+    status[run] = FROM_SOLVER[lossy.status]
 
 
 def _status(columns: Columns, kind: str, size: int) -> Codes:
@@ -168,6 +234,13 @@ def approaches(columns: Columns) -> Any:
     return np.asarray(columns["normal_speed"]) > 0.0
 
 
+def velocities(columns: Columns) -> tuple[Any, Any]:
+    """Return normal and tangential speeds."""
+    if "speed" in columns:
+        return components(columns["speed"], columns["angle"])
+    return columns["normal_speed"], columns["tangential_speed"]
+
+
 def _misfit(columns: Columns, kind: str) -> Any:
     """Return where bodies are out of proportion, or both rigid."""
     spheres = ("first", "second") if kind == "sphere" else ("first",)
@@ -179,16 +252,6 @@ def _misfit(columns: Columns, kind: str) -> Any:
     ]
     tight = [columns["second.radius"] <= columns["first.radius"]] if kind == "cup" else []
     return np.logical_or.reduce(np.broadcast_arrays(young, *hollow, *tight))
-
-
-def _outcome(columns: Columns, kind: str, solution: BlockSolution) -> Outcome:
-    first, second = _sphere(columns, "first"), _second(columns, kind)
-    pair = unchecked(Pair, first=first, second=second, friction=columns["friction"])
-    if "speed" in columns:
-        normal, tangential = components(columns["speed"], columns["angle"])
-    else:
-        normal, tangential = columns["normal_speed"], columns["tangential_speed"]
-    return Outcome(pair, normal, tangential, columns["spin"], columns["spin2"], solution)
 
 
 def _second(columns: Columns, kind: str) -> Counterbody:

@@ -1,17 +1,19 @@
-"""What every sweep is kept in: a labelled dataset, here in memory."""
+"""What every sweep is kept in, here in memory; and what came of it, in few numbers."""
 
 import json
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from math import prod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.labels import labelled_dataset, spheres
 from carom.quantities.refusals import refusal
-from carom.sweeps.blocks import Box, Values, boxes
+from carom.sweeps.designs import Box, Values, boxes, chunk_shape
+from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import SweepProblem
 
 if TYPE_CHECKING:
@@ -83,3 +85,51 @@ def _condensed(value: Any) -> Any:
         digest = sha256(json.dumps(value).encode()).hexdigest()
         return {"length": len(value), "first": value[0], "last": value[-1], "sha256": digest}
     return value
+
+
+MAIN = (
+    "rebound_speed",
+    "rebound_angle",
+    "spin_out",
+    "normal_restitution",
+    "tangential_restitution",
+    "dissipated_energy",
+    "lost_energy",
+    "shear_lost_energy",
+)
+
+
+class Summary(NamedTuple):
+    """How many points a sweep has, how they fared, and from where to where its results go."""
+
+    sizes: dict[str, int]
+    statuses: dict[str, int]
+    ranges: dict[str, tuple[float, float]]  # of what is finite; NaN if nothing is
+    solved: int  # points
+
+    @property
+    def points(self) -> int:
+        """The number of points."""
+        return sum(self.statuses.values())
+
+
+def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summary:
+    """Return the summary of a sweep, with the ranges of these of its results."""
+    status = dataset["status"]
+    shown = [name for name in names or MAIN if name in dataset]
+    counts: Counter[int] = Counter()
+    ranges = dict.fromkeys(shown, (np.nan, np.nan))
+    for box in boxes(status.shape, status.encoding.get("chunks") or chunk_shape(status.shape)):
+        values, numbers = np.unique(status[box].values, return_counts=True)
+        counts.update(dict(zip(values.tolist(), numbers.tolist(), strict=True)))
+        for name in shown:
+            values = dataset[name][box].values
+            if (found := values[np.isfinite(values)]).size:
+                least, most = ranges[name]
+                ranges[name] = (
+                    float(np.fmin(least, found.min())),
+                    float(np.fmax(most, found.max())),
+                )
+    statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
+    solved = counts[PointStatus.SOLVED] + counts[PointStatus.STRENGTH_NOT_KNOWN]
+    return Summary({str(n): size for n, size in dataset.sizes.items()}, statuses, ranges, solved)

@@ -15,7 +15,7 @@ from carom.io.extras import extra
 from carom.io.version import __version__
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import MOST_THREADS, counted
-from carom.sweeps.blocks import Box, Values
+from carom.sweeps.designs import Box, Values
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped
 
@@ -54,8 +54,9 @@ class Team(NamedTuple):
 def team(scheduler: str | None, workers: int | None, problem: SweepProblem) -> Iterator[Team]:
     """Hold those who compute a problem: threads here, or the workers of a dask scheduler."""
     if scheduler is None:
-        with _threads(workers, problem) as here:
-            yield here
+        own = available_cores() if workers is None else counted("workers", workers, 1, MOST_THREADS)
+        with futures.ThreadPoolExecutor(own, "sweep") as pool:
+            yield Team(lambda box: pool.submit(problem.block, box), own, {})
     elif workers is not None:
         raise refusal(
             "workers", workers, "a cluster has its own workers; leave it out with a scheduler"
@@ -66,27 +67,18 @@ def team(scheduler: str | None, workers: int | None, problem: SweepProblem) -> I
 
 
 @contextmanager
-def _threads(workers: int | None, problem: SweepProblem) -> Iterator[Team]:
-    size = available_cores() if workers is None else counted("workers", workers, 1, MOST_THREADS)
-    with futures.ThreadPoolExecutor(size, "sweep") as pool:
-        yield Team(lambda box: pool.submit(problem.block, box), size, {})
-
-
-@contextmanager
 def _cluster(address: str, problem: SweepProblem) -> Iterator[Team]:
     with _client(address) as client:
         size = _checked_threads(client, address)
         executor: futures.Executor = client.get_executor(pure=False)
         shared = client.submit(_itself, problem, pure=False)  # a task, made anew if it is lost
+        killed = extra("distributed", CLUSTER).KilledWorker
         losses = {
             futures.CancelledError: f"the scheduler {address} no longer answers",
-            extra(
-                "distributed", CLUSTER
-            ).KilledWorker: "the workers of the cluster died, one after another",
+            killed: "the workers of the cluster died, one after another",
         }
-        yield Team(
-            lambda box: executor.submit(_remote_block, shared, box, versions()), size, losses
-        )
+        call = executor.submit
+        yield Team(lambda box: call(_remote_block, shared, box, versions()), size, losses)
 
 
 @contextmanager
@@ -121,7 +113,7 @@ def _checked_threads(client: Any, address: str) -> int:
             "scheduler", address, f"it has no workers; start one with: dask worker {address}"
         ) from None
     for worker, found in client.run(versions, on_error="return").items():
-        _require_same(worker, found)
+        _require_same(worker, found, versions())
     return sum(client.nthreads().values())
 
 
@@ -132,11 +124,11 @@ def versions() -> dict[str, str]:
     return own | {"a solver compiled by": compiled_by()}
 
 
-def _require_same(worker: str, found: Any, expected: dict[str, str] | None = None) -> None:
+def _require_same(worker: str, found: Any, expected: dict[str, str]) -> None:
     """Raise InputError if a worker does not have the versions of this process."""
     if not isinstance(found, dict):
         raise InputError(f"scheduler: worker {worker} cannot load this version of carom ({found})")
-    for name, wanted in (expected or versions()).items():
+    for name, wanted in expected.items():
         if found.get(name) != wanted:
             raise InputError(
                 f"scheduler: worker {worker} has {name} {found.get(name)}, not {wanted} as here; "

@@ -32,7 +32,7 @@ from carom.io.paths import checked_path
 from carom.io.stores import CHUNK, STATUS, SealedStore, freeze, read_store
 from carom.io.version import __version__
 from carom.quantities.refusals import refusal
-from carom.sweeps.blocks import Box, Values, boxes
+from carom.sweeps.designs import Box, Values, boxes
 from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped, blank_dataset, identity
@@ -95,11 +95,7 @@ class StoreRecord:
 
 @contextmanager
 def opened(folder: str | Path, problem: SweepProblem, resume: bool) -> Iterator[StoreRecord]:
-    """Make a store, or check the one that is there, and hold it against other processes.
-
-    Raises InputError if it is there and `resume` is not set, if another process holds it, or if it
-    is not of this sweep.
-    """
+    """Make a store, or check the one that is there, and hold it against other processes."""
     path = _checked(folder)
     if not path.exists():
         _create(path, problem)

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair, checked_pair
 from carom.impacts.peaks import UNCOUPLED
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
+from carom.quantities.refusals import InputError
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
-from carom.sweeps.strength import speeds_known, unit_case
+from carom.sweeps.points import SPEEDS, WANTED, needed_by
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -84,16 +87,32 @@ def bearable_speeds(
     array([[0.87, 1.62]])
     """
     checked_pair(pair)
-    outputs = speeds_known(pair)
+    outputs = _speeds_known(pair)
     axes = {
         "friction": pair.friction if friction is None else friction,
         "angle": ANGLES if angle is None else angle,
     }
-    grid = Grid({name: _listed(values) for name, values in axes.items()})
-    found = sweep(unit_case(pair), grid, outputs=list(outputs), workers=workers, progress=progress)
+    case = {**case_of(pair), "speed": 1.0}  # the speeds that bodies bear are multiples of it
+    lists = {n: [v] if isinstance(v, int | float | str) else v for n, v in axes.items()}
+    found = sweep(case, Grid(lists), outputs=outputs, workers=workers, progress=progress)
     notes = [BOUNDS] + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
     return found.assign_attrs(title="speeds that bodies bear", notes="; ".join(notes))
 
 
-def _listed(values: ArrayLike) -> ArrayLike:
-    return [values] if isinstance(values, int | float | str) else values
+def _speeds_known(pair: Pair) -> list[str]:
+    """Return which speeds the strengths of a pair give, or raise InputError if none."""
+    known = [
+        name
+        for name, (quantity, body) in WANTED.items()
+        if quantity in SPEEDS and _bears(getattr(pair, body).material, needed_by(name))
+    ]
+    if not known:
+        raise InputError(
+            "strength: no strength of either body is known; give yield_strength, tensile_strength, "
+            "or fracture_toughness with flaw_size, to carom.Material or carom.material(name, ...)"
+        )
+    return known
+
+
+def _bears(material: Any, needed: Sequence[str]) -> bool:
+    return not material.is_rigid and all(getattr(material, name) is not None for name in needed)

@@ -1,8 +1,8 @@
-"""Tables of cases: columns of numbers with units, or of names, from a CSV file or a mapping."""
+"""Tables of cases from a CSV file or a mapping, and the table [sweep] of a case file."""
 
 import hashlib
 import re
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,15 +12,15 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from carom.bodies.cases import SWEEP, Case
 from carom.io.columns import column_in_si
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, clipped, refusal
 from carom.quantities.texts import Unreadable, factor
-from carom.sweeps.blocks import Box
-from carom.sweeps.designs import Design
+from carom.sweeps.designs import Box, Design, Grid, LatinHypercube
 from carom.sweeps.inputs import (
     CHOSEN,
     CODE,
@@ -70,15 +70,12 @@ class Table(Design):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of rows."""
         return (self._given[self.names[0]].size,)
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        """Return the inputs of the points of a box."""
         return {name: values[box[0]] for name, values in self._given.items()}
 
     def description(self) -> dict[str, Any]:
-        """Return a hash of the values."""
         digest = hashlib.sha256()
         for values in self._given.values():
             digest.update(np.ascontiguousarray(values).tobytes())
@@ -152,3 +149,59 @@ def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:
     place = np.full(len(values) + 1, UNREADABLE, dtype=CODE)
     place[list(read)] = np.arange(len(choices))
     return place[codes], choices
+
+
+EXAMPLE = 'angle = {from = "0 deg", to = "85 deg", points = 86}'
+
+
+def plan(
+    case: Case, path: Path, columns: Mapping[str, str] | None = None
+) -> tuple[Design, list[str] | None]:
+    """Return the design and the outputs that a case file asks for."""
+    given = case.get(SWEEP)
+    if not isinstance(given, Mapping):
+        raise InputError(f"{SWEEP}: missing in {path}; add [sweep.axes] with {EXAMPLE}")
+    outputs = given.get("outputs")
+    if "outputs" in given and not isinstance(outputs, list):
+        raise refusal("outputs", outputs, 'must be a list of names, e.g. ["rebound_angle"]')
+    return _design(given, path, columns or {}), outputs
+
+
+def _design(given: Mapping[str, Any], path: Path, columns: Mapping[str, str]) -> Design:
+    if "table" in given:
+        _refuse(given, ("samples", "seed", "axes"), "a table of cases")
+        if not isinstance(given["table"], str):
+            raise refusal("table", given["table"], "must be the name of a CSV file")
+        own = given.get("columns", {})
+        if not isinstance(own, Mapping):
+            raise refusal("columns", own, 'must be a table, e.g. {omega = "spin"}')
+        return Table(path.parent / given["table"], {**own, **columns})
+    if columns or "columns" in given:
+        shown = columns or given["columns"]
+        raise refusal("columns", shown, "they are those of a table of cases; leave them out")
+    axes = given.get("axes")
+    if not isinstance(axes, Mapping):
+        raise refusal("axes", axes, f"must be a table, [sweep.axes], with {EXAMPLE}")
+    if "samples" in given:
+        return LatinHypercube(_flat(axes), samples=given["samples"], seed=given.get("seed", 0))
+    _refuse(given, ("seed",), "a grid")
+    return Grid(_flat(axes))
+
+
+def _refuse(given: Mapping[str, Any], names: Iterable[str], kind: str) -> None:
+    for name in names:
+        if name in given:
+            raise refusal(name, given[name], f"{kind} has none; leave it out")
+
+
+def _flat(axes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Return axes by dotted names; first.radius without quotes is a table in a table for TOML."""
+    flat: dict[str, Any] = {}
+    for name, axis in axes.items():
+        nested = isinstance(axis, Mapping) and axis and not axis.keys() & {"from", "to", "points"}
+        found = _flat(axis, f"{prefix}{name}.") if nested else {prefix + name: axis}
+        for twice in flat.keys() & found.keys():
+            words = "it is given twice in [sweep.axes]; leave one of them out"
+            raise InputError(f"{clipped(twice)}: {words}")
+        flat |= found
+    return flat

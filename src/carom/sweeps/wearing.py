@@ -1,5 +1,7 @@
 """Wear by many impacts of one pair: a mill, a nozzle, a chute, by their angles and speeds."""
 
+from collections.abc import Mapping
+from math import nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -7,28 +9,137 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, checked_pair
-from carom.bodies.shapes import describe
+from carom.bodies.pairs import Pair, check_second_spin, checked_pair
+from carom.bodies.shapes import Sphere, describe
 from carom.dimensionless.lossy.law import checked_law
 from carom.impacts.exact import solve_exactly
-from carom.impacts.wear import MOST_RADII, largest, read_coefficient, rubbed_at
+from carom.impacts.outcome import Outcome
+from carom.impacts.wear import MOST_RADII, largest, read_coefficient, rubbed, rubbed_at
 from carom.io.labels import flags, labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.quantities.arrays import Array
+from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import Value, counted, positive
-from carom.sweeps.points import PointStatus
-from carom.sweeps.rubbing import Many, motion_of, read_columns, solve_all
+from carom.sweeps.points import (
+    BlockSolution,
+    Codes,
+    PointStatus,
+    approaches,
+    solve_block,
+    velocities,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
 
+REALS = "give real numbers, one or an array of them"
+HUGE = 1e250  # N m; per area it is more
+BLOCK = 20_000  # impacts that are solved before progress is told
 FINE = 201  # distances at least among which the largest wear of a spot is sought
 STATUS = {
     "long_name": "what became of the impact",
     **flags([status.message for status in PointStatus], first=PointStatus.NOT_RUN),
 }
+
+
+class Many(NamedTuple):
+    """Impacts of one pair side by side: how they meet and how often, and what comes of each.
+
+    `rubbed` is the integral of pressure times slip rate in N m, `radii` the largest of the contact.
+    """
+
+    columns: dict[str, Array]
+    counts: Array
+    status: Codes
+    rubbed: Array
+    radii: Array
+
+    @property
+    def solved(self) -> Any:
+        """Which of them are solved."""
+        return self.status == PointStatus.SOLVED
+
+    def part(self, which: slice) -> "Many":
+        """Return some of the impacts; what is written there is written here."""
+        columns = {name: values[which] for name, values in self.columns.items()}
+        counts, status = self.counts[which], self.status[which]
+        return Many(columns, counts, status, self.rubbed[which], self.radii[which])
+
+    @property
+    def total(self) -> float:
+        """What all solved impacts rub, each as often as it happens, in N m; NaN if none is."""
+        if self.status.size and not self.solved.any():
+            return nan
+        return float(self.rubbed[self.solved] @ self.counts[self.solved])
+
+
+def _read_columns(pair: Pair, motion: dict[str, ArrayLike | None]) -> dict[str, Array]:
+    """Return what was given as lines of one length, by name, or raise InputError."""
+    by_speed = motion["speed"] is not None
+    if by_speed == (motion["normal_speed"] is not None):
+        raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
+    for name in ("normal_speed", "tangential_speed") if by_speed else ("angle",):
+        if motion.pop(name) is not None:
+            raise InputError(f"{name}: give speed and angle, or normal_speed and tangential_speed")
+    motion.pop("normal_speed" if by_speed else "speed", None)
+    given = {name: 0.0 if value is None else value for name, value in motion.items()}
+    along_the_same(**given)
+    read = {name: numbers(name, value, REALS, gaps=True) for name, value in given.items()}
+    check_second_spin(pair, given["spin2"], spins=bool(read["spin2"].any()))
+    shape = together(read)
+    if not isinstance(pair.second, Sphere):
+        del read["spin2"]
+    return {name: np.broadcast_to(values, shape).ravel() for name, values in read.items()}
+
+
+def _motion_of(columns: Mapping[str, Any]) -> tuple[Any, Any]:
+    """Return normal speeds and tangential motions."""
+    normal, tangential = velocities(columns)
+    spin2 = columns.get("spin2", np.zeros_like(normal))
+    return normal, Tangential(tangential, columns["spin"], spin2)
+
+
+def _solve_all(
+    pair: Pair, columns: dict[str, Array], losses: LossLaw | None, progress: Progress
+) -> Many:
+    """Return all impacts with what each of them rubs, and a status for each."""
+    counts = columns.pop("counts")
+    status = np.full(counts.size, PointStatus.NOT_RUN, dtype=np.int8)
+    nothing = np.full(counts.size, np.nan)
+    many = Many(columns, counts, status, nothing, nothing.copy())
+    with advancing("solving the impacts", counts.size, progress, unit="impacts") as advance:
+        for start in range(0, counts.size, BLOCK):
+            part = slice(start, start + BLOCK)
+            with np.errstate(all="ignore"):
+                _fill(pair, losses, many.part(part))
+            advance(many.status[part].size)
+    return many
+
+
+def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
+    """Solve a block of impacts and write what comes of it."""
+    normal, motion = _motion_of(block.columns)
+    solution = BlockSolution.blank(block.counts.size, losses)
+    tangential, spin, spin2 = motion
+    outcome = Outcome(pair, normal, tangential, spin, spin2, solution)
+    block.status[:] = _status(block.columns, block.counts, outcome)
+    solve_block(outcome, losses, block.status, None)
+    found = np.asarray(rubbed(outcome), dtype=np.float64)
+    block.status[block.solved & ~(found < HUGE)] = PointStatus.BEYOND_FLOATING_POINT
+    block.rubbed[block.solved] = found[block.solved]
+    block.radii[block.solved] = np.asarray(outcome.max_radius)[block.solved]
+
+
+def _status(columns: Mapping[str, Array], counts: Array, outcome: Outcome) -> Codes:
+    """Return what is known before solving; of two faults the one that is marked later."""
+    status = np.full(counts.size, PointStatus.SOLVED, dtype=np.int8)
+    status[~np.broadcast_to(outcome.fits, status.shape)] = PointStatus.BEYOND_FLOATING_POINT
+    status[~(counts >= 0.0)] = PointStatus.OUT_OF_RANGE
+    status[~approaches(columns)] = PointStatus.NOT_APPROACHING
+    for values in (*columns.values(), counts):
+        status[~np.isfinite(values)] = PointStatus.NOT_A_NUMBER
+    return status
 
 
 @known_keywords
@@ -114,22 +225,24 @@ def wear_of_many(
     count = counted("n", n, 2, MOST_RADII)
     per_load = None if coefficient is None else read_coefficient(coefficient)
     spread = None if area is None else positive("area", area)
-    _checked(losses, pair)
+    if losses is not None and any(map(np.ndim, checked_law(losses, "loss")(pair, 1.0))):
+        raise refusal("losses", losses, "wear takes one number; carom.sweep takes many")
     motion = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
     motion |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2, "counts": counts}
-    many = solve_all(pair, read_columns(pair, motion), losses, progress)
+    many = _solve_all(pair, _read_columns(pair, motion), losses, progress)
     found = {"friction": pair.friction, **_of_all(many, pair.friction, per_load)}
     coords: dict[str, Any] = {}
     if spread is None:
-        distance = _evenly(float(many.radii[many.solved].max(initial=0.0)), count)
-        spot = _on_spot(pair, many, losses, distance, progress)
+        distance = np.linspace(0.0, float(many.radii[many.solved].max(initial=0.0)), count)
         coords["distance"] = distance
-        found |= _of_spot(distance, spot, pair.friction, per_load)
+        found |= _on_spot(pair, many, losses, distance, per_load, progress)
     else:
         found |= {"area": spread, "spread_friction_work": pair.friction * many.total / spread}
         found |= {} if per_load is None else {"spread_wear_depth": per_load * many.total / spread}
-    attributes = {"title": "wear by many impacts", "inputs": _inputs(pair, losses)}
-    return labelled_dataset(found, coords, attributes)
+    inputs: dict[str, Any] = {"first": describe(pair.first), "second": describe(pair.second)}
+    inputs |= {"friction": pair.friction}
+    inputs |= {} if losses is None else {"losses": losses.describe()}
+    return labelled_dataset(found, coords, {"title": "wear by many impacts", "inputs": inputs})
 
 
 def _of_all(many: Many, friction: float, per_load: float | None) -> dict[str, Any]:
@@ -148,67 +261,32 @@ def _of_all(many: Many, friction: float, per_load: float | None) -> dict[str, An
     return found
 
 
-class Spot(NamedTuple):
-    """What impacts on one spot rub at rising distances: mean around the centre, lateral part."""
-
-    radii: Array
-    mean: Array
-    lateral: Array
-
-    def at(self, distance: Array) -> Array:
-        """Return the means at distances that are among the radii."""
-        return self.mean[np.searchsorted(self.radii, distance)]
-
-    def most(self) -> tuple[float, float]:
-        """Return the largest value anywhere on the spot, and its distance from the centre."""
-        inner = _evenly(self.radii[-1], FINE)
-        at = np.searchsorted(self.radii, inner)
-        return largest(inner, self.mean[at] + np.abs(self.lateral[at]))
-
-
-def _evenly(end: float, n: int) -> Array:
-    return np.linspace(0.0, end, n)
-
-
 def _on_spot(
-    pair: Pair, many: Many, losses: LossLaw | None, distance: Array, progress: Progress
-) -> Spot:
-    """Return what all impacts on one spot rub, at these distances and at more of them."""
-    radii = np.union1d(distance, _evenly(distance[-1], FINE))
-    mean, lateral, (normal, motion) = *np.zeros((2, radii.size)), motion_of(many.columns)
+    pair: Pair,
+    many: Many,
+    losses: LossLaw | None,
+    distance: Array,
+    per_load: float | None,
+    progress: Progress,
+) -> dict[str, Any]:
+    """Return what all impacts on one spot rub and wear, at these distances and at the deepest."""
+    inner = np.linspace(0.0, distance[-1], FINE)
+    radii = np.union1d(distance, inner)
+    mean, lateral, (normal, motion) = *np.zeros((2, radii.size)), _motion_of(many.columns)
     which = np.flatnonzero(many.solved & (many.counts > 0.0))
     with advancing("adding up the wear", which.size, progress, unit="impacts") as advance:
         for i in which.tolist():
             before = Tangential(*(float(values[i]) for values in motion))
-            rubbed = rubbed_at(solve_exactly(pair, float(normal[i]), before, losses), radii)
-            mean += many.counts[i] * rubbed[0]
-            lateral += many.counts[i] * rubbed[1]
+            work = rubbed_at(solve_exactly(pair, float(normal[i]), before, losses), radii)
+            mean += many.counts[i] * work[0]
+            lateral += many.counts[i] * work[1]
             advance(1)
-    return Spot(radii, mean, lateral)
-
-
-def _of_spot(
-    distance: Array, spot: Spot, friction: float, per_load: float | None
-) -> dict[str, Any]:
-    most, place = spot.most()
+    at = np.searchsorted(radii, inner)
+    most, place = largest(inner, mean[at] + np.abs(lateral[at]))
+    around = mean[np.searchsorted(radii, distance)]
     found: dict[str, Any] = {"max_wear_radius": place}
-    factors = {"friction_work": friction, "wear_depth": per_load}
-    for name, factor in factors.items():
+    for name, factor in (("friction_work", pair.friction), ("wear_depth", per_load)):
         if factor is not None:
-            found[f"mean_{name}"] = ("distance", factor * spot.at(distance))
+            found[f"mean_{name}"] = ("distance", factor * around)
             found[f"max_{name}"] = factor * most
     return found
-
-
-def _checked(losses: LossLaw | None, pair: Pair) -> None:
-    """Raise InputError for losses that many impacts cannot have, before any is solved."""
-    if losses is None:
-        return
-    if any(map(np.ndim, checked_law(losses, "loss")(pair, 1.0))):
-        raise refusal("losses", losses, "wear takes one number; carom.sweep takes many")
-
-
-def _inputs(pair: Pair, losses: LossLaw | None) -> dict[str, Any]:
-    bodies = {"first": describe(pair.first), "second": describe(pair.second)}
-    law = {} if losses is None else {"losses": losses.describe()}
-    return bodies | {"friction": pair.friction} | law

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
-from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dem.base import ContactLaw, Law
+from carom.dem.contact_step import steel_on_steel
 from carom.io.progress import Progress, advancing
 from carom.io.user_table import CASE
 from carom.quantities.arrays import finite_line
@@ -19,16 +19,7 @@ from carom.quantities.refusals import InputError, checked_type, refusal
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
 from carom.verify.entries import CATALOGUE, EXACT, Entry, as_entry
-from carom.verify.errors import (
-    INCIDENCES,
-    exact_rebound,
-    in_words,
-    largest,
-    law_rebound,
-    laws_of,
-    left_restitution,
-    root_mean_square,
-)
+from carom.verify.errors import INCIDENCES, Impacts, in_words, largest, laws_of, root_mean_square
 
 STEPS = 2000  # per duration of Hertz's contact
 OVERLAP = 1e-6  # d_max/R*: so small that the turning of a normal costs some 2e-5 in psi_2
@@ -103,11 +94,6 @@ class Bench:
                 "law: largest difference from the same law in Carom, in the same steps",
             ]
         )
-
-
-def steel_on_steel() -> Pair:
-    """Return the pair of the published comparison: nu = 0.3, hence chi = 1.4412."""
-    return Pair(Sphere(radius=0.005, material="steel"), HalfSpace(material="steel"), friction=0.2)
 
 
 def bench(
@@ -216,13 +202,11 @@ def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
 
 
 def _measured(entry: Entry, experiment: Experiment, outcomes: Outcomes, seconds: float) -> Measured:
-    psi, pair = experiment.psi_in, experiment.pair
-    given = psi_out(experiment, outcomes)
-    left = left_restitution(entry.law, pair.chi, pair.kappa)
-    error = given - exact_rebound(psi, pair.chi, left)
-    same = law_rebound(entry.law, psi, pair.chi, pair.kappa, experiment.steps)
-    worst = float(psi[int(np.argmax(np.abs(error)))])
-    off = largest(given - same)
+    pair, given = experiment.pair, psi_out(experiment, outcomes)
+    met = Impacts(experiment.psi_in, pair.chi, pair.kappa)
+    error = given - met.exact(met.restitution(entry.law))
+    off = largest(given - met.rebound(entry.law, experiment.steps))
+    worst = float(met.psi[int(np.argmax(np.abs(error)))])
     return Measured(entry, largest(error), worst, root_mean_square(error), off, seconds, None)
 
 

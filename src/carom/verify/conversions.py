@@ -121,10 +121,10 @@ def poisson_from_kappa(kappa: float) -> float:
     return (2.0 - 2.0 * value) / (2.0 - value)
 
 
-CONVENTIONS: dict[str, tuple[str, Callable[[float], float]]] = {
-    "critical": ("part of critical damping, c/(2 sqrt(k m)); YADE betan of springs", damping_ratio),
-    "lammps tsuji": ("alpha of LAMMPS, damping tsuji", tsuji_damping),
-    "thornton": ("betan of YADE, DAMPING_GAMMA of Kratos: no pull", thornton_damping),
+CONVENTIONS: dict[str, Callable[[float], float]] = {
+    "critical": damping_ratio,  # part of critical damping, c/(2 sqrt(k m)); betan of YADE's springs
+    "lammps tsuji": tsuji_damping,  # alpha of LAMMPS, damping tsuji
+    "thornton": thornton_damping,  # betan of YADE, DAMPING_GAMMA of Kratos: no pull
 }
 
 
@@ -162,7 +162,8 @@ def damping_from_restitution(restitution: float, convention: str = "critical") -
     (0.2155, 0.5)
     """
     value = damped_restitution("restitution", restitution)
-    return _rule(convention)(value) + 0.0  # no -0 at e = 1
+    rule = CONVENTIONS[one_of("convention", convention, CONVENTIONS)]
+    return rule(value) + 0.0  # no -0 at e = 1
 
 
 def restitution_from_damping(value: float, convention: str = "critical") -> float:
@@ -194,7 +195,8 @@ def restitution_from_damping(value: float, convention: str = "critical") -> floa
     """
     from scipy.optimize import brentq
 
-    rule, wanted = _rule(convention), not_negative("damping", value, "1")
+    rule = CONVENTIONS[one_of("convention", convention, CONVENTIONS)]
+    wanted = not_negative("damping", value, "1")
     if convention == "critical" and wanted < 1.0:
         return exp(-pi * wanted / sqrt(1.0 - wanted**2))
     least, most = rule(1.0), rule(SMALLEST)
@@ -203,10 +205,6 @@ def restitution_from_damping(value: float, convention: str = "critical") -> floa
     if wanted > most:
         raise refusal("damping", value, f"must be at most {most:.4g}; no restitution needs more")
     return float(brentq(lambda e: rule(e) - wanted, SMALLEST, 1.0, xtol=1e-14))
-
-
-def _rule(convention: str) -> Callable[[float], float]:
-    return CONVENTIONS[one_of("convention", convention, CONVENTIONS)][1]
 
 
 def recipes(

@@ -94,10 +94,7 @@ def as_entry(given: object) -> Entry:
 
 
 def named(label: str | None) -> Sequence[Entry]:
-    """Return the entry of the catalogue with this label, or all without one.
-
-    Raises InputError if there is none; the message offers the nearest.
-    """
+    """Return the entry with this label, all without one; InputError offers the nearest."""
     if label is None:
         return CATALOGUE
     found = [entry for entry in CATALOGUE if entry.label == SHORT.get(label, label)]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.losses import KelvinVoigt
+from carom.bodies.losses import KelvinVoigt, LossLaw
 from carom.dem import FunctionLaw
 from carom.dem.base import SOLID, ContactLaw, Law
 from carom.dimensionless.elastic.phases import Status
@@ -60,41 +60,58 @@ def laws_of(name: str, given: Any) -> Sequence[Any]:
     raise refusal(name, given, "give at least one law, e.g. [carom.dem.LinearSpring()]")
 
 
-def law_rebound(
-    law: Law, psi: Array, chi: float | Array, kappa: float | None, steps: int | None = None
-) -> Array:
-    """Return psi_2 by a law, NaN where it leaves an impact unsolved, without a word of it."""
-    found = law.rebound(psi, chi, kappa=kappa, steps=steps, return_status=True)[0]
-    return np.asarray(found)
+class Impacts(NamedTuple):
+    """Impacts at which laws are compared with the exact one; psi_1, chi, kappa broadcast."""
+
+    psi: Array
+    chi: Any
+    kappa: Any
+
+    @classmethod
+    def of(cls, psi: ArrayLike, chi: Any, kappa: Any) -> "Impacts":
+        """Return impacts of one chi as a user gives them, or raise InputError."""
+        ratio = positive("chi", chi)
+        if ratio > LARGEST_CHI:
+            raise refusal("chi", chi, f"must be at most {LARGEST_CHI:g}; spheres have 0.5 to 3")
+        values = psi_line(psi)
+        if not np.any(values):
+            raise refusal("psi", psi, "must not all be zero")
+        return cls(values, ratio, kappa_or_solid(kappa, ratio))
+
+    def rebound(self, law: Law, steps: int | None = None) -> Array:
+        """Return psi_2 by a law, NaN where it leaves an impact unsolved, without a word of it."""
+        given = {"kappa": self.kappa, "steps": steps, "return_status": True}
+        return np.asarray(law.rebound(self.psi, self.chi, **given)[0])
+
+    def refuse_failure(self, law: Law, found: Array) -> None:
+        """Raise InputError for the first impact in which the function of a law failed."""
+        where = np.flatnonzero(~np.isfinite(found))[:1]
+        each = [np.broadcast_to(values, found.shape).flat[where] for values in self]
+        if where.size and (words := law._why(*(float(value[0]) for value in each))):
+            raise InputError(words)
+
+    def restitution(self, law: Law) -> float:
+        """Return e that a law leaves: what its damping is asked for, unless it misses that."""
+        asked = float(getattr(law, "restitution", 1.0))
+        if asked == 1.0 or not isinstance(law, ContactLaw):
+            return asked
+        chi, kappa = (float(np.ravel(values)[0]) for values in self[1:])
+        left = -float(law.history(0.0, chi, kappa=kappa)["normal_velocity"][-1])
+        return left if abs(left - asked) > MISSED else asked
+
+    def exact(self, restitution: float) -> Array:
+        """Return the exact psi_2, with losses that of Kelvin-Voigt solids, or raise InputError."""
+        losses = losses_of(restitution)
+        exact, status = rebound(self.psi, self.chi, losses=losses, return_status=True)
+        if np.any(status):
+            message = Status(int(np.max(status))).message
+            raise refusal("chi", self.chi, f"the exact impact is {message}")
+        return np.asarray(exact)
 
 
-def refuse_failure(
-    law: Law, psi: Array, chi: float | Array, kappa: float | None, given: Array
-) -> None:
-    """Raise InputError for the first impact in which the function of a law failed, if any did."""
-    if np.all(np.isfinite(given)):
-        return
-    psis, chis, found = np.broadcast_arrays(psi, np.asarray(chi), given)
-    first = int(np.flatnonzero(~np.isfinite(found))[0])
-    size = float(chis.flat[first])
-    if words := law._why(float(psis.flat[first]), size, SOLID * size if kappa is None else kappa):
-        raise InputError(words)
-
-
-def incidences(psi: ArrayLike) -> Array:
-    """Return psi_1 as an array, or raise InputError if there is nothing to compare at them."""
-    values = psi_line(psi)
-    if not np.any(values):
-        raise refusal("psi", psi, "must not all be zero")
-    return values
-
-
-def checked_chi(chi: Any) -> float:
-    """Return chi, or raise InputError if it is none, or the exact impact has too many phases."""
-    value = positive("chi", chi)
-    if value > LARGEST_CHI:
-        raise refusal("chi", chi, f"must be at most {LARGEST_CHI:g}; spheres have 0.5 to 3")
-    return value
+def kappa_or_solid(kappa: Any, chi: Any) -> Any:
+    """Return kappa as given, else that of solid spheres with this chi."""
+    return SOLID * chi if kappa is None else positive("kappa", kappa)
 
 
 def psi_line(psi: ArrayLike) -> Array:
@@ -107,26 +124,10 @@ def psi_line(psi: ArrayLike) -> Array:
 
 
 def in_words(psi: Sequence[float]) -> str:
-    """Return how many incidences there are, and from where to where.
-
-    Examples
-    --------
-    >>> from carom.verify.errors import INCIDENCES, in_words
-    >>> in_words(INCIDENCES), in_words([1.0])
-    ('at 15 incidences, psi_1 from 0.1 to 6', 'at psi_1 = 1')
-    """
+    """Return how many incidences there are, and from where to where."""
     if len(psi) == 1:
         return f"at psi_1 = {psi[0]:g}"
     return f"at {len(psi)} incidences, psi_1 from {min(psi):g} to {max(psi):g}"
-
-
-def left_restitution(law: Law, chi: float, kappa: float | None) -> float:
-    """Return e that a law leaves: what its damping is asked for, unless it misses that."""
-    asked = float(getattr(law, "restitution", 1.0))
-    if asked == 1.0 or not isinstance(law, ContactLaw):
-        return asked
-    left = -float(law.history(0.0, chi, kappa=kappa)["normal_velocity"][-1])
-    return left if abs(left - asked) > MISSED else asked
 
 
 def damped(law: Law, restitution: float) -> Law:
@@ -141,16 +142,13 @@ def losses_of(restitution: float) -> KelvinVoigt | None:
     return None if restitution == 1.0 else KelvinVoigt(restitution=restitution)
 
 
-def exact_rebound(psi: Array, chi: ArrayLike, restitution: float = 1.0) -> Array:
-    """Return the exact psi_2, or raise InputError where there is none.
-
-    With a restitution it is that of Kelvin-Voigt solids.
-    """
-    exact, status = rebound(psi, chi, losses=losses_of(restitution), return_status=True)
-    if np.any(status):
-        message = Status(int(np.max(status))).message
-        raise refusal("chi", chi, f"the exact impact is {message}")
-    return np.asarray(exact)
+def constant_restitution(losses: LossLaw | None) -> float | None:
+    """Return the restitution of losses, None without any; InputError if speeds change it."""
+    if losses is None:
+        return None
+    if isinstance(losses, KelvinVoigt) and losses.restitution is not None:
+        return float(losses.restitution)
+    raise refusal("losses", losses, "give a restitution that is the same at all speeds")
 
 
 def error_map(
@@ -199,11 +197,11 @@ def error_map(
     top = 4.0 * float(chis.max())
     psis = np.linspace(0.0, top, 121) if psi is None else psi_line(psi)
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
-    own = None if kappa is None else positive("kappa", kappa)
-    exact = rebound(psis, rows, losses=losses_of(left_restitution(rule, float(chis[0]), own)))
-    given = law_rebound(rule, psis, rows, own, steps)
+    met = Impacts(psis, rows, kappa_or_solid(kappa, rows))
+    exact = rebound(psis, rows, losses=losses_of(met.restitution(rule)))
+    given = met.rebound(rule, steps)
     if not np.any(np.isfinite(given)):
-        refuse_failure(rule, psis, rows, own, given)
+        met.refuse_failure(rule, given)
     error = given - exact
     names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
     return labelled_dataset(
@@ -270,11 +268,14 @@ def force_error(
     if not isinstance(law, ContactLaw):
         return ForceError(np.nan, np.nan)
     psi, chi = finite("psi", psi, "1"), positive("chi", chi)
-    history = law.history(psi, chi, kappa=kappa)
+    own = kappa_or_solid(kappa, chi)
+    history = law.history(psi, chi, kappa=own)
     parts = np.linspace(0.0, 1.0, INSTANTS)
     elapsed = history["time"] / history["time"][-1]
     force = np.interp(parts, elapsed, history["tangential_force"])
-    solution = solve(psi, chi, losses=losses_of(left_restitution(law, chi, kappa)))
+    solution = solve(
+        psi, chi, losses=losses_of(Impacts(np.array([psi]), chi, own).restitution(law))
+    )
     exact = 1.5 * solution.at(parts * solution.duration).force
     return ForceError(largest(force - exact), root_mean_square(force - exact))
 
@@ -293,11 +294,6 @@ def energy_gain(psi: Array, psi_out: Array) -> float:
     """Return the largest |psi_2| - |psi_1|, zero if no impact gains energy; NaN counts as none."""
     gain = np.abs(psi_out) - np.abs(psi)
     return float(np.max(gain[np.isfinite(gain)], initial=0.0))
-
-
-def kappa_or_solid(kappa: float | None, chi: float) -> float:
-    """Return kappa as given, else that of solid spheres with this chi."""
-    return SOLID * chi if kappa is None else positive("kappa", kappa)
 
 
 def dashed(value: float | None, width: int, form: str) -> str:

@@ -16,27 +16,9 @@ from carom.io.progress import Progress, advancing
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.units import or_none
+from carom.verify import errors
 from carom.verify.entries import CATALOGUE, Entry, as_entry
-from carom.verify.errors import (
-    INCIDENCES,
-    LawOrFunction,
-    checked_chi,
-    damped,
-    dashed,
-    energy_gain,
-    exact_rebound,
-    force_error,
-    in_words,
-    incidences,
-    kappa_or_solid,
-    largest,
-    law_rebound,
-    laws_of,
-    left_restitution,
-    pure,
-    refuse_failure,
-    root_mean_square,
-)
+from carom.verify.errors import INCIDENCES, Impacts, LawOrFunction, dashed, largest, pure
 from carom.verify.steps import TimeSteps, advised_steps, told_steps
 
 if TYPE_CHECKING:
@@ -130,9 +112,10 @@ class Ranking(Result):
             (law, step_kind), -1 where none suffice; chi and kappa.
         """
         laws = [standing.entry.law for standing in self.standings]
-        given = [law_rebound(law, np.array(self.psi), self.chi, self.kappa) for law in laws]
+        met = Impacts(np.array(self.psi), self.chi, self.kappa)
+        given = [met.rebound(law) for law in laws]
         left = [standing.restitution for standing in self.standings]
-        exact = [exact_rebound(np.array(self.psi), self.chi, e) for e in left]
+        exact = list(map(met.exact, left))
         steps = [
             [step.steps if step else -1 for step in (s.step, s.fine_step)] for s in self.standings
         ]
@@ -142,7 +125,7 @@ class Ranking(Result):
             "force_error": "rms error of the tangential force, in mu P_max, of the worst impact",
             "energy_gain": "largest |psi_2| - |psi_1|",
         }
-        errors = {
+        errors_of_laws = {
             name: ("law", [getattr(s, name) for s in self.standings], pure(meaning))
             for name, meaning in meanings.items()
         }
@@ -150,7 +133,7 @@ class Ranking(Result):
             {
                 "psi_out": (("law", "psi_in"), np.array(given)),
                 "psi_out_exact": (*_without_copies(exact), pure("psi_2 of the exact impact")),
-                **errors,
+                **errors_of_laws,
                 "restitution": ("law", left, pure("restitution that the law leaves")),
                 "steps": (("law", "step_kind"), steps, pure("steps per contact, -1: none")),
                 "chi": self.chi,
@@ -227,31 +210,30 @@ def rank(
     >>> round(damped.standings[0].max_error, 2)
     0.27
     """
-    ratio, psis = checked_chi(chi), incidences(psi)
-    given = [as_entry(each) for each in laws_of("entries", entries)]
+    met = Impacts.of(psi, chi, kappa)
+    given = [as_entry(each) for each in errors.laws_of("entries", entries)]
     if restitution is not None:
         if entries is CATALOGUE:
             given = [entry for entry in given if hasattr(entry.law, "restitution")]
         e = damped_restitution("restitution", restitution)
-        given = [entry._replace(law=damped(entry.law, e)) for entry in given]
-    own = kappa_or_solid(kappa, ratio)
+        given = [entry._replace(law=errors.damped(entry.law, e)) for entry in given]
     standings = []
     with advancing("ranking the laws", len(given), progress, unit="laws") as advance:
         for entry in given:
-            standings.append(_standing(entry, psis, ratio, own))
+            standings.append(_standing(entry, met))
             advance(1)
     ordered = sorted(standings, key=lambda s: (np.isnan(s.max_error), s.max_error, s.entry.label))
-    return Ranking(ratio, own, tuple(psis.tolist()), tuple(ordered))
+    return Ranking(met.chi, met.kappa, tuple(met.psi.tolist()), tuple(ordered))
 
 
-def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
-    law = entry.law
-    given = law_rebound(law, psi, chi, kappa)
-    refuse_failure(law, psi, chi, kappa, given)
-    left = left_restitution(law, chi, kappa)
-    error = given - exact_rebound(psi, chi, left)
+def _standing(entry: Entry, met: Impacts) -> Standing:
+    law, (psi, chi, kappa) = entry.law, met
+    given = met.rebound(law)
+    met.refuse_failure(law, given)
+    left = met.restitution(law)
+    error = given - met.exact(left)
     most = largest(error)
-    forces = [force_error(law, value, chi, kappa=kappa).rms for value in psi if value != 0.0]
+    forces = [errors.force_error(law, at, chi, kappa=kappa).rms for at in psi if at != 0.0]
     step = fine = None
     if isinstance(law, ContactLaw) and most > 0.0:
         step, fine = (advised_steps(law, e, psi, chi, kappa=kappa) for e in (most, FINE))
@@ -259,9 +241,9 @@ def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
         entry,
         most,
         float(psi[int(np.argmax(np.abs(error)))]),
-        root_mean_square(error),
+        errors.root_mean_square(error),
         float(np.max(forces)) if forces else float("nan"),
-        energy_gain(psi, given),
+        errors.energy_gain(psi, given),
         step,
         fine,
         left,
@@ -295,7 +277,7 @@ def _table(ranking: Ranking) -> str:
     return "\n".join(
         [
             f"|error in psi_2| of contact laws at chi = {ranking.chi:g},"
-            f" kappa = {ranking.kappa:.4g}, {in_words(ranking.psi)}",
+            f" kappa = {ranking.kappa:.4g}, {errors.in_words(ranking.psi)}",
             *(["compared with viscoelastic bodies of the same restitution e"] if loses else []),
             f"  {'':32s} {head}  used by",
             *rows,

@@ -6,16 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.quantities.units import counted, positive
-from carom.verify.errors import (
-    INCIDENCES,
-    LawOrFunction,
-    as_law,
-    checked_chi,
-    incidences,
-    kappa_or_solid,
-    largest,
-    law_rebound,
-)
+from carom.verify.errors import INCIDENCES, Impacts, LawOrFunction, as_law, largest
 
 FEWEST, MOST = 10, 2_000_000
 GROWTH = 2.0**0.5
@@ -77,10 +68,8 @@ def step_error(
     True
     """
     counted("steps", steps, FEWEST, MOST)
-    law, psis, ratio = as_law(law), incidences(psi), checked_chi(chi)
-    own = kappa_or_solid(kappa, ratio)
-    converged = law_rebound(law, psis, ratio, own)
-    return largest(law_rebound(law, psis, ratio, own, steps) - converged)
+    law, met = as_law(law), Impacts.of(psi, chi, kappa)
+    return largest(met.rebound(law, steps) - met.rebound(law))
 
 
 def advised_steps(
@@ -127,16 +116,15 @@ def advised_steps(
     28
     """
     bound = positive("allowed", allowed, "1")
-    law, psis, ratio = as_law(law), incidences(psi), checked_chi(chi)
-    own = kappa_or_solid(kappa, ratio)
-    converged = law_rebound(law, psis, ratio, own)
+    law, met = as_law(law), Impacts.of(psi, chi, kappa)
+    converged = met.rebound(law)
     if not np.all(np.isfinite(converged)):
         return None
     held: list[TimeSteps] = []
     wanted = float(FEWEST)
     while wanted <= min(MOST, law.most_steps):
         steps = round(wanted)
-        error = largest(law_rebound(law, psis, ratio, own, steps) - converged)
+        error = largest(met.rebound(law, steps) - converged)
         held = [*held, TimeSteps(steps, error)] if error <= bound else []
         if len(held) == 3:
             return held[0]

@@ -2,31 +2,33 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import tan
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from carom import dem
+from carom.bodies.cases import Case, losses_of, motion_of, pair_of
+from carom.bodies.kinematics import approach, slope
+from carom.bodies.pairs import Pair, with_friction
 from carom.dem.base import ContactLaw, Law
+from carom.dem.damping import damped_restitution
+from carom.dimensionless.numerics.hertz import DURATION
 from carom.io.progress import Progress, advancing
 from carom.plots.result import card
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import one_of
+from carom.quantities.refusals import InputError, one_of, refusal
+from carom.quantities.units import finite, positive
 from carom.verify.entries import CATALOGUE, called
 from carom.verify.errors import (
+    Impacts,
     LawOrFunction,
     as_law,
-    checked_chi,
+    constant_restitution,
     dashed,
-    exact_rebound,
-    incidences,
-    kappa_or_solid,
     largest,
-    law_rebound,
     laws_of,
-    left_restitution,
-    refuse_failure,
     root_mean_square,
 )
 from carom.verify.steps import TimeSteps, advised_steps, told_steps
@@ -47,6 +49,9 @@ TUNED: tuple[Law, ...] = tuple(  # of each kind the first in the catalogue
     if called(entry.law) not in [called(other.law) for other in CATALOGUE[:place]]
 )
 TRIALS = 17  # of a parameter, before the best is refined
+POINTS = 61
+SPEEDS = ("speed", "angle", "normal_speed", "tangential_speed")
+SPEED = 1.0  # m/s, of a case without one: k_n of linear springs depends on it
 MEASURES = {"max": largest, "rms": root_mean_square}
 
 
@@ -203,25 +208,27 @@ def tune(
     >>> found.parameter, round(found.value, 2), round(found.before, 2), round(found.max_error, 2)
     ('stiffness', 0.7, 0.61, 0.17)
     """
-    ratio = checked_chi(chi)
-    own = kappa_or_solid(kappa, ratio)
-    psis = np.linspace(0.0, 4.0 * ratio, 61)[1:] if psi is None else incidences(psi)
+    if psi is None:
+        psi = np.linspace(0.0, 4.0 * positive("chi", chi), POINTS)[1:]
+    met = Impacts.of(psi, chi, kappa)
     one_of("measure", measure, MEASURES)
     advice = []
     given = laws_of("laws", laws)
     with advancing("tuning the laws", len(given), progress, unit="laws") as advance:
         for law in map(as_law, given):
-            exact = exact_rebound(psis, ratio, left_restitution(law, ratio, own))
-            advice.append(_advice(law, psis, exact, ratio, own, measure))
+            advice.append(_advice(law, met, measure))
             advance(1)
     errors = [getattr(one, f"{measure}_error") for one in advice]
     ordered = [advice[i] for i in np.argsort(errors, kind="stable")]  # NaN last
-    return Tuning(ratio, own, (float(psis.min()), float(psis.max())), tuple(ordered))
+    span = float(met.psi.min()), float(met.psi.max())
+    return Tuning(met.chi, met.kappa, span, tuple(ordered))
 
 
-def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measure: str) -> TunedLaw:
+def _advice(law: Law, met: Impacts, measure: str) -> TunedLaw:
+    exact = met.exact(met.restitution(law))
+
     def error(candidate: Law) -> Array:
-        return law_rebound(candidate, psi, chi, kappa) - exact
+        return met.rebound(candidate) - exact
 
     def cost(candidate: Law) -> float:
         value = MEASURES[measure](error(candidate))
@@ -231,14 +238,14 @@ def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measur
     if type(law) in FREE:
         name, low, high = FREE[type(law)]
         if name == "stiffness_ratio":
-            low, high = kappa * low, kappa * high
+            low, high = met.kappa * low, met.kappa * high
         best = _closest(law, name, low, high, cost)
     left, step = error(best), None
-    refuse_failure(law, psi, chi, kappa, left)
+    met.refuse_failure(law, left)
     most = largest(left)
     if isinstance(best, ContactLaw) and most > 0.0:
-        step = advised_steps(best, 0.1 * most, psi, chi, kappa=kappa)
-    value = None if name is None else float(getattr(best, name) or kappa)
+        step = advised_steps(best, 0.1 * most, met.psi, met.chi, kappa=met.kappa)
+    value = None if name is None else float(getattr(best, name) or met.kappa)
     before = largest(error(law))
     return TunedLaw(best, name, value, most, root_mean_square(left), before, step)
 
@@ -284,3 +291,68 @@ def _told(one: TunedLaw) -> str:
     if one.value is None:
         return error
     return f"{one.parameter} {one.value:.4g}: {error}, {one.before:.3f} without tuning"
+
+
+class Setting(NamedTuple):
+    """chi, kappa, incidences and wanted e of a tuning; with bodies also them, V_1 and t_c in SI."""
+
+    chi: float
+    kappa: float | None
+    psi: Array
+    restitution: float = 1.0
+    pair: Pair | None = None
+    normal_speed: float | None = None
+    duration: float | None = None
+
+
+def setting_of(
+    case: Case | None,
+    chi: str | None,
+    kappa: str | None,
+    start: str,
+    stop: str | None,
+    restitution: str | None,
+) -> Setting:
+    """Return what a tuning is for, from a case and angles, or from chi and psi_1.
+
+    A restitution takes the place of that of the case; without either it is 1.
+    """
+    if case is None and chi is None:
+        raise InputError("case: missing; give a case file, or --chi, e.g. --chi 1.44")
+    wanted = damped_restitution("restitution", "1" if restitution is None else restitution)
+    if case is None:
+        if wanted != 1.0:
+            raise refusal(
+                "restitution", restitution, "it needs a case file, as dampings depend on the bodies"
+            )
+        ratio = positive("chi", chi)
+        last = 4.0 * ratio if stop is None else finite("psi_in", stop)
+        own = None if kappa is None else positive("kappa", kappa)
+        return Setting(ratio, own, _range(finite("psi_in", start), last, start, stop))
+    for name, value in (("chi", chi), ("kappa", kappa)):
+        if value is not None:
+            raise refusal(name, value, "it follows from the case; leave it out")
+    if restitution is None and (told := constant_restitution(losses_of(case))) is not None:
+        wanted = damped_restitution("restitution", told)
+    pair, motion = pair_of(case), motion_of(case)
+    with_friction(pair, "without friction there is nothing to tune")
+    given = {name: motion.get(name) for name in SPEEDS}
+    speed = approach(**given)[0] if any(value is not None for value in given.values()) else SPEED
+    per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu
+    last = 4.0 * pair.chi if stop is None else per_slope * tan(slope(stop))
+    psi = _range(per_slope * tan(slope(start)), last, start, stop)
+    duration = DURATION * pair.scales(speed).time
+    return Setting(pair.chi, pair.kappa, psi, wanted, pair, speed, duration)
+
+
+def _range(first: float, last: float, start: str, stop: str | None) -> Array:
+    """Return psi_1 from the first to the last; `start` and `stop` are how they were given."""
+    if first < 0.0:
+        raise refusal("from", start, "must not be negative")
+    if first >= last and stop is None:
+        raise refusal(
+            "from", start, f"at psi_1 = {first:.4g} the contact slides throughout; give a lower one"
+        )
+    if first >= last:
+        raise refusal("to", stop, f"must be above --from, {start}")
+    return np.linspace(first, last, POINTS)[0 if first > 0.0 else 1 :]

@@ -1,9 +1,8 @@
 """`carom verify`: contact laws and DEM codes against the exact impact."""
 
-from carom.cli.once import Commands
-from carom.cli.verify.engines import COMMANDS, engine_command
+from carom.cli.options import Commands
+from carom.cli.verify.engines import COMMANDS, engine_command, pack_command
 from carom.cli.verify.laws import laws_command
-from carom.cli.verify.pack import pack_command
 from carom.cli.verify.score import score_command
 from carom.cli.verify.tune import tune_command
 

@@ -1,19 +1,12 @@
-"""`carom verify lammps`, `liggghts`, `yade`: DEM programs against the exact impact."""
+"""`carom verify lammps`, `liggghts`, `yade`: DEM programs on the bench; `carom verify pack`."""
 
 import json
 
 import typer
 
 import carom
-from carom.cli.cases import (
-    Json,
-    check_outputs,
-    described,
-    file_option,
-    stored,
-    told_case,
-    whole_option,
-)
+from carom.cli.cases import stored, told_case
+from carom.cli.options import described, file_option, whole_option
 from carom.quantities.refusals import InputError
 from carom.quantities.units import positive, whole
 
@@ -60,7 +53,7 @@ def engine_command(
     time_limit: str = "120 s",
     program: str | None = None,
     output: str | None = None,
-    as_json: Json = False,
+    as_json: bool = False,
 ) -> None:
     """Run the program that the command is named after, and print how it has done."""
     from carom.bodies.cases import pair_of
@@ -69,8 +62,8 @@ def engine_command(
     from carom.verify.entries import named
 
     count = whole("steps", steps, 10, MOST_STEPS)
-    check_outputs({"output": (output, (".csv",))})
-    if output is not None and law is None:
+    target = None if output is None else checked_output(output, (".csv",))
+    if target is not None and law is None:
         raise InputError("output: it stores the results of one law; give --law, e.g. --law mindlin")
     engine = getattr(carom.verify, str(context.command.name).capitalize())
     found = carom.verify.bench(
@@ -80,10 +73,39 @@ def engine_command(
         steps=count,
         time_limit=positive("time_limit", time_limit),
     )
-    if output is not None and not found.failed:
-        target, text = checked_output(output, (".csv",)), found.results()
+    if target is not None and not found.failed:
+        text = found.results()
         replace_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
-        stored(output)
+        stored(target)
     typer.echo(json.dumps(found.to_dict(), indent=2) if as_json else str(found))
     if found.failed:
         raise typer.Exit(1)
+
+
+PACK = {
+    "folder": typer.Argument(help="New or empty folder for the pack, e.g. bench."),
+    "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
+}
+
+
+@described(PACK)
+def pack_command(folder: str, as_json: bool = False) -> None:
+    """Write the benchmark pack for developers of DEM codes.
+
+    Use this command to test a DEM code that you write. The pack holds reference impacts with error
+    bars, and inputs of DEM codes for them. A version of the pack has the same numbers, to the last
+    byte, wherever it is written.
+
+    \b
+    Example: carom verify pack bench
+    """
+    from carom.verify.pack import VERSION, write_pack
+
+    files = write_pack(folder)
+    if as_json:
+        typer.echo(json.dumps({"version": VERSION, "folder": folder, "files": files}, indent=2))
+        return
+    typer.echo(
+        f"Carom has written benchmark pack {VERSION}, {len(files)} files, into {folder}. "
+        "Start with its README.md."
+    )

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, described, store, stored
+from carom.cli.cases import check_outputs, store, stored
+from carom.cli.options import described
 from carom.quantities.refusals import InputError
 from carom.quantities.units import finite, positive
 
@@ -40,8 +41,8 @@ def laws_command(
     psi: list[str] | None = None,
     law: str | None = None,
     restitution: str | None = None,
-    as_json: Json = False,
-    plot: Plot = None,
+    as_json: bool = False,
+    plot: str | None = None,
     output: str | None = None,
     error_map: str | None = None,
 ) -> None:
@@ -58,7 +59,6 @@ def laws_command(
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
     from carom.dem.damping import damped_restitution
-    from carom.io.files import FIGURES, TABLES
     from carom.verify.entries import named
     from carom.verify.errors import INCIDENCES
 
@@ -66,8 +66,7 @@ def laws_command(
         raise InputError("map: it shows one law; give --law, e.g. --law mindlin")
     if error_map is not None and (kappa is not None or psi):
         raise InputError("map: it shows solid spheres at all psi_1; leave --kappa and --psi out")
-    outputs = {"plot": (plot, FIGURES), "output": (output, TABLES)}
-    check_outputs({**outputs, "map": (error_map, (*FIGURES, *TABLES))})
+    check_outputs({"plot": plot, "output": output, "map": error_map})
     incidences = [finite("psi_in", value) for value in psi or INCIDENCES]
     ratio = None if kappa is None else positive("kappa", kappa)
     e = None if restitution is None else damped_restitution("restitution", restitution)
@@ -80,7 +79,6 @@ def laws_command(
 
 
 def _store_map(law: "Law", path: str) -> Path:
-    """Store the error map of a law as a figure or a table."""
     from carom.io.files import TABLES
 
     dataset = carom.verify.error_map(law)

@@ -5,18 +5,8 @@ import json
 import typer
 
 import carom
-from carom.cli.cases import (
-    Column,
-    Json,
-    Plot,
-    check_outputs,
-    described,
-    file_argument,
-    file_option,
-    named_values,
-    store,
-    told_case,
-)
+from carom.cli.cases import check_outputs, named_values, store, told_case
+from carom.cli.options import described, file_argument, file_option
 
 OPTIONS = {
     "results": file_argument(
@@ -45,12 +35,12 @@ def score_command(
     chi: str | None = None,
     restitution: str | None = None,
     tolerance: str = "0.01",
-    column: Column = None,
+    column: list[str] | None = None,
     code: str | None = None,
     law: str | None = None,
-    plot: Plot = None,
+    plot: str | None = None,
     output: str | None = None,
-    as_json: Json = False,
+    as_json: bool = False,
 ) -> None:
     """Score your own results against the exact impact.
 
@@ -75,10 +65,7 @@ def score_command(
     Velocities or forces: carom verify score results.csv --case examples/steel_ball.toml
     A damped contact: carom verify score rebounds.csv --chi 1.44 --restitution 0.9
     """
-    from carom.io.files import FIGURES, TABLES
-
-    outputs = {"plot": (plot, FIGURES), "output": (output, TABLES)}
-    check_outputs(outputs, results=results, case=case)
+    check_outputs({"plot": plot, "output": output}, results=results, case=case)
     score = carom.verify.score(
         results,
         case=None if case is None else told_case(case, losses=True),

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, described, file_argument, told_case
+from carom.cli.cases import told_case
+from carom.cli.options import described, file_argument
 from carom.quantities.glossary import GLOSSARY
 
 if TYPE_CHECKING:
-    from carom.verify.setting import Setting
-    from carom.verify.tuning import Tuning
+    from carom.verify.tuning import Setting, Tuning
 
 
 OPTIONS = {
@@ -41,7 +41,7 @@ def tune_command(
     stop: str | None = None,
     restitution: str | None = None,
     measure: str = "max",
-    as_json: Json = False,
+    as_json: bool = False,
 ) -> None:
     """Find the least wrong stiffness of every contact law.
 
@@ -54,7 +54,7 @@ def tune_command(
     Example: carom verify tune examples/steel_ball.toml --from "5 deg" --to "60 deg"
     Without bodies: carom verify tune --chi 1.4412
     """
-    from carom.verify.setting import setting_of
+    from carom.verify.tuning import setting_of
 
     content = None if case is None else told_case(case, losses=True)
     setting = setting_of(content, chi, kappa, start, stop, restitution)

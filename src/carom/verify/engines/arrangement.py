@@ -105,10 +105,7 @@ def placed(experiment: Experiment) -> list[Placed]:
 
 
 def share_of_first(pair: Pair) -> float:
-    """Return the part of a relative velocity that the first body has, the centre of mass resting.
-
-    A half-space is as good as infinitely heavy.
-    """
+    """Return the first body's part of a relative velocity; the centre of mass is at rest."""
     if not isinstance(pair.second, Sphere):
         return 1.0
     return pair.second.mass / (pair.first.mass + pair.second.mass)

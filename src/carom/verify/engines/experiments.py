@@ -20,7 +20,7 @@ from carom.quantities.units import counted, positive
 MOST_STEPS = 10_000_000
 SOLID = 0.4  # K^2/R^2
 BEFORE = ("normal_speed", "tangential_speed", "spin")
-COLUMNS = (*BEFORE, *(f"{name}_out" for name in BEFORE))
+AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out")
 
 
 class Outcomes(NamedTuple):
@@ -145,31 +145,14 @@ def psi_out(experiment: Experiment, outcomes: Outcomes) -> Array:
 
 
 def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
-    """Return the impacts as `carom verify score` reads them: SI units, 17 digits.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import carom
-    >>> from carom.verify.engines.experiments import Outcomes, results_csv
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.dem.LammpsMindlin(), normal_speed=0.25,
-    ...     tangential_speed=(0.5,), steps=1000,
-    ... )
-    >>> print(results_csv(experiment, Outcomes(*np.array([[0.25], [0.375], [-16.0]]))), end="")
-    normal_speed,tangential_speed,spin,normal_speed_out,tangential_speed_out,spin_out
-    0.25,0.5,0,0.25,0.375,-16
-    """
+    """Return the impacts as `carom verify score` reads them: SI units, 17 digits."""
     normal = np.full(len(experiment), experiment.normal_speed)
     before = (normal, experiment.tangential_speed, experiment.spin)
     rows = [",".join(f"{value:.17g}" for value in row) for row in np.stack([*before, *outcomes]).T]
-    return "\n".join([",".join(COLUMNS), *rows]) + "\n"
+    return "\n".join([",".join((*BEFORE, *AFTER)), *rows]) + "\n"
 
 
 def _refuse_bodies(pair: Pair) -> None:
-    """Refuse what DEM programs do not have."""
     with_friction(pair, "without friction there is nothing to test")
     if not isinstance(pair.second, Sphere | HalfSpace):
         raise refusal(

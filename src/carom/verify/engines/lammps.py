@@ -14,12 +14,13 @@ from pathlib import Path
 from string import Template
 from typing import ClassVar
 
+from carom.adapters import lammps as plugin
 from carom.bodies.shapes import Sphere
 from carom.dem import ExactContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring
 from carom.dem.base import ContactLaw
 from carom.quantities.refusals import refusal
-from carom.verify.engines import arrangement, lammps_exact
-from carom.verify.engines.experiments import Experiment, Outcomes
+from carom.verify.engines import arrangement
+from carom.verify.engines.experiments import Experiment
 from carom.verify.engines.running import Engine
 
 SCRIPT = Template("""\
@@ -57,6 +58,10 @@ variable        xgamma index $xgamma   # tangential over normal damping
 variable        mu index $friction   # friction
 $contact""")
 ON_WALL = "fix             contact all wall/gran granular {words} zplane 0.0 NULL"
+PLUGIN_ON_WALL = """\
+region          wall plane 0.0 0.0 0.0 0.0 0.0 1.0
+fix             contact all wall/carom {words} region wall"""
+SPRINGS = (16, 32, 64)  # that the plugin is compiled for
 IN_PAIRS = "pair_style      granular\npair_coeff      * * {words}"
 MPI = "libmpi.so.12"
 NUMBERS = ("kn", "kt", "loss", "xgamma", "mu")  # variables of the script
@@ -78,10 +83,7 @@ class GranularLaw:
     loss: float = 0.0
 
     def words(self, spell: Callable[[str], str]) -> str:
-        """Return the law as the arguments of `pair_coeff` and `fix wall/gran granular`.
-
-        Numbers are spelled by their names.
-        """
+        """Return the arguments of `pair_coeff` and `fix wall/gran`, numbers spelled by names."""
         kn, kt, loss, xgamma, mu = map(spell, NUMBERS)
         shear = f"tangential {self.tangential} {kt} {xgamma} {mu}"
         return f"{self.normal} {kn} {loss} {shear} damping {self.damping}"
@@ -142,6 +144,32 @@ def granular(experiment: Experiment) -> str:
     )
 
 
+def plugin_supports(law: ContactLaw) -> bool:
+    """Tell whether the plugin has this law; only where it has been built."""
+    fits = isinstance(law, ExactContactLaw) and law.springs in SPRINGS and law.viscous_shear
+    return fits and (plugin.folder(plugin.wheel_version()) / plugin.NAME).exists()
+
+
+def plugin_lines(experiment: Experiment) -> str:
+    """Return what the script says of the law: like bodies with the E* and kappa of the pair.
+
+    kappa = 2 (1 - nu)/(2 - nu), E = 2 (1 - nu^2) E*.
+    """
+    law, pair = experiment.law, experiment.pair
+    assert isinstance(law, ExactContactLaw)
+    poisson = (2.0 - 2.0 * pair.kappa) / (2.0 - pair.kappa)
+    young = 2.0 * (1.0 - poisson**2) * pair.effective_modulus
+    words = f"young {young!r} poisson {poisson!r} friction {pair.friction!r}"
+    if law.restitution < 1.0:
+        from carom.dimensionless.lossy.panels.stages import viscous_loss
+
+        words += f" retardation {viscous_loss(law.restitution) * experiment.scales.time!r}"
+    style = f"pair_style      carom springs {law.springs} precision double\n"
+    coeff = f"pair_coeff      * * {words}"
+    on_wall = "" if isinstance(pair.second, Sphere) else "\n" + PLUGIN_ON_WALL.format(words=words)
+    return f"# Law: {law.name}, {law.springs} of them\n{style}{coeff}{on_wall}"
+
+
 def script(experiment: Experiment) -> str:
     """Return the input script."""
     exact = isinstance(experiment.law, ExactContactLaw)
@@ -151,7 +179,7 @@ def script(experiment: Experiment) -> str:
         result=RESULT,
         spheres=SPHERES,
         cutoff=f"{arrangement.spacing(experiment.pair):.6g}",
-        contact=(lammps_exact.lines if exact else granular)(experiment),
+        contact=(plugin_lines if exact else granular)(experiment),
     )
 
 
@@ -185,6 +213,7 @@ class Lammps(Engine):
     advice: ClassVar[str] = "pip install 'carom[verify]', or install Debian's package lammps"
     greeting: ClassVar[str] = r"^LAMMPS \(([^)]*)\)"
     builder: ClassVar[str] = "carom lammps build"
+    result: ClassVar[str] = RESULT
 
     @property
     def remedy(self) -> str:
@@ -207,16 +236,12 @@ class Lammps(Engine):
     def supports(self, law: ContactLaw) -> bool:
         """Tell whether LAMMPS has this law; the exact one where its plugin has been built."""
         if isinstance(law, ExactContactLaw):
-            return self.executable() == _wheel() is not None and lammps_exact.supports(law)
+            return self.executable() == _wheel() is not None and plugin_supports(law)
         return isinstance(law, LAWS)
 
     def files(self, experiment: Experiment) -> dict[str, str]:
         """Return the input script and the spheres that it reads, by file name."""
         return {INPUT: script(experiment), SPHERES: arrangement.data_file(experiment)}
-
-    def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
-        """Return how the spheres leave; ValueError or OSError if no such results are there."""
-        return arrangement.outcomes_of(experiment, arrangement.read_dump(folder / RESULT))
 
 
 def _wheel() -> Path | None:

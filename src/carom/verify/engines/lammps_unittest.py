@@ -59,34 +59,9 @@ def unit_test_yaml(
 
     The driver compares positions and velocities of the centres, each to a relative epsilon; spins
     it does not know, they follow from the velocities. It takes such a file since its releases of
-    2026, in which a test names its file of coefficients.
-
-    Parameters
-    ----------
-    experiment : Experiment
-        The impacts; LAMMPS has their law.
-    tolerance : float
-        Largest error in psi_2 that passes.
-    outcomes : Outcomes, optional
-        The reference, by default the exact one, which the laws of LAMMPS miss by 0.1 to 1.4.
-
-    Raises
-    ------
-    InputError
-        If the law has damping and no outcomes are given: the exact theory has none.
-
-    Examples
-    --------
-    >>> import carom
-    >>> from carom.verify.engines.lammps_unittest import unit_test_yaml
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.dem.LammpsMindlin(), normal_speed=1e-4,
-    ...     tangential_speed=(5e-5,), steps=1000,
-    ... )
-    >>> print(unit_test_yaml(experiment, tolerance=0.6).splitlines()[2])
-    # epsilon: an error of 0.6 in psi_2 = 0.823529 V_x/(mu V_1) of the contact point.
+    2026, in which a test names its file of coefficients. The tolerance is the largest error in
+    psi_2 that passes. The reference is the exact impact unless outcomes are given; the laws of
+    LAMMPS miss it by 0.1 to 1.4. InputError for a law with damping, which the exact theory has not.
     """
     allowed = positive("psi_out", tolerance)
     reference = "as given"

@@ -13,7 +13,7 @@ from carom.bodies.shapes import Sphere
 from carom.dem import ExactContactLaw, LiggghtsHertz, LinearSpring
 from carom.dem.base import ContactLaw
 from carom.verify.engines import arrangement
-from carom.verify.engines.experiments import Experiment, Outcomes
+from carom.verify.engines.experiments import Experiment
 from carom.verify.engines.running import Engine
 
 INPUT, SPHERES, RESULT = "in.liggghts", "spheres.data", "results.dump"
@@ -84,6 +84,7 @@ class Liggghts(Engine):
     advice: ClassVar[str] = "install Debian's package liggghts, or carom liggghts build"
     greeting: ClassVar[str] = r"LIGGGHTS-PUBLIC ([\w.]+)"
     builder: ClassVar[str] = "carom liggghts build"
+    result: ClassVar[str] = RESULT
 
     def executable(self) -> Path | None:
         """Return where LIGGGHTS is, or None."""
@@ -104,13 +105,8 @@ class Liggghts(Engine):
         """Return complete inputs: text by file name."""
         return {INPUT: _script(experiment), SPHERES: arrangement.data_file(experiment)}
 
-    def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
-        """Return what a run has left in its folder; ValueError or OSError if it is not there."""
-        return arrangement.outcomes_of(experiment, arrangement.read_dump(folder / RESULT))
-
 
 def _words(law: ContactLaw) -> tuple[str, str]:
-    """Return the models of a law, and their options."""
     if isinstance(law, ExactContactLaw):
         return "hertz tangential carom", f"springs {law.springs}"
     if isinstance(law, LinearSpring):
@@ -135,7 +131,6 @@ def _script(experiment: Experiment) -> str:
 
 
 def _properties(experiment: Experiment) -> Iterator[str]:
-    """Yield the material properties of both types of bodies."""
     pair, law = experiment.pair, experiment.law
 
     def each(name: str, one: float, two: float) -> str:

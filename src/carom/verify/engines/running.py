@@ -21,6 +21,7 @@ import numpy as np
 from carom.dem.base import ContactLaw
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import positive
+from carom.verify.engines.arrangement import outcomes_of, read_dump
 from carom.verify.engines.experiments import Experiment, Outcomes
 
 PRINTED = "printed.txt"  # what the program printed, in its folder
@@ -57,6 +58,7 @@ class Engine(ABC):
     advice: ClassVar[str]  # how to get it
     greeting: ClassVar[str]  # the pattern in which it prints its version
     builder: ClassVar[str] = ""  # the command that builds it with the exact law
+    result: ClassVar[str] = ""  # the dump that it leaves
 
     @abstractmethod
     def supports(self, law: ContactLaw) -> bool:
@@ -66,9 +68,9 @@ class Engine(ABC):
     def files(self, experiment: Experiment) -> dict[str, str]:
         """Return complete inputs: text by file name."""
 
-    @abstractmethod
     def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
         """Return what a run has left in its folder; ValueError or OSError if it is not there."""
+        return outcomes_of(experiment, read_dump(folder / self.result))
 
     @property
     def remedy(self) -> str:
@@ -231,7 +233,6 @@ def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
 
 
 def _crash(engine: Engine, folder: Path, code: int) -> EngineError:
-    """Return the error of a program that has ended with this exit code."""
     lacking = re.search(LACKING, _printed(folder))
     if lacking:
         return EngineError(

@@ -11,9 +11,9 @@ from pathlib import Path
 from carom.bodies.cases import read_case
 from carom.io.paths import replace_whole
 from carom.quantities.refusals import InputError, refusal
-from carom.verify.pack.frozen import CASE, INPUTS
-from carom.verify.pack.programs import AFTER, PROGRAMS, experiment_of
-from carom.verify.pack.tables import DecimalTable, read_table
+from carom.verify.engines.experiments import AFTER
+from carom.verify.pack.frozen import CASE, INPUTS, DecimalTable, read_table
+from carom.verify.pack.writing import PROGRAMS, experiment_of
 
 
 def collect(folder: str | Path) -> Path:

@@ -1,20 +1,49 @@
-"""Writing the benchmark pack: the frozen files, what is derived from them, and checksums."""
+"""Writing the benchmark pack: the frozen files, inputs of DEM codes for its sets, checksums."""
 
 import hashlib
 import json
 import os
 import shutil
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+
+from carom.bodies.cases import pair_of
+from carom.dem import LammpsMindlin, LiggghtsHertz
+from carom.dem.base import ContactLaw
 from carom.io.paths import checked_path
 from carom.quantities.refusals import InputError, refusal
-from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, VERSION, folders_with, frozen_files
-from carom.verify.pack.programs import program_files
-from carom.verify.pack.references import ACCURACY, title_of
-from carom.verify.pack.tables import read_table
+from carom.verify.engines.experiments import AFTER, Experiment, Outcomes
+from carom.verify.engines.lammps import Lammps
+from carom.verify.engines.lammps_unittest import unit_test_yaml
+from carom.verify.engines.liggghts import Liggghts
+from carom.verify.engines.running import Engine
+from carom.verify.engines.yade import Yade
+from carom.verify.pack import frozen
+from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, folders_with, frozen_files
 
 CHECKSUMS = "SHA256SUMS"
+STEPS = 2000  # per duration of the contact
+TOLERANCE = 0.01  # in psi_2, of LAMMPS's unit test; that of the scorer
+PROGRAMS: Mapping[str, tuple[Engine, ContactLaw]] = {  # each with a law that it has
+    "lammps": (Lammps(), LammpsMindlin()),
+    "liggghts": (Liggghts(), LiggghtsHertz()),
+    "yade": (Yade(), LammpsMindlin("mindlin/force")),
+}
+RUN = """\
+#!/bin/sh
+# Runs these impacts, leaves results.csv and scores it: exit code 0 if they pass, else 1.
+# What follows the name of this script goes to the scorer, e.g. --tolerance 0.6 --plot score.png
+set -e
+cd "$(dirname "$0")"
+command -v carom >/dev/null || {{ echo "no carom: activate its environment" >&2; exit 2; }}
+{command}
+"${{PYTHON:-python3}}" -m carom.verify.pack.collect .
+carom verify score results.csv --case ../case.toml "$@"
+"""
 
 
 def write_pack(folder: str | Path) -> tuple[str, ...]:
@@ -83,11 +112,14 @@ def pack_files() -> dict[str, str]:
     """Return the text of every file of the pack by its path, the checksums last."""
     files = dict(frozen_files())
     for folder in folders_with(REFERENCE):
-        files[f"{folder}/reference.json"] = read_table(files[f"{folder}/{REFERENCE}"]).as_json()
+        files[f"{folder}/reference.json"] = frozen.read_table(
+            files[f"{folder}/{REFERENCE}"]
+        ).as_json()
     files |= program_files()
     files["pack.json"] = _contents(files)
     files = dict(sorted(files.items()))
-    sums = (f"{_digest(t)}  {name}\n" for name, t in files.items() if not name.endswith(INPUTS))
+    kept = {name: text.encode() for name, text in files.items() if not name.endswith(INPUTS)}
+    sums = (f"{hashlib.sha256(text).hexdigest()}  {name}\n" for name, text in kept.items())
     return files | {CHECKSUMS: "".join(sums)}  # but for what users fill in
 
 
@@ -96,11 +128,50 @@ def _contents(files: dict[str, str]) -> str:
     sets = []
     for folder in folders_with(CASE):
         inside = [name for name in files if name.startswith(f"{folder}/")]
-        sets.append({"folder": folder, "title": title_of(folder), "files": sorted(inside)})
-    record = {"name": "carom benchmark pack", "version": VERSION}
-    errors = {"accuracy_of_psi_2": ACCURACY, "per": "max(1, |psi_1|)"}
+        sets.append({"folder": folder, "title": frozen.title_of(folder), "files": sorted(inside)})
+    record = {"name": "carom benchmark pack", "version": frozen.VERSION}
+    errors = {"accuracy_of_psi_2": frozen.ACCURACY, "per": "max(1, |psi_1|)"}
     return json.dumps(record | errors | {"sets": sets}, indent=1, ensure_ascii=False) + "\n"
 
 
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode("utf-8")).hexdigest()
+def program_files() -> dict[str, str]:
+    """Return the inputs of each program for each set that it can run, by path in the pack."""
+    found: dict[str, str] = {}
+    for folder in folders_with(INPUTS):
+        if not _is_one_experiment(folder):
+            continue
+        case, inputs = frozen.case_of(folder), frozen.inputs_of(folder)
+        for name, (program, _) in PROGRAMS.items():
+            experiment = experiment_of(name, case, inputs)
+            command = " ".join([program.called, *program.arguments])
+            files = {**program.files(experiment), "run.sh": RUN.format(command=command)}
+            if name == "lammps":
+                files[f"fix-timestep-{folder}.yaml"] = _unit_test(folder, experiment)
+            found |= {f"{folder}/{name}/{file}": text for file, text in files.items()}
+    return found
+
+
+def experiment_of(name: str, case: Mapping[str, Any], inputs: frozen.DecimalTable) -> Experiment:
+    """Return the impacts of a set as a program is to run them."""
+    return Experiment(
+        pair=pair_of(case),
+        law=PROGRAMS[name][1],
+        normal_speed=float(inputs.numbers("normal_speed")[0]),
+        tangential_speed=tuple(inputs.numbers("tangential_speed").tolist()),
+        spin=tuple(inputs.numbers("spin").tolist()),
+        steps=STEPS,
+    )
+
+
+def _is_one_experiment(folder: str) -> bool:
+    """Whether it is a set of bodies that a program can run: with one normal speed."""
+    if "/" in folder or f"{folder}/{CASE}" not in frozen_files():
+        return False
+    return bool(np.ptp(frozen.inputs_of(folder).numbers("normal_speed")) == 0.0)
+
+
+def _unit_test(folder: str, experiment: Experiment) -> str:
+    """Return the set as a test of LAMMPS's own suite, against the frozen numbers."""
+    reference = frozen.read_table(frozen_files()[f"{folder}/{REFERENCE}"])
+    exact = Outcomes(*(reference.numbers(name) for name in AFTER))
+    return unit_test_yaml(experiment, tolerance=TOLERANCE, outcomes=exact)

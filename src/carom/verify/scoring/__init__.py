@@ -21,10 +21,9 @@ from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, nearest, refusal
 from carom.quantities.units import positive
 from carom.verify.errors import is_function
-from carom.verify.scoring.cases import Given, given_of
+from carom.verify.scoring.cases import Given, given_of, results_of
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
 from carom.verify.scoring.origins import MOST, NAMES, origins_of
-from carom.verify.scoring.own_law import results_of
 from carom.verify.scoring.points import (
     compared,
     energy_audit,

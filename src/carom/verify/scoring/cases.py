@@ -1,23 +1,34 @@
-"""What results are scored against: bodies, their motion, and the restitution they leave."""
+"""What results are scored against: bodies, motion, restitution; and the results of own laws."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from carom.bodies.cases import check_case, losses_of, motion_of, pair_of, read_case
+import numpy as np
+
+from carom.bodies import cases
 from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair, alike, with_friction
 from carom.bodies.shapes import describe
+from carom.dem import FunctionLaw
+from carom.dem.base import Law
+from carom.dem.status import LawStatus
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
+from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import number, positive
-from carom.verify import errors
-from carom.verify.setting import constant_restitution
+from carom.verify.entries import called
+from carom.verify.errors import INCIDENCES, Impacts, as_law, constant_restitution, losses_of
+from carom.verify.ranking import CHI
 
 ROUNDED = 0.01  # part of chi by which a number that is told may be rounded
+WRONG_SIGN = (
+    "every impact gains speed: has the force the opposite sign? It acts on the first body, so that "
+    "friction that slows V_x > 0 is negative"
+)
 
 
 @dataclass(frozen=True)
@@ -33,7 +44,7 @@ class Given:
         if isinstance(self.case, Pair | Impact):
             pair = self.case.pair if isinstance(self.case, Impact) else self.case
         else:
-            pair = pair_of(_content(self.case))
+            pair = cases.pair_of(_content(self.case))
         return with_friction(pair, "without friction psi is infinite, and nothing can be scored")
 
     @cached_property
@@ -46,8 +57,8 @@ class Given:
             raise InputError(
                 "case: a history needs the speeds, too; give a case that has them, or an Impact"
             )
-        motion = motion_of(_content(self.case))
-        hit: Impact = impact(pair, losses=errors.losses_of(self.restitution), **motion)
+        motion = cases.motion_of(_content(self.case))
+        hit: Impact = impact(pair, losses=losses_of(self.restitution), **motion)
         return hit
 
     @property
@@ -77,9 +88,9 @@ def _chosen(case: Any, chi: Any, own: Any) -> Any:
     return own if case is None else case
 
 
-def _restitution(cases: Iterable[Any], restitution: Any) -> float:
+def _restitution(given: Iterable[Any], restitution: Any) -> float:
     """Return the restitution that is given, or that of the cases, or 1."""
-    told = {each for each in map(_told, cases) if each is not None}
+    told = {each for each in map(_told, given) if each is not None}
     if len(told) > 1:
         both = " and ".join(f"{each:g}" for each in sorted(told))
         raise InputError(
@@ -97,7 +108,7 @@ def _told(case: Any) -> float | None:
     """Return the restitution that a case tells, or None; an impact always does."""
     if case is None or isinstance(case, Pair):
         return None
-    losses = case.losses if isinstance(case, Impact) else losses_of(_content(case))
+    losses = case.losses if isinstance(case, Impact) else cases.losses_of(_content(case))
     return 1.0 if losses is None and isinstance(case, Impact) else constant_restitution(losses)
 
 
@@ -105,6 +116,55 @@ def _content(case: Any) -> Mapping[str, Any]:
     if case is None:
         raise InputError("case: missing; give the bodies, --case with a file as for carom impact")
     if isinstance(case, str | Path):
-        return read_case(Path(case), losses=True)
-    check_case(case, losses=True)
+        return cases.read_case(Path(case), losses=True)
+    cases.check_case(case, losses=True)
     return dict(case)
+
+
+class LawResults(NamedTuple):
+    """Columns psi_1 and psi_2 of a law, its name, and what it is to be scored against."""
+
+    columns: Mapping[str, Array]
+    name: str
+    chi: float
+    restitution: float | None
+    notes: tuple[str, ...]
+
+
+def results_of(given: Any, case: Any, chi: Any, restitution: Any) -> LawResults:
+    """Return the results of a law, or of a function, for the bodies of a case or for a chi.
+
+    A function sees the bodies of the case if it has none of its own.
+
+    Raises InputError if it is no law, or leaves an impact unsolved.
+    """
+    law, kappa = as_law(given), None
+    known = given_of(case, None, None, restitution)
+    if case is None:
+        chi = CHI if chi is None else chi
+    else:
+        law, chi, kappa = _with_bodies(law, known, chi)
+    met = Impacts.of(INCIDENCES, chi, kappa)
+    psi_out, status = law.rebound(met.psi, met.chi, kappa=met.kappa, return_status=True)
+    met.refuse_failure(law, psi_out)
+    if np.any(status):
+        first = int(np.argmax(status != LawStatus.SOLVED))
+        why = LawStatus(int(status[first])).message
+        where = f"psi_1 = {met.psi[first]:g}, chi = {met.chi:g}"
+        raise InputError(f"{called(law)}: {where}: {why}")
+    told = known.restitution
+    if restitution is None and told == 1.0:
+        told = met.restitution(law)
+    columns = {"psi_1": met.psi, "psi_2": psi_out}
+    notes = (WRONG_SIGN,) if isinstance(law, FunctionLaw) and np.all(psi_out > met.psi) else ()
+    return LawResults(columns, called(law), met.chi, None if told == 1.0 else told, notes)
+
+
+def _with_bodies(law: Law, known: Given, chi: Any) -> tuple[Law, float, float]:
+    """Return a law that sees the bodies of a case, their chi and their kappa."""
+    if chi is not None:
+        raise InputError("chi: it follows from the case; leave one of them out")
+    pair = known.pair
+    if isinstance(law, FunctionLaw) and law.pair is None:
+        law = replace(law, pair=pair)
+    return law, pair.chi, pair.kappa

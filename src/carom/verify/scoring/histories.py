@@ -3,14 +3,16 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carom.bodies.pairs import Scales
+from carom.dimensionless.numerics import hertz
 from carom.impacts.exact import Impact
 from carom.io.labels import Finding
-from carom.io.user_table import UserTable
+from carom.io.user_table import Mask, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
-from carom.verify.scoring.contact import Samples, contact_samples
+from carom.quantities.refusals import InputError
 from carom.verify.scoring.points import (
     LARGEST,
     PRINTED,
@@ -19,10 +21,139 @@ from carom.verify.scoring.points import (
     energy_audit,
     refuse_large,
     restitution_audit,
+    within,
 )
 
+FEWEST = 20  # rows with a force
+INSTANTS, RESOLVED = 100, 1e-12  # among which the peak is looked for; of a time in d_max/V_1
+SMALL = 0.1  # of the peak: what the first and last force of elastic bodies may be
+FACTORS = {1e3: "m", 1e6: "u", 1e9: "n", 1e-3: "k", 1e-6: "M"}  # prefix by the factor of numbers
+LIKE = 1.5  # how near a factor is to one of them
+FAR = 30.0  # a ratio to Hertz's time that no law of contact explains
 TAIL = 64  # instants added where the exact contact outlasts the one that was given
 NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
+
+
+class Samples(NamedTuple):
+    """Forces at times since the first touch, with the instants without force at either end.
+
+    `rows` are the places in the results, -1 for an instant that was added; `touch` is the first
+    touch in the time of the results, `end` the last since then.
+    """
+
+    time: Array
+    normal_force: Array
+    tangential_force: Array
+    rows: NDArray[np.int64]
+    touch: float
+    end: float
+
+
+def contact_samples(results: UserTable, hit: Impact) -> Samples:
+    """Return the forces while the bodies touch.
+
+    The first touch lies between the last row without force and the first with one, as long before
+    as the exact impact takes to that force; so does the last.
+
+    Raises InputError if the record has no such part, starts late, ends early, has too few rows in
+    it, or is in another unit.
+    """
+    time, force = results["time"], results["normal_force"]
+    falls = np.concatenate([[False], np.diff(time) <= 0.0])
+    allowed = "it must rise from row to row; sort the rows, and delete duplicates"
+    results.refuse("time", falls, allowed)
+    first, last = _ends(results)
+    _check_units(time[first : last + 1], force, hit.scales)
+    peak = float(force.max())
+    _check_ends(results, first, last, peak, hit)
+    count = last - first + 1
+    if count < FEWEST:
+        raise InputError(
+            f"results: {count} rows have a normal force; a history needs at least {FEWEST}, "
+            "record more often"
+        )
+    touch = float(time[first]) - _when(float(force[first]), hit, 0.0)
+    parting = _when(float(force[last]), hit, hit.solution.duration)
+    end = float(time[last]) + (hit.duration - parting)
+    if first > 0:
+        touch = max(touch, float(time[first - 1]))
+    if last + 1 < len(results):
+        end = min(end, float(time[last + 1]))
+    return _framed(results, first, last, touch, end)
+
+
+def _when(force: float, hit: Impact, end: float) -> float:
+    """Return when the exact force, between one end of the contact and its peak, has a value."""
+    from scipy.optimize import brentq
+
+    exact = hit.solution.history(INSTANTS)
+    peak = float(exact.time[np.argmax(exact.normal_force)])
+
+    def excess(time: float) -> float:
+        return float(hit.solution.at(time).normal_force[0]) - force / hit.scales.force
+
+    time = peak if excess(peak) <= 0.0 else brentq(excess, end, peak, xtol=RESOLVED)
+    return time * hit.scales.time
+
+
+def _framed(results: UserTable, first: int, last: int, touch: float, end: float) -> Samples:
+    """Return the rows from first to last between an instant of touch and one of separation."""
+    part = slice(first, last + 1)
+    normal, tangential = (
+        np.concatenate([[0.0], results[name][part], [0.0]])
+        for name in ("normal_force", "tangential_force")
+    )
+    rows = np.concatenate([[-1], np.arange(first, last + 1), [-1]])
+    time = np.concatenate([[touch], results["time"][part], [end]]) - touch
+    return Samples(time, normal, tangential, rows, touch, end - touch)
+
+
+def _ends(results: UserTable) -> tuple[int, int]:
+    force = results["normal_force"]
+    touching = force > 0.0
+    if touching.sum() < 0.5 * np.count_nonzero(force) or not touching.any():
+        raise InputError(
+            "normal_force: must be positive where the bodies press on each other; change its sign"
+        )
+    first, last = (int(i) for i in np.flatnonzero(touching)[[0, -1]])
+    inside = np.arange(force.size)
+    gaps: Mask = ~touching & (inside > first) & (inside < last)
+    apart = "the bodies part and meet again; give the history of one impact"
+    results.refuse("normal_force", gaps, apart)
+    return first, last
+
+
+def _check_ends(results: UserTable, first: int, last: int, peak: float, hit: Impact) -> None:
+    """Raise InputError if the record does not start at the first touch and end at the last."""
+    exact = hit.solution.history(FEWEST + 1).normal_force / hit.solution.max_force
+    for place, what, soon in (
+        (first, "start at the first touch", exact[1]),
+        (last, "go on to the last touch", exact[-2]),
+    ):
+        share = float(results["normal_force"][place]) / peak
+        if share > max(SMALL, soon):  # forces of viscous bodies rise steeply
+            raise InputError(
+                f"normal_force: the history does not {what}; in {results.one(place)} it is "
+                f"{100 * share:.0f} % of the peak; record from before the touch until they part"
+            )
+
+
+def _check_units(time: Array, force: Array, scales: Scales) -> None:
+    lasted = float(time[-1] - time[0]) / (hertz.DURATION * scales.time)
+    pressed = float(force.max()) / scales.force
+    for name, ratio, unit in (("time", lasted, "s"), ("normal_force", pressed, "N")):
+        what = "the contact lasts" if name == "time" else "the peak is"
+        for factor, prefix in FACTORS.items():
+            if 1.0 / LIKE < ratio / factor < LIKE:
+                raise InputError(
+                    f"{name}: {what} {ratio:.4g} times Hertz's; if it is in {prefix}{unit}, "
+                    f"head the column '{name} [{prefix}{unit}]'"
+                )
+    if len(time) > 1 and not 1.0 / FAR < lasted < FAR:
+        raise InputError(
+            f"time: the contact lasts {lasted:.4g} times Hertz's duration, "
+            f"{text(hertz.DURATION * scales.time, 's', 4)}; is time counted in steps?"
+        )
 
 
 class Forces(NamedTuple):
@@ -94,10 +225,7 @@ def _middles(values: Array) -> Array:
 def score_history(
     results: UserTable, hit: Impact, expected: float, limit: float
 ) -> tuple[Points, tuple[Finding, ...], tuple[str, ...], Forces]:
-    """Return the one point that a history makes, what is found, notes, and the forces.
-
-    Raises InputError for a record that is not one whole contact, or is in wrong units.
-    """
+    """Return the one point that a history makes, what is found, notes, and the forces."""
     results.require("time", "normal_force", "tangential_force")
     _refuse_large(results, hit.scales)
     forces = forces_of(hit, contact_samples(results, hit))
@@ -131,7 +259,6 @@ def _refuse_large(results: UserTable, scales: Scales) -> None:
 
 
 def _energy_change(forces: Forces) -> float:
-    """Return kinetic energy after less that before, in J."""
     psi, scales = forces.psi, forces.hit.scales
     unit = 0.5 * forces.hit.pair.tangential_mass * scales.tangential_speed**2
     lost = float(unit * (psi[0] - psi[-1]) * (psi[0] + psi[-1]))
@@ -143,12 +270,11 @@ def _off(name: str, forces: Forces, error: Array, unit: str, limit: float) -> Fi
     value = float(abs(error[worst]))
     where = f"{error[worst]:+.3g} {unit} at t = {text(forces.time[worst], 's', 4)}"
     verdict = f"off by {where} after the touch; rms {forces.rms(error):.3g}"
-    return Finding(name, value, limit, value <= limit, verdict)
+    return within(name, value, limit, verdict)
 
 
 def _share(name: str, error: float, unit: str, limit: float) -> Finding:
-    verdict = f"off by {error:+.3g} {unit}"
-    return Finding(name, abs(error), limit, abs(error) <= limit, verdict)
+    return within(name, abs(error), limit, f"off by {error:+.3g} {unit}")
 
 
 def _cone_audit(results: UserTable, forces: Forces, limit: float) -> Finding:
@@ -156,26 +282,23 @@ def _cone_audit(results: UserTable, forces: Forces, limit: float) -> Finding:
     friction, peak = forces.hit.pair.friction, forces.hit.scales.force
     over = np.abs(results["tangential_force"]) - friction * np.maximum(results["normal_force"], 0.0)
     over = over / (friction * peak)
-    outside = over > PRINTED * limit
-    if not outside.any():
-        value = max(float(over.max()), 0.0)
-        return Finding("friction cone", value, limit, True, "|F_t| <= mu F_n at all times")
-    worst = int(np.argmax(over))
-    value = float(over[worst])
-    verdict = f"|F_t| > mu F_n in {results.named(outside)}; most in {results.one(worst)}"
-    return Finding("friction cone", value, limit, value <= limit, f"{verdict}, by {value:.3g}")
+    outside, value = over > PRINTED * limit, max(float(over.max()), 0.0)
+    verdict = "|F_t| <= mu F_n at all times"
+    if outside.any():
+        most = results.one(int(np.argmax(over)))
+        verdict = f"|F_t| > mu F_n in {results.named(outside)}; most in {most}, by {value:.3g}"
+    return within("friction cone", value, limit, verdict)
 
 
 def _work_audit(forces: Forces, limit: float) -> Finding:
     """Return whether the tangential force takes energy from the motion before it gives any."""
     gain = np.abs(forces.psi) - abs(forces.hit.psi_in)
     worst = int(np.argmax(gain))
-    value = max(float(gain[worst]), 0.0)
-    if value <= PRINTED * limit:
-        return Finding("work", value, limit, True, "friction never adds to the motion")
-    when = f"at t = {text(forces.time[worst], 's', 4)} after the touch"
-    verdict = f"the tangential force adds to the motion, most {when}: {value:.3g} of psi"
-    return Finding("work", value, limit, value <= limit, verdict)
+    value, verdict = max(float(gain[worst]), 0.0), "friction never adds to the motion"
+    if value > PRINTED * limit:
+        when = f"at t = {text(forces.time[worst], 's', 4)} after the touch"
+        verdict = f"the tangential force adds to the motion, most {when}: {value:.3g} of psi"
+    return within("work", value, limit, verdict)
 
 
 def _velocity_audit(results: UserTable, forces: Forces, limit: float) -> tuple[Finding, ...]:
@@ -188,10 +311,9 @@ def _velocity_audit(results: UserTable, forces: Forces, limit: float) -> tuple[F
     off = np.abs(velocity - forces.psi[: own.size][own])
     worst = int(np.argmax(off))
     value = float(off[worst])
-    words = (
-        f"differs from the impulse by up to {value:.3g} of psi, in {results.one(int(rows[worst]))}"
-    )
-    return (Finding("contact velocity", value, limit, value <= limit, words),)
+    where = results.one(int(rows[worst]))
+    words = f"differs from the impulse by up to {value:.3g} of psi, in {where}"
+    return (within("contact velocity", value, limit, words),)
 
 
 def _notes(forces: Forces) -> tuple[str, ...]:

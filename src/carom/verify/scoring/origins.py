@@ -24,15 +24,11 @@ class Origin(NamedTuple):
 
     @property
     def label(self) -> str:
-        """Both names, "" for none.
-
-        Examples
-        --------
-        >>> from carom.verify.scoring.origins import Origin
-        >>> Origin("LAMMPS", "mindlin").label
-        'LAMMPS, mindlin'
-        """
+        """Both names, "" for none."""
         return ", ".join(filter(None, self))
+
+
+NOBODY = Origin()
 
 
 class Origins(NamedTuple):
@@ -41,19 +37,10 @@ class Origins(NamedTuple):
     known: tuple[Origin, ...]
     places: NDArray[np.int64]
 
-    @property
-    def named(self) -> bool:
-        """Whether any name is known."""
-        return any(origin.label for origin in self.known)
 
-    def of(self, row: int) -> Origin:
-        """Return the origin of a row."""
-        return self.known[int(self.places[row])]
-
-
-def unknown(rows: int) -> Origins:
-    """Return the origins of results that tell none."""
-    return Origins((Origin(),), np.zeros(rows, dtype=np.int64))
+def of_all(rows: int, one: Origin = NOBODY) -> Origins:
+    """Return one origin for all results, by default none."""
+    return Origins((one,), np.zeros(rows, dtype=np.int64))
 
 
 def origins_of(
@@ -63,15 +50,13 @@ def origins_of(
 
     Names that are given count for all rows; else columns do, and else comments of the file. Names
     that differ are left out if there are more than `most`; with one, all rows are one impact.
-
-    Raises InputError for a name that is given but is no text.
     """
     rows = len(table.rows) if most > 1 else 1
     names = [_named(name, given[name], table) for name in NAMES]
     varied = [name for name, each in zip(NAMES, names, strict=True) if len(set(each)) > 1]
     if not varied:
         one = Origin(*(each[0] for each in names))
-        return Origins((one,), np.zeros(rows, dtype=np.int64)), ()
+        return of_all(rows, one), ()
     pairs = [*zip(*(each * (len(table.rows) // len(each)) for each in names), strict=True)]
     known = {pair: place for place, pair in enumerate(dict.fromkeys(pairs))}
     if len(known) <= most:
@@ -80,7 +65,7 @@ def origins_of(
     one = Origin(*("" if n in varied else each[0] for n, each in zip(NAMES, names, strict=True)))
     told = f"the names in {' and '.join(varied)} are left out: {len(known)} of them"
     notes = (f"{told}, at most {most} are told apart",)
-    return Origins((one,), np.zeros(rows, dtype=np.int64)), notes
+    return of_all(rows, one), notes
 
 
 def _named(name: str, given: Any, table: UserTable) -> list[str]:

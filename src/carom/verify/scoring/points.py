@@ -35,11 +35,6 @@ class Group(NamedTuple):
     rms_error: float
     mean_error: float
 
-    @property
-    def numbers(self) -> dict[str, float]:
-        """All but the name."""
-        return {name: value for name, value in self._asdict().items() if name != "name"}
-
 
 @dataclass(frozen=True, eq=False)
 class Points(Rows):
@@ -151,15 +146,16 @@ def _sequences(
     Signs are those of an impact with positive psi_1. One impact is solved for each code.
     """
     _, first, inverse = np.unique(codes, return_index=True, return_inverse=True)
-    found = [_name(abs(float(psi[i])), float(chi[i])) for i in first]
+    maps = [regime_map([abs(float(psi[i]))], [float(chi[i])]) for i in first]
+    found = [str(each["sequence_name"].values[0]) for each in maps]
     names = tuple(dict.fromkeys(found))
     places = np.array([names.index(name) for name in found], dtype=np.int64)
     return places[inverse], names
 
 
-def _name(psi: float, chi: float) -> str:
-    found = regime_map([psi], [chi])
-    return str(found["sequence_name"].values[0])
+def within(name: str, value: float, limit: float, verdict: str) -> Finding:
+    """Return a finding that holds up to its limit."""
+    return Finding(name, value, limit, value <= limit, verdict)
 
 
 def energy_audit(points: Points, unit: Array, symbol: str, limit: float) -> Finding:
@@ -168,49 +164,45 @@ def energy_audit(points: Points, unit: Array, symbol: str, limit: float) -> Find
     `unit` is what a change of energy is divided by to be one of psi^2, `symbol` the name of its own
     unit. The value is by how much |psi_2| would be too large if the contact point had all of it.
     """
-    name, before = "energy gain", np.abs(points.psi_in)
+    before = np.abs(points.psi_in)
     change = np.maximum(points.energy_change, unit * (points.psi_out**2 - before**2))
     excess = np.sqrt(np.maximum(before**2 + change / unit, 0.0)) - before
     gains = excess > ROUNDING * np.maximum(1.0, before)
     if not gains.any():
-        return Finding(name, 0.0, limit, True, "no impact gains energy")
-    order = np.argsort(-np.where(gains, change, -np.inf))
-    largest = [
-        f"{points.one(i)}: {text(change[i], symbol)}" for i in order[: min(SHOWN, gains.sum())]
-    ]
+        return within("energy gain", 0.0, limit, "no impact gains energy")
+    order = np.argsort(-np.where(gains, change, -np.inf))[: min(SHOWN, gains.sum())]
+    largest = "; ".join(f"{points.one(i)}: {text(change[i], symbol)}" for i in order)
     more = f"; and {gains.sum() - SHOWN} more" if gains.sum() > SHOWN else ""
-    value = float(excess.max())
-    return Finding(
-        name, value, limit, value <= limit, f"energy is gained in {'; '.join(largest)}{more}"
-    )
+    verdict = f"energy is gained in {largest}{more}"
+    return within("energy gain", float(excess.max()), limit, verdict)
 
 
 def friction_audit(points: Points, restitution: Array, limit: float) -> Finding:
     """Return whether friction can give the impulse: |psi_1 - psi_2| <= 2 (1 + e) chi."""
     needed = np.abs(points.psi_in - points.psi_out)
     excess = needed - 2.0 * (1.0 + restitution) * points.chi
-    name, value, worst = "friction impulse", max(float(excess.max()), 0.0), int(np.argmax(excess))
-    above = excess > PRINTED * limit
-    if not above.any():
-        verdict = "no tangential impulse exceeds mu times the normal one"
-        return Finding(name, value, limit, True, verdict)
-    verdict = f"tangential above mu times normal impulse in {points.named(above)}, most in "
-    return Finding(name, value, limit, value <= limit, verdict + points.one(worst))
+    above, verdict = (
+        excess > PRINTED * limit,
+        "no tangential impulse exceeds mu times the normal one",
+    )
+    if above.any():
+        verdict = f"tangential above mu times normal impulse in {points.named(above)}"
+        verdict += f", most in {points.one(int(np.argmax(excess)))}"
+    return within("friction impulse", max(float(excess.max()), 0.0), limit, verdict)
 
 
 def restitution_audit(points: Points, restitution: Array, limit: float) -> Finding:
     """Return whether the normal impact leaves as much as the exact one."""
     expected = points.restitution
     off, elastic = np.abs(restitution - expected), expected == 1.0
-    name, value, worst = "restitution error", float(off.max()), int(np.argmax(off))
-    if value <= limit:
-        verdict = "the normal impact is elastic" if elastic else f"e = {expected:g}, as expected"
-        return Finding(name, value, limit, True, verdict)
-    where = f"in {points.named(off > limit)}, most in {points.one(worst)}"
-    advice = "switch the normal damping off, or give the restitution that it has, restitution="
-    advice = advice if elastic else "change the damping of the normal contact"
-    verdict = f"e = {restitution[worst]:.6g}, not {expected:g}, {where}; {advice}"
-    return Finding(name, value, limit, False, verdict)
+    value, worst = float(off.max()), int(np.argmax(off))
+    verdict = "the normal impact is elastic" if elastic else f"e = {expected:g}, as expected"
+    if not value <= limit:
+        where = f"in {points.named(off > limit)}, most in {points.one(worst)}"
+        advice = "switch the normal damping off, or give the restitution that it has, restitution="
+        advice = advice if elastic else "change the damping of the normal contact"
+        verdict = f"e = {restitution[worst]:.6g}, not {expected:g}, {where}; {advice}"
+    return within("restitution error", value, limit, verdict)
 
 
 def notes_on(points: Points) -> tuple[str, ...]:

@@ -19,6 +19,7 @@ from carom.verify.scoring.points import (
     friction_audit,
     refuse_large,
     restitution_audit,
+    within,
 )
 
 UNITS = {  # by the ratio of the impulse in the spins to that in the speeds
@@ -59,15 +60,13 @@ class Velocities(NamedTuple):
 def score_velocities(
     results: UserTable, pair: Pair, expected: float, limit: float
 ) -> tuple[Points, tuple[Finding, ...], tuple[str, ...]]:
-    """Return the points that velocities make, what is found of them, and notes.
-
-    `expected` is the restitution of the exact impacts.
-    Raises InputError for columns that are missing, rows that are no impact, or wrong units.
-    """
+    """Return the points that velocities make, what is found of them, and notes."""
     _refuse_second_spin(results, pair)
-    before = _before(results)
+    normal, tangential = _speeds(results)
+    nothing = np.zeros(len(results))
+    spins: list[Any] = [results.columns.get(name, nothing) for name in ("spin", "spin2")]
+    before = Velocities(normal, Tangential(tangential, *spins))
     after, notes = _after(results, pair, before, expected)
-    normal = before.normal_speed
     name = "normal_speed" if "normal_speed" in results.columns else "speed"
     results.refuse(name, (normal < SLOWEST) | (normal > FASTEST), "check its unit")
     psi = before.psi(pair, normal), after.psi(pair, normal)
@@ -84,13 +83,6 @@ def score_velocities(
         restitution_audit(points, restitution, limit),
     )
     return points, findings, notes
-
-
-def _before(results: UserTable) -> Velocities:
-    normal, tangential = _speeds(results)
-    nothing = np.zeros(len(results))
-    spins: list[Any] = [results.columns.get(name, nothing) for name in ("spin", "spin2")]
-    return Velocities(normal, Tangential(tangential, *spins))
 
 
 def _speeds(results: UserTable) -> tuple[Any, Any]:
@@ -147,10 +139,7 @@ def momentum_audit(
     normal_speed: Any,
     limit: float,
 ) -> Finding:
-    """Return whether spins and speeds changed by the same impulse, in units of psi.
-
-    Raises InputError if all differ by a factor that is one of units.
-    """
+    """Return whether spins and speeds changed by the same impulse, in units of psi."""
     linear = pair.normal_mass * (before.tangential_speed - after.tangential_speed)
     spins = zip(pair.moving, before[1:], after[1:], strict=False)
     angular = [(was - now) * inertia(body) / body.radius for body, was, now in spins]
@@ -158,13 +147,11 @@ def momentum_audit(
     off = np.max([np.abs(linear - other) for other in angular], axis=0) / unit
     ratio = _constant_ratio(angular[0], linear, limit * unit)
     _refuse_units(ratio)
-    name, value, worst = "angular momentum", float(off.max()), int(np.argmax(off))
-    if value <= limit:
-        return Finding(name, value, limit, True, "speeds and spins change by the same impulse")
-    where = results.named(off > limit)
-    verdict = f"speeds and spins change by different impulses in {where}"
-    verdict += f", most in {results.one(worst)}{_cause(ratio)}"
-    return Finding(name, value, limit, False, verdict)
+    value, verdict = float(off.max()), "speeds and spins change by the same impulse"
+    if not value <= limit:
+        where = f"{results.named(off > limit)}, most in {results.one(int(np.argmax(off)))}"
+        verdict = f"speeds and spins change by different impulses in {where}{_cause(ratio)}"
+    return within("angular momentum", value, limit, verdict)
 
 
 def _constant_ratio(angular: Any, linear: Any, small: Any) -> float:

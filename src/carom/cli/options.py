@@ -1,13 +1,22 @@
-"""Commands whose options are given once, but for those that are lists; typer takes the last."""
+"""Commands and their options, which are given once, but for lists; typer takes the last."""
 
 from collections import Counter
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, TypeVar
 
 import typer
 from typer.core import TyperCommand, TyperOption
 
 from carom.quantities.refusals import InputError
+
+Command = TypeVar("Command", bound=Callable[..., None])
+
+COMMON: dict[str, Any] = {
+    "as_json": typer.Option("--json", help="Print JSON instead of a table."),
+    "column": "The quantity in a column of your table that has another name, e.g. omega=spin, or "
+    "'w=spin [rpm]' with its unit. You can repeat this option.",
+    "plot": "Store a figure of the result: .png, .pdf or .svg.",
+}
 
 
 class Interrupted(Exception):
@@ -44,3 +53,35 @@ class Commands(typer.Typer):
     def command(self, name: str | None = None, **more: Any) -> Callable[..., Any]:
         """Return what registers a function as a command."""
         return super().command(name, cls=Once, **more)
+
+
+def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
+    """Return a decorator that gives parameters of a command their help, or their option of typer.
+
+    The signature then has names, types and defaults alone. Some options are the same everywhere.
+    """
+
+    def decorate(command: Command) -> Command:
+        of_typer = {**COMMON, **options}
+        for name in of_typer.keys() & command.__annotations__.keys():
+            option = of_typer[name]
+            option = typer.Option(help=option) if isinstance(option, str) else option
+            command.__annotations__[name] = Annotated[command.__annotations__[name], option]
+        return command
+
+    return decorate
+
+
+def file_option(words: str) -> Any:
+    """Return the option of a file that is read; it is a text, as "" is a folder for `Path`."""
+    return typer.Option(help=words, metavar="FILE")
+
+
+def file_argument(words: str) -> Any:
+    """Return the argument of a file that is read."""
+    return typer.Argument(help=words, metavar="FILE")
+
+
+def whole_option(words: str) -> Any:
+    """Return an option whose text `carom.quantities.units.whole` reads."""
+    return typer.Option(help=words, metavar="INTEGER")

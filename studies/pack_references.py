@@ -6,11 +6,11 @@ rounding of this way and of 12 printed digits. Inputs are exact: they are what i
 """
 
 import sys
-import tomllib
+from decimal import ROUND_UP, Context, Decimal
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from carom.bodies.cases import motion_of, pair_of
 from carom.bodies.kinematics import inertia
@@ -19,12 +19,24 @@ from carom.dimensionless.rebounds import rebound
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
 from carom.quantities.arrays import Array
-from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, folders_with, frozen_files
-from carom.verify.pack.tables import Columns, DecimalTable, exact, read_table, uncertain
+from carom.verify.pack.frozen import (
+    ACCURACY,
+    CASE,
+    INPUTS,
+    REFERENCE,
+    DecimalTable,
+    case_of,
+    folders_with,
+    frozen_files,
+    inputs_of,
+    title_of,
+)
 
-ACCURACY = 1e-10  # of psi_2, in max(1, |psi_1|); of forces and speeds in a history, in their scales
 ROUNDING = 2e-15  # of the few operations between psi and SI units, relative to their terms
 TIMES = 101  # of a history
+DIGITS = 12  # of every number
+ERROR_DIGITS = Context(prec=2, rounding=ROUND_UP)
+ERROR = "_error"  # the column of errors of a column ends so
 BEFORE = ("normal_speed", "tangential_speed", "spin", "spin2")
 SIGNS = (
     "SI units. Speeds of the first body relative to the second: normal_speed towards it before,",
@@ -32,6 +44,8 @@ SIGNS = (
     "tangential speed of the contact point, V_x = tangential_speed + radius x spin.",
     "NAME_error bounds the error of NAME; columns without one are given, hence exact.",
 )
+
+Columns = dict[str, list[str]]
 
 
 def references() -> dict[str, DecimalTable]:
@@ -44,22 +58,6 @@ def references() -> dict[str, DecimalTable]:
         if folder.startswith("histories/"):
             found[f"{folder}/{REFERENCE}"] = _of_history(folder)
     return found
-
-
-def inputs_of(folder: str) -> DecimalTable:
-    """Return the inputs of a set: its table of results, the outputs blank."""
-    return read_table(frozen_files()[f"{folder}/{INPUTS}"])
-
-
-def case_of(folder: str) -> dict[str, Any]:
-    """Return the case of a set."""
-    return tomllib.loads(frozen_files()[f"{folder}/{CASE}"])
-
-
-def title_of(folder: str) -> tuple[str, ...]:
-    """Return what a set is, in words: the first lines of its case."""
-    lines = frozen_files()[f"{folder}/{CASE}"].splitlines()
-    return tuple(line.removeprefix("# ") for line in lines if line.startswith("# "))
 
 
 def _of_numbers(folder: str) -> DecimalTable:
@@ -145,6 +143,45 @@ def _of_history(folder: str) -> DecimalTable:
         "tangential_force is positive against +x, on the first body.",
     )
     return DecimalTable((*title_of(folder), *notes, *SIGNS), columns)
+
+
+def exact(name: str, values: ArrayLike) -> Columns:
+    """Return a column of numbers that are given, not computed."""
+    return {name: [_decimal(value) for value in _flat(values)]}
+
+
+def uncertain(name: str, values: ArrayLike, errors: ArrayLike) -> Columns:
+    """Return a column of computed numbers and one of their errors, rounding to 12 digits included.
+
+    Examples
+    --------
+    >>> from pack_references import uncertain
+    >>> uncertain("psi_out", [-1.23456789012345], [1e-10])
+    {'psi_out': ['-1.23456789012'], 'psi_out_error': ['1.1e-10']}
+    """
+    numbers = _flat(values)
+    bounds = np.broadcast_to(_flat(errors), numbers.shape)
+    cells = [_decimal(value) for value in numbers]
+    sums = [bound + _half_unit(cell) for bound, cell in zip(bounds, cells, strict=True)]
+    return {name: cells, name + ERROR: [_rounded_up(error) for error in sums]}
+
+
+def _flat(values: ArrayLike) -> Array:
+    return np.atleast_1d(np.asarray(values, dtype=np.float64))
+
+
+def _decimal(value: float) -> str:
+    return f"{value + 0.0:.{DIGITS}g}"  # + 0.0: no negative zero
+
+
+def _half_unit(cell: str) -> float:
+    """Return half a unit of the last of the digits."""
+    number = Decimal(cell)
+    return 0.5 * 10.0 ** (number.adjusted() - DIGITS + 1) if number else 0.0
+
+
+def _rounded_up(error: float) -> str:
+    return f"{float(ERROR_DIGITS.create_decimal(repr(float(error)))):.2g}"
 
 
 def freeze(folder: Path) -> list[Path]:

