@@ -104,7 +104,7 @@ def methods() -> list[Method]:
         Method("collide", "tables", most, lambda psi: collided(psi, None)),
         Method("collide, Walton", "contact law", most, lambda p: collided(p, walton())),
         Method("ReboundLaw", "tables", most, law),
-        Method("MixtureLaw", "tables", most, lambda psi: mixture(psi, chi)),
+        Method("ReboundLaw over chi", "tables", most, lambda psi: mixture(psi, chi)),
         *(
             Method(f"annuli and steps, {n} springs", "numerical", some, by_springs(chi, n))
             for n in (500, 125)

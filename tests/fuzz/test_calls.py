@@ -88,7 +88,7 @@ def tables():
     LOSSY = carom.KelvinVoigt(restitution=0.9)
     PATH = carom.load_path(PAIR, normal_force="10 N", tangential_force=[0.0, 1.0])
     SOLVED, LOST = carom.solve(0.5, 1.44), carom.solve(1.5, 1.44, losses=LOSSY)
-    LAW, MIXED = carom.laws.ReboundLaw(1.44), carom.laws.MixtureLaw(1.2, 1.3)
+    LAW, MIXED = carom.laws.ReboundLaw(1.44), carom.laws.ReboundLaw((1.2, 1.3))
     SLIDING = {"tangential_damping": 0.5, "restitution": 0.9}
     OWN = dem.FunctionLaw(lambda contact, state: (-1e-3 * contact.normal_force, state))
     RULE = dem.FunctionRebound(lambda psi, chi: -0.4 * psi)
@@ -241,7 +241,7 @@ def tables():
     }  # fmt: skip
     costly = {
         "ReboundLaw": (carom.laws.ReboundLaw, {"chi": 1.44, "losses": None}),
-        "MixtureLaw": (lambda low: carom.laws.MixtureLaw(low, 1.3), {"low": 1.2}),
+        "MixtureLaw": (lambda low: carom.laws.ReboundLaw((low, 1.3)), {"low": 1.2}),
         "fit_walton": (carom.laws.fit_walton, {"pair": PAIR, "span": 5.0}),
         "hit.stress": (HIT.stress, {**INSIDE, **BELOW}),
         "path.stress": (PATH.stress, {"at": 1, **BELOW}),

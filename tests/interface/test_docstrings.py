@@ -84,14 +84,7 @@ SOURCED = [  # what implements a formula of others
         "dem.HertzLinearHistory",
         "results.Impact",
     ),
-    *(
-        "KelvinVoigt",
-        "dem.LammpsMindlin",
-        "dem.LinearSpring",
-        "results.LoadPath",
-        "laws.MixtureLaw",
-        "Pair",
-    ),
+    *("KelvinVoigt", "dem.LammpsMindlin", "dem.LinearSpring", "results.LoadPath", "Pair"),
     *(
         "laws.ReboundLaw",
         "laws.RoughLaw",

@@ -14,8 +14,8 @@ from carom.dem.damping import damped_restitution
 from carom.dem.status import OF_FUNCTIONS, Codes, LawStatus, status_of
 from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
 from carom.dimensionless.numerics.threads import available_cores
-from carom.dimensionless.rebounds import warn_of_unsolved
-from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
+from carom.dimensionless.rebounds import answered
+from carom.quantities.arrays import Array
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
@@ -51,8 +51,10 @@ class Law(ABC):
         return replace(self, restitution=restitution)  # type: ignore[call-arg]
 
     @abstractmethod
-    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
-        """Return psi_2 of impacts with one chi."""
+    def _solved(
+        self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
+    ) -> tuple[Array, Codes]:
+        """Return psi_2 and the status of impacts, arrays of one length."""
 
     def rebound(
         self,
@@ -106,29 +108,37 @@ class Law(ABC):
         if steps is not None:
             steps = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
         threads, return_status = threads_or_none(threads), flag("return_status", return_status)
-        along_the_same(psi=psi, chi=chi, kappa=kappa)
-        given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
-        given["kappa"] = SOLID * given["chi"] if kappa is None else pure_numbers("kappa", kappa)
-        shape = together(given)
-        psis, chis, kappas = (np.broadcast_to(values, shape).ravel() for values in given.values())
-        result, status = self._solved(psis, chis, kappas, steps, threads)
-        psi_out = result.reshape(shape) if shape else float(result[0])
-        if return_status:
-            return psi_out, status.reshape(shape) if shape else int(status[0])
-        lost, reason = np.flatnonzero(status), ""
-        if lost.size and self.statuses is LawStatus and status[lost[0]] in OF_FUNCTIONS:
-            reason = self._why(*(float(each[lost[0]]) for each in (psis, chis, kappas)))
-        warn_of_unsolved(status.reshape(shape), self.statuses, reason)
-        return psi_out
+
+        def solve(psi: Array, chi: Array, kappa: Array | None = None) -> tuple[Array, Codes, str]:
+            own = SOLID * chi if kappa is None else kappa
+            result, status = self._solved(psi, chi, own, steps, threads)
+            lost, reason = np.flatnonzero(status)[:1], ""
+            if not return_status and lost.size and status[lost[0]] in OF_FUNCTIONS:
+                reason = self._why(*(float(each[lost[0]]) for each in (psi, chi, own)))
+            return result, status, reason
+
+        arguments = {"psi": psi, "chi": chi} | ({} if kappa is None else {"kappa": kappa})
+        return answered(arguments, solve, self.statuses, return_status)
 
     def _why(self, psi: float, chi: float, kappa: float) -> str:
         """Return what the function of a law did wrong in an impact, "" if nothing."""
         return ""
 
+
+@dataclass(frozen=True)
+class ContactLaw(Law):
+    """A law of the forces in a contact, from the first touch to separation."""
+
+    largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
+    symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        raise NotImplementedError(f"{self.name} is more than coefficients")
+
     def _solved(
         self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
     ) -> tuple[Array, Codes]:
-        """Return psi_2 and the status of impacts, in threads."""
         status = status_of(psi, chi, kappa, self.largest_chi)
         result, good = np.full(psi.size, np.nan), np.flatnonzero(status == LawStatus.SOLVED)
 
@@ -148,28 +158,8 @@ class Law(ABC):
         result[lost], status[lost] = np.nan, LawStatus.UNRESOLVED
         return result, status
 
-
-def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
-    """Return the places of impacts of the same bodies, some for each thread."""
-    bodies, members = np.unique(np.stack([chi, kappa]), axis=1, return_inverse=True)
-    members = members.ravel()  # NumPy 2.0 gives it two dimensions
-    order = np.argsort(members, kind="stable")
-    groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
-    return [group[i : i + BLOCK] for group in groups for i in range(0, group.size, BLOCK)]
-
-
-@dataclass(frozen=True)
-class ContactLaw(Law):
-    """A law of the forces in a contact, from the first touch to separation."""
-
-    largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
-    symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
-
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
-        raise NotImplementedError(f"{self.name} is more than coefficients")
-
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
+        """Return psi_2 of impacts with one chi."""
         law = self.coefficients(chi, kappa)
         out = np.empty(psi.size)
         if steps is None:
@@ -230,3 +220,12 @@ class ContactLaw(Law):
         for name in ("psi", "tangential_force"):
             columns[name] *= sign
         return columns
+
+
+def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
+    """Return the places of impacts of the same bodies, some for each thread."""
+    bodies, members = np.unique(np.stack([chi, kappa]), axis=1, return_inverse=True)
+    members = members.ravel()  # NumPy 2.0 gives it two dimensions
+    order = np.argsort(members, kind="stable")
+    groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
+    return [group[i : i + BLOCK] for group in groups for i in range(0, group.size, BLOCK)]

@@ -66,17 +66,17 @@ def fill(
     chi: Vector,
     restitution: Vector,
     table: Patches,
-    work: Vector,
+    point: Vector,
     sections: Matrix,
-    row_of: Counts,
+    kept: Counts,
     psi_out: Matrix,
 ) -> None:
     """Write psi_2 of rows of impacts, each row with its chi and e.
 
-    `sections` keeps the series of leaves at the chi and e of a row, `row_of` whose they are.
+    `sections` keeps series of leaves at the chi and e of a row, `kept` which these are.
     """
-    point, last = work[: table.terms.size], table.terms.size - 1
-    series = work[table.terms.size :]
+    last = table.terms.size - 1
+    terms, leaves = table.terms[last], table.series.shape[0]
     for row in range(psi.shape[0]):
         if last > 0:
             point[0] = chi[row]
@@ -90,13 +90,12 @@ def fill(
             if place < 3.0:
                 point[last] = place
                 leaf = leaf_at(table, point)
-                if row_of[leaf] != row:
-                    contract(table, leaf, point, series)
-                    for term in range(table.terms[last]):
-                        sections[leaf, term] = series[term]
-                    row_of[leaf] = row
+                slot, key = leaf % kept.size, row * leaves + leaf
+                if kept[slot] != key:
+                    contract(table, leaf, point, sections[slot])
+                    kept[slot] = key
                 low, high = table.corners[leaf, last, 0], table.corners[leaf, last, 1]
-                ratio = evaluate(sections[leaf], low, high, max(place, low))
+                ratio = evaluate(sections[slot, :terms], low, high, max(place, low))
                 lost = min(sliding, size * min(2.0, max(0.0, 1.0 - ratio)))
             psi_out[row, column] = np.copysign(1.0, psi[row, column]) * (size - lost)
 
@@ -106,12 +105,12 @@ def psi_out(table: Patches, psi: Array, chi: Array, restitution: Array) -> Array
 
     chi and e must lie in the table. |psi_2| <= |psi_1|, and psi_2 is odd in psi_1.
     """
-    leaves, terms = len(table.series), int(table.terms[-1])
-    work = np.empty(table.terms.size + table.series.shape[1])
-    held = np.empty((leaves, terms)), np.full(leaves, -1, dtype=np.int64)
+    leaves, size = table.series.shape
+    slots = leaves if psi.shape[1] > 1 else 1
+    room = np.empty(table.terms.size), np.empty((slots, size)), np.full(slots, -1, dtype=np.int64)
     result = np.empty(psi.shape)
     chi, restitution, psi = map(np.ascontiguousarray, (chi, restitution, psi))
-    fill(psi, chi, restitution, table, work, *held, result)
+    fill(psi, chi, restitution, table, *room, result)
     return result
 
 
@@ -197,8 +196,12 @@ _viscous_loss = cache(viscous_loss)
 
 @cache
 def stored() -> Patches:
-    """Return the table that is stored with the package, over all chi and e that are fitted."""
-    kinds = (np.int64, np.float64, np.int64, np.float64, np.int64, np.float64)
+    """Return the table that is stored with the package, over all chi and e that are fitted.
+
+    Its error in psi_2 is below 1e-5 for chi up to 1.75, where solid spheres are, and 5e-5 up to
+    2.2. Weak losses have curves with more kinks beyond: 5e-4 up to 3, 2e-3 at 4; few impacts are
+    off so much, as the root of the mean square is below 1e-5 and 1e-4.
+    """
     with files("carom").joinpath(STORED).open("rb") as stream, np.load(stream) as arrays:
-        parts = zip(Patches._fields, kinds, strict=True)
-        return Patches(*(arrays[name].astype(kind) for name, kind in parts))
+        parts = (arrays[name] for name in Patches._fields)
+        return Patches(*(part.astype(f"{part.dtype.kind}8") for part in parts))

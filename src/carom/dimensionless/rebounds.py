@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from enum import IntEnum
-from typing import Any, Literal, overload
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,35 +13,14 @@ from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.arrays import Array, Codes
 from carom.quantities.arrays import along_the_same, pure_numbers, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
+from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import threads_or_none
 
 THROUGHOUT = 3  # place of the regime of gross slip throughout
-
-
-@overload
-def rebound(
-    psi: ArrayLike,
-    chi: ArrayLike,
-    *,
-    threads: int | None = ...,
-    return_status: Literal[False] = ...,
-    losses: ScaleFreeLaw | None = ...,
-) -> Any: ...
-
-
-@overload
-def rebound(
-    psi: ArrayLike,
-    chi: ArrayLike,
-    *,
-    threads: int | None = ...,
-    return_status: Literal[True],
-    losses: ScaleFreeLaw | None = ...,
-) -> tuple[Any, Any]: ...
 
 
 @known_keywords
@@ -100,20 +79,14 @@ def rebound(
     array([0.00384, 0.528  ])
     """
     threads, return_status = threads_or_none(threads), flag("return_status", return_status)
-    along_the_same(psi=psi, chi=chi)
-    given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
-    shape = together(given)
-    flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in given.values())
-    if losses is None:
-        psi_out, status, _ = solved(flat_psi, flat_chi, threads)
-    else:
-        found = lossy_rebounds(flat_psi, flat_chi, scale_free(losses), threads)
-        psi_out, status = found.psi_out, found.status
-    result = psi_out.reshape(shape) if shape else float(psi_out[0])
-    if return_status:
-        return result, status.reshape(shape) if shape else int(status[0])
-    warn_of_unsolved(status.reshape(shape))
-    return result
+
+    def solve(psi: Array, chi: Array) -> tuple[Array, Codes, str]:
+        if losses is None:
+            return *solved(psi, chi, threads)[:2], ""
+        lossy = lossy_rebounds(psi, chi, scale_free(losses), threads)
+        return lossy.psi_out, lossy.status, ""
+
+    return answered({"psi": psi, "chi": chi}, solve, Status, return_status)
 
 
 def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
@@ -135,18 +108,31 @@ def regimes(psi: Array, chi: float, restitution: float) -> NDArray[np.int8]:
     return np.searchsorted(borders, np.abs(psi), side="right").astype(np.int8)
 
 
-def warn_of_unsolved(
-    status: NDArray[np.int8], kind: type[IntEnum] = Status, reason: str = ""
-) -> None:
-    """Warn once of impacts that were not solved, with their number and the reason of the first.
+def answered(
+    arguments: Mapping[str, Any],
+    solve: Callable[..., tuple[Array, Codes, str]],
+    kind: type[WordedStatus],
+    return_status: bool,
+) -> Any:
+    """Return psi_2 of impacts whose arguments broadcast, and the status of each if asked for.
 
-    A status of zero means solved; other members of `kind` have a `message`, which is the reason
-    unless one is given.
+    `solve` takes flat arrays and returns psi_2, a status, zero where an impact is solved, and the
+    reason of the first that is not, "" if its status of this `kind` says it. Of such impacts there
+    is one warning, unless the status is asked for.
     """
+    along_the_same(**arguments)
+    numbers = {name: pure_numbers(name, values) for name, values in arguments.items()}
+    shape = together(numbers)
+    flat = (np.array(np.broadcast_to(values, shape)).ravel() for values in numbers.values())
+    psi_out, codes, reason = solve(*flat)
+    result = psi_out.reshape(shape) if shape else float(psi_out[0])
+    status = codes.reshape(shape)
+    if return_status:
+        return result, status if shape else int(codes[0])
     unsolved = np.argwhere(status)
     if len(unsolved):
-        first = tuple(int(i) for i in unsolved[0]) if status.ndim else ()
-        reason = reason or kind(int(status[first])).message  # type: ignore[attr-defined]
+        first = tuple(int(i) for i in unsolved[0])
+        reason = reason or kind(int(status[first])).message
         where = f"first at index {first}: {reason}" if first else reason
         warnings.warn(
             f"{len(unsolved)} of {status.size} impacts give NaN ({where}); "
@@ -154,3 +140,4 @@ def warn_of_unsolved(
             RuntimeWarning,
             stacklevel=3,
         )
+    return result

@@ -46,17 +46,14 @@ def _packed(restitution: float, advance: Advance) -> dict[str, Any]:
     table = tabulated(*ranges, TOLERANCE, advance, impact_tolerance=SOLVED)
     return {
         "smallest": SMALLEST if restitution == 1.0 else SMALLEST_LOSSY,
+        **{name: _text(values) for name, values in table._asdict().items()},
         "terms": table.terms.tolist(),
-        "axes": _text(table.axes, np.int16),
-        "cuts": _text(table.cuts, np.float64),
-        "children": _text(table.children, np.int16),
-        "corners": _text(table.corners, np.float64),
-        "series": _text(table.series, np.float64),
     }
 
 
-def _text(values: NDArray[Any], kind: type) -> str:
-    return b64encode(values.astype(np.dtype(kind).newbyteorder("<")).tobytes()).decode()
+def _text(values: NDArray[Any]) -> str:
+    kind = "<f8" if values.dtype.kind == "f" else "<i2"
+    return b64encode(values.astype(kind).tobytes()).decode()
 
 
 def _losses(restitution: float) -> dict[str, float]:

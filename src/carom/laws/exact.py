@@ -34,7 +34,7 @@ from carom.quantities.units import positive
 LARGEST_CHI = 100.0  # tables of larger ones would take minutes
 RANGE = (0.5, 5.0)  # of chi, in which a table over a range takes minutes at most
 RETURNING = 3.0  # chi above which the front of slip returns, with losses
-ELASTIC, ELASTIC_RANGE, VISCOUS_SOLID, ROUGH = 4e-10, 3e-8, 1e-8, 2e-7  # tolerances of tables
+ELASTIC, ELASTIC_RANGE, VISCOUS_SOLID, ROUGH = 4e-10, 1e-8, 1e-8, 2e-7  # tolerances of tables
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,8 +164,6 @@ class ReboundLaw(Law):
                 psi[~inside], chi[~inside], losses=self._losses, threads=threads, return_status=True
             )
         return result, status
-
-    _rebound = None  # type: ignore[assignment]  # of one chi; impacts are looked up together
 
     @property
     def _ends(self) -> tuple[float, float]:

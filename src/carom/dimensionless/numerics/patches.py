@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -78,9 +77,9 @@ def sections(patches: Patches, *others: float) -> tuple[Array, Array]:
 
     The ends of its panels, shape (n + 1,), and the coefficients on each, shape (n, terms).
     """
-    low, high = np.moveaxis(patches.corners, -1, 0)
-    point = np.array(others)[np.newaxis]
-    beyond = (high[:, :-1] > point) | (high[:, :-1] == high[:, :-1].max(axis=0))
+    low, high = patches.corners[..., 0], patches.corners[..., 1]
+    sides, point = high[:, :-1], np.array(others)
+    beyond = (sides > point) | (sides == sides.max(axis=0))
     leaves = np.flatnonzero(np.all((low[:, :-1] <= point) & beyond, axis=1))
     leaves = leaves[np.argsort(low[leaves, -1])]
     rows = patches.series[leaves].reshape(leaves.size, *patches.terms)
@@ -89,6 +88,37 @@ def sections(patches: Patches, *others: float) -> tuple[Array, Array]:
         terms = chebvander((2.0 * value - a - b) / (b - a), rows.shape[1] - 1)
         rows = np.einsum("ni,ni...->n...", terms, rows)
     return np.append(low[leaves, -1], high[leaves[-1], -1]), rows
+
+
+class _Tree:
+    """A tree of boxes that is still growing."""
+
+    def __init__(self, box: Sequence[tuple[float, float]]) -> None:
+        self.boxes = [np.array(box, dtype=np.float64)]
+        self.nodes = [LEAF]
+
+    def cut(self, node: int, axis: int, places: Sequence[float]) -> list[int]:
+        """Cut a leaf across an axis at some places; return the leaves that it falls into."""
+        leaves = []
+        for place in places:
+            low, high = self.boxes[node].copy(), self.boxes[node].copy()
+            low[axis, 1] = high[axis, 0] = place
+            first = len(self.nodes)
+            self.nodes[node] = axis, place, first, first + 1
+            self.nodes += [LEAF, LEAF]
+            self.boxes += [low, high]
+            leaves.append(first)
+            node = first + 1
+        return [*leaves, node]
+
+    def patches(self, series: dict[int, Array], terms: Sequence[int]) -> Patches:
+        """Return the tree as arrays, with the series of its leaves."""
+        for number, leaf in enumerate(series):
+            self.nodes[leaf] = -1, 0.0, number, number
+        axes, cuts, *below = map(np.array, zip(*self.nodes, strict=True))
+        corners = np.array([self.boxes[leaf] for leaf in series])
+        rows = np.array(list(series.values()))
+        return Patches(axes, cuts, np.stack(below, axis=-1), corners, np.array(terms), rows)
 
 
 def fitted(
@@ -109,65 +139,44 @@ def fitted(
     variable is cut where its branch changes, and looked at between the outer nodes, where a weak
     kink could hide.
     """
-    last, terms = len(box) - 1, tuple(degree + 1 for degree in degrees)
+    tree, last = _Tree(box), len(box) - 1
+    asked = function if last else _remembering(function)
     unit = np.stack([grid.ravel() for grid in np.meshgrid(*map(extrema, degrees), indexing="ij")])
-    to_series = reduce(np.kron, map(from_extrema, degrees)).T
-    boxes, nodes = [np.array(box, dtype=np.float64)], [LEAF]
-    corners: list[Array] = []
-    series: list[Array] = []
-    count, between = unit.shape[1], np.empty(0)
-    if last == 0:
-        function = _remembering(function)
-        between = -np.cos(np.pi * np.array([0.5, degrees[0] - 0.5]) / degrees[0])
-        unit = np.append(unit, between[np.newaxis], axis=1)
-
-    def cut(node: int, axis: int, values: Sequence[float]) -> list[int]:
-        leaves = []
-        for value in values:
-            low, high = boxes[node].copy(), boxes[node].copy()
-            low[axis, 1] = high[axis, 0] = value
-            first = len(nodes)
-            nodes[node] = axis, value, first, first + 1
-            nodes.extend([LEAF] * 2)
-            boxes.extend((low, high))
-            leaves.append(first)
-            node = first + 1
-        return [*leaves, node]
-
+    to_series: Array = np.ones((1, 1))
+    for degree in degrees:
+        to_series = np.asarray(np.kron(to_series, from_extrema(degree).T))
+    terms = [degree + 1 for degree in degrees]
+    series: dict[int, Array] = {}
     waiting = [0]
     for axis, places in cuts:
-        waiting = [leaf for old in waiting for leaf in cut(old, axis, places)]
+        waiting = [leaf for old in waiting for leaf in tree.cut(old, axis, places)]
     while waiting:
-        low, high = np.moveaxis([boxes[leaf] for leaf in waiting], -1, 0)[..., np.newaxis]
+        boxes = np.array([tree.boxes[leaf] for leaf in waiting])
+        low, high = boxes[..., :1], boxes[..., 1:]
         points = 0.5 * (low + high) + 0.5 * (high - low) * unit
-        points = np.select([unit == -1.0, unit == 1.0], [low, high], points)  # shared to the bit
-        samples = function(*np.moveaxis(points, 1, 0))
-        values, weights = (each.reshape(len(waiting), -1) for each in samples[:2])
-        rows = values[:, :count] @ to_series
-        errors = weights.max(axis=1, keepdims=True) * _tails(rows.reshape(-1, *terms))
+        points = np.where(unit == -1.0, low, np.where(unit == 1.0, high, points))  # shared ends
+        samples = Samples._make(
+            each.reshape(len(waiting), -1) for each in asked(*np.moveaxis(points, 1, 0))
+        )
+        rows = samples.values @ to_series
+        weight = samples.weights.max(axis=1, keepdims=True)
+        errors = weight * _tails(rows.reshape(-1, *terms))
         kinks: list[list[float]] = [[] for _ in waiting]
         if last == 0:
-            off = rows @ chebvander(between, degrees[0]).T - values[:, count:]
-            off = np.max(weights[:, count:] * np.abs(off), axis=1, keepdims=True)
-            errors = np.maximum(errors, off)
-            branches = samples.branches.reshape(values.shape)[:, :count]
-            kinks = _kinks(function, points[:, 0, :count], branches, errors[:, 0] > tolerance)
-        errors[(high - low)[..., 0] <= narrowest * (boxes[0][:, 1] - boxes[0][:, 0])] = 0.0
-        later = []
-        for leaf, row, error, inside in zip(waiting, rows, errors, kinks, strict=True):
-            if error.max() <= tolerance:
-                nodes[leaf] = -1, 0.0, len(series), len(series)
-                corners.append(boxes[leaf])
-                series.append(row)
+            _look_between(function, boxes[:, 0], rows, errors[:, 0], tolerance)
+            kinks = _kinks(function, points[:, 0], samples.branches, errors[:, 0] > tolerance)
+        errors[(high - low)[..., 0] <= narrowest * np.ptp(box, axis=1)] = 0.0
+        done, later = errors.max(axis=1) <= tolerance, []
+        for i, leaf in enumerate(waiting):
+            if done[i]:
+                series[leaf] = rows[i]
                 continue
-            axis = int(error.argmax())
-            start, end = boxes[leaf][axis]
+            axis = int(errors[i].argmax())
+            start, end = boxes[i, axis]
             near = GRADING if axis == last and start == singular else 0.5
-            later += cut(leaf, axis, inside or [start + near * (end - start)])
+            later += tree.cut(leaf, axis, kinks[i] or [start + near * (end - start)])
         waiting = later
-    sides, at, *children = map(np.array, zip(*nodes, strict=True))
-    below = np.stack(children, axis=-1)
-    return Patches(sides, at, below, np.array(corners), np.array(terms), np.array(series))
+    return tree.patches(series, terms)
 
 
 def _remembering(function: Function) -> Function:
@@ -190,6 +199,20 @@ def _tails(series: Array) -> Array:
     tail, sides = TAIL_OF_ONE if series.ndim == 2 else TAIL, range(1, series.ndim)
     ends = [np.abs(np.moveaxis(series, side, 1)[:, -tail:]) for side in sides]
     return np.stack([end.reshape(len(series), -1).max(axis=1) for end in ends], axis=-1)
+
+
+def _look_between(
+    function: Function, panels: Array, rows: Array, errors: Array, tolerance: float
+) -> None:
+    """Raise errors that seem small to those found between the two nodes at either end."""
+    seem, degree = np.flatnonzero(errors <= tolerance), rows.shape[1] - 1
+    if seem.size:
+        between = -np.cos(np.pi * np.array([0.5, degree - 0.5]) / degree)
+        low, high = panels[seem, :1], panels[seem, 1:]
+        values, weights, _ = function(0.5 * (low + high) + 0.5 * (high - low) * between)
+        off = np.abs((rows[seem] @ chebvander(between, degree).T).ravel() - values)
+        off = np.max((weights * off).reshape(-1, 2), axis=1)
+        errors[seem] = np.maximum(errors[seem], off)
 
 
 def _kinks(
