@@ -3,7 +3,7 @@
 psi_2/psi_1 is not smooth where the regime changes. So psi_1 is measured by its place, in which 0
 and the three borders lie at 0, 1, 2 and 3 for every chi and e; from 3 on the contact slides
 throughout and needs no table. The variables of a table are those of chi and e that have a range,
-and the place.
+and the place. A table of one chi and e has psi_1 itself.
 """
 
 from collections.abc import Callable
@@ -103,7 +103,7 @@ def fill(
 def psi_out(table: Patches, psi: Array, chi: Array, restitution: Array) -> Array:
     """Return psi_2 of shape (rows, impacts), from psi_1 of that shape, chi and e of shape (rows,).
 
-    chi and e must lie in the table. |psi_2| <= |psi_1|, and psi_2 is odd in psi_1.
+    The table must have a range of chi or e, and hold both. |psi_2| <= |psi_1|; psi_2 is odd.
     """
     leaves, size = table.series.shape
     slots = leaves if psi.shape[1] > 1 else 1
@@ -120,6 +120,8 @@ def panels(table: Patches, chi: float, restitution: float) -> tuple[Array, Array
     Their shapes are (n + 1,) and (n, terms).
     """
     places, series = sections(table, *(chi, restitution)[: table.terms.size - 1])
+    if table.terms.size == 1:
+        return places, series
     ends = psi_at(places, np.asarray(chi), np.asarray(restitution))
     wide = np.diff(ends) > 0.0  # for chi <= 1/2 the borders are one
     return np.append(ends[:-1][wide], ends[-1]), series[wide]
@@ -143,8 +145,11 @@ def tabulated(
     """
     ranges, elastic = (chi, restitution), restitution[0] == 1.0
     wide = [i for i, (low, high) in enumerate(ranges) if low < high]
-    places = SMALLEST if elastic else SMALLEST_LOSSY, 3.0 if chi[1] > FOLD else 1.0
-    cuts = [(len(wide), [1.0, 2.0])] if chi[1] > FOLD else []
+    borders = [1.0, 2.0, 3.0] if chi[1] > FOLD else [1.0]
+    if not wide:
+        borders = np.unique(regime_borders(chi[0], restitution[0])).tolist()
+    places = SMALLEST if elastic else SMALLEST_LOSSY, borders[-1]
+    cuts = [(len(wide), borders[:-1])]
     if chi[0] < FOLD < chi[1]:
         cuts = [(0, [FOLD]), *cuts]
 
@@ -153,7 +158,7 @@ def tabulated(
         each_chi, e = (np.full(place.size, low) for low, _ in ranges)
         for i, values in zip(wide, some, strict=True):
             (each_chi, e)[i][:] = values
-        psi = psi_at(place, each_chi, e)
+        psi = psi_at(place, each_chi, e) if wide else place
         outgoing, branches = _rebounds(psi, each_chi, e, impact_tolerance)
         advance(psi.size)
         return Samples(outgoing / psi, psi * weight(each_chi), branches)

@@ -154,11 +154,12 @@ class ReboundLaw(Law):
         result, status = np.empty(psi.size), np.zeros(psi.size, dtype=np.int8)
         low, high = self._ends
         inside = (low <= chi) & (chi <= high) & (np.abs(psi) < np.inf)
+        some = slice(None) if np.all(inside) else inside  # without copies
         if self._table is None:
-            result[inside] = psi[inside] - lost(psi[inside], self._rule, np)
+            result[some] = psi[some] - lost(psi[some], self._rule, np)
         else:
-            some = psi[inside, np.newaxis], chi[inside], np.full(inside.sum(), self.restitution)
-            result[inside] = tables.psi_out(self._table, *some)[:, 0]
+            impacts = psi[some, np.newaxis], chi[some], np.full(inside.sum(), self.restitution)
+            result[some] = tables.psi_out(self._table, *impacts)[:, 0]
         if not np.all(inside):
             result[~inside], status[~inside] = rebound(
                 psi[~inside], chi[~inside], losses=self._losses, threads=threads, return_status=True

@@ -14,7 +14,7 @@ from carom.dimensionless.numerics.chebyshev import extrema, from_extrema
 from carom.dimensionless.numerics.kernels import kernel
 
 GRADING = 0.15  # of a side that begins at a singular place
-NARROWEST = 1e-12  # of the whole: no side is cut further
+NARROWEST = 1e-12  # of its upper end: no side is cut further
 BISECTIONS = 34  # that find a kink
 DEEPEST = 100  # levels of the tree
 LEAF = -1, 0.0, 0, 0  # a node: axis, cut, children
@@ -57,19 +57,28 @@ def leaf_at(patches: Patches, point: Vector) -> int:
 
 @kernel
 def contract(patches: Patches, leaf: int, point: Vector, work: Vector) -> None:
-    """Write the series of a leaf in its last variable, at given values of the others."""
+    """Write the series of a leaf in its last variable, at given values of one or more others."""
     size = patches.series.shape[1]
-    for i in range(size):
-        work[i] = patches.series[leaf, i]
     for axis in range(patches.terms.size - 1):
         low, high = patches.corners[leaf, axis, 0], patches.corners[leaf, axis, 1]
         place = (2.0 * point[axis] - low - high) / (high - low)
         size //= patches.terms[axis]
-        before, now = 1.0, place
-        for term in range(1, patches.terms[axis]):
-            for i in range(size):
-                work[i] += now * work[term * size + i]
-            before, now = now, 2.0 * place * now - before
+        if axis == 0:
+            add_terms(patches.series[leaf], place, size, patches.terms[axis], work)
+        else:
+            add_terms(work, place, size, patches.terms[axis], work)
+
+
+@kernel
+def add_terms(series: Vector, place: float, size: int, terms: int, out: Vector) -> None:
+    """Write the sum of rows of so many numbers, each with its Chebyshev polynomial."""
+    for i in range(size):
+        out[i] = series[i]
+    before, now = 1.0, place
+    for term in range(1, terms):
+        for i in range(size):
+            out[i] += now * series[term * size + i]
+        before, now = now, 2.0 * place * now - before
 
 
 def sections(patches: Patches, *others: float) -> tuple[Array, Array]:
@@ -165,7 +174,7 @@ def fitted(
         if last == 0:
             _look_between(function, boxes[:, 0], rows, errors[:, 0], tolerance)
             kinks = _kinks(function, points[:, 0], samples.branches, errors[:, 0] > tolerance)
-        errors[(high - low)[..., 0] <= narrowest * np.ptp(box, axis=1)] = 0.0
+        errors[(high - low)[..., 0] <= narrowest * np.abs(boxes[..., 1])] = 0.0
         done, later = errors.max(axis=1) <= tolerance, []
         for i, leaf in enumerate(waiting):
             if done[i]:
