@@ -46,7 +46,7 @@ class Law(ABC):
             if name in vars(self):
                 object.__setattr__(self, name, read(name, getattr(self, name)))
 
-    def damped(self, restitution: float) -> Self:
+    def _damped(self, restitution: float) -> Self:
         """Return the law with another restitution."""
         return replace(self, restitution=restitution)  # type: ignore[call-arg]
 

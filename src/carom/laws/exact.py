@@ -179,7 +179,7 @@ class ReboundLaw(Law):
     def _losses(self) -> KelvinVoigt | None:
         return None if self.restitution == 1.0 else KelvinVoigt(restitution=self.restitution)
 
-    def damped(self, restitution: float) -> ReboundLaw:
+    def _damped(self, restitution: float) -> ReboundLaw:
         """Return the law of another restitution, which is tabulated anew."""
         return ReboundLaw(self.chi, losses=KelvinVoigt(restitution=restitution))
 

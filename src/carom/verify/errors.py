@@ -134,7 +134,7 @@ def damped(law: Law, restitution: float) -> Law:
     """Return a law with the damping for a restitution, or raise InputError if it has none."""
     if not hasattr(law, "restitution"):
         raise refusal("restitution", restitution, f"{law.name} has no damping; leave it out")
-    return law.damped(restitution)
+    return law._damped(restitution)
 
 
 def losses_of(restitution: float) -> KelvinVoigt | None:
