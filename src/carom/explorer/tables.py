@@ -19,8 +19,8 @@ from carom.verify.errors import losses_of
 RESTITUTIONS = (1.0, 0.9, 0.7)
 LEAST_CHI, LARGEST_CHI = 0.5, 3.0
 FARTHEST = 10.0  # psi_1 that is promised; the tables reach until everything slides
-IMPACTS = 122_000  # that are solved for all tables, about
-TOLERANCE, SOLVED = 4e-7, 1e-8  # of series and of impacts with losses, for 1e-6 in psi_2
+IMPACTS = 150_000  # that are solved for all tables, about
+TOLERANCE, SOLVED = 2e-7, 1e-8  # of series and of impacts with losses, for 1e-6 in psi_2
 
 Advance = Callable[[int], object]
 
