@@ -13,8 +13,8 @@ import numpy as np
 
 import carom
 from carom.dimensionless.lossy.layout import PSI_OUT
+from carom.dimensionless.lossy.springs.march import marched
 from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
-from carom.dimensionless.lossy.springs.rebounds import marched
 
 SEED = 20261121
 FINE, COARSE = 500, 125  # springs

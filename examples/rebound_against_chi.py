@@ -17,8 +17,8 @@ from pathlib import Path
 import numpy as np
 
 import carom
+from carom.dimensionless.lossy.springs.march import march_rebound
 from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
-from carom.dimensionless.lossy.springs.rebounds import march_rebound
 from carom.plots.legends import legend_above
 from carom.plots.style import BLACK, DASHES, LINES, label, new_figure, save_figure, styled
 

@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 
 import carom
+from carom.dimensionless.lossy.springs.march import march_rebound
 from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
-from carom.dimensionless.lossy.springs.rebounds import march_rebound
 from carom.plots import plot_curve, save_figure
 from carom.plots.legends import legend_above
 from carom.plots.style import BLACK, styled

@@ -14,8 +14,8 @@ from small_pictures import store_small
 
 import carom
 from carom.dimensionless.lossy.layout import PSI_OUT
+from carom.dimensionless.lossy.springs.march import march_rebound, marched
 from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
-from carom.dimensionless.lossy.springs.rebounds import march_rebound, marched
 from carom.plots import style
 
 ROOT = Path(__file__).parents[1]

@@ -16,7 +16,7 @@ from halfspace_study import TABLE, Row, load
 
 import carom
 from carom.dimensionless.neglected import rebound_error, spin_error
-from carom.halfspace.refinement import refinement_error
+from carom.halfspace.solution import refinement_error
 
 ORDER = 1.5  # of the error of the grid
 TOLERANCE = 1e-6  # of the solvers: what is less tells nothing

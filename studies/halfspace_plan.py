@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 import carom
-from carom.halfspace.refinement import Resolution
+from carom.halfspace.solution import Resolution
 
 GRIDS = {n: Resolution(n, round(4.6875 * n)) for n in (8, 16, 32, 48, 64)}
 RATIOS = (0.0, 0.2, 0.3, 0.5)  # Poisson's, of both bodies

@@ -23,8 +23,7 @@ from rich.progress import track
 
 from carom.halfspace.compliance import Materials
 from carom.halfspace.motion import NormalSpin
-from carom.halfspace.refinement import Resolution
-from carom.halfspace.solution import HalfspaceSolution, solve
+from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
 from carom.io.files import replace_whole
 
 TABLE = Path(__file__).with_name("halfspace_study.csv")
@@ -62,8 +61,8 @@ def compute(impact: Impact) -> Row:
     grid = Resolution(impact.elements, impact.steps)
     spin = NormalSpin(impact.spin, impact.lightness)
     found = solve(impact.psi_1, impact.chi, materials, grid, spin=spin)
-    work = np.maximum(found.column("lost"), 0.0)
-    micro = work * (found.column("slip_share") < 1.0)
+    work = np.maximum(found.ledger.lost, 0.0)
+    micro = work * (found.ledger.slip_share < 1.0)
     return Row(
         found.psi_out,
         found.restitution,
@@ -71,7 +70,7 @@ def compute(impact: Impact) -> Row:
         _angles(found, work)[0],
         *_angles(found, micro),
         _angles(found, work - micro)[1],
-        float(found.column("lost_across").sum() / work.sum()),
+        float(found.ledger.lost_across.sum() / work.sum()),
         _slip_across(found),
         found.energy_error,
         time.process_time() - started,
@@ -82,9 +81,9 @@ def _angles(found: HalfspaceSolution, work: np.ndarray) -> tuple[float, float]:
     """Return mean and largest angle of slip in degrees, over the steps with this work."""
     if not work.any():
         return 0.0, 0.0
-    mean = np.average(found.column("slip_angle"), weights=work)
+    mean = np.average(found.ledger.slip_angle, weights=work)
     counts = work > 0.1 * work[work > 0.0].mean()
-    largest = found.column("slip_angle_max")[counts].max()
+    largest = found.ledger.slip_angle_max[counts].max()
     return float(np.degrees(mean)), float(np.degrees(largest))
 
 

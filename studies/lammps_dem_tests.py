@@ -7,6 +7,7 @@ from string import Template
 
 import numpy as np
 from lammps_twin import State, outcomes_of, trajectory
+from lammps_unittest import indented, rows, sphere_commands
 
 from carom.bodies.shapes import Sphere
 from carom.dimensionless.rebounds import rebound
@@ -15,7 +16,6 @@ from carom.quantities.units import positive
 from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import NUMBERS, coefficients
-from carom.verify.engines.lammps_unittest import indented, rows, sphere_commands
 
 SEGMENTS = (0.3, 0.4, 0.5)  # of the contact's duration: pressed, springing back, apart
 

@@ -25,6 +25,7 @@ import lammps_twin
 import numpy as np
 from lammps_dem_tests import SEGMENTS, dem_test_yaml
 from lammps_twin import Contact, State, outcomes_of, trajectory
+from lammps_unittest import unit_test_yaml
 from page_blocks import blocks, page_with, table
 
 import carom
@@ -33,7 +34,6 @@ from carom.dem.base import ContactLaw
 from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import Lammps, coefficients
-from carom.verify.engines.lammps_unittest import unit_test_yaml
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "examples" / "lammps" / "verification"

@@ -10,6 +10,7 @@ from decimal import ROUND_UP, Context, Decimal
 from pathlib import Path
 
 import numpy as np
+from lammps_unittest import unit_test_yaml
 from numpy.typing import ArrayLike
 
 from carom.bodies.cases import motion_of, pair_of
@@ -19,6 +20,7 @@ from carom.dimensionless.rebounds import rebound
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
 from carom.quantities.arrays import Array
+from carom.verify.engines.experiments import AFTER, Outcomes
 from carom.verify.pack.frozen import (
     ACCURACY,
     CASE,
@@ -29,12 +31,15 @@ from carom.verify.pack.frozen import (
     folders_with,
     frozen_files,
     inputs_of,
+    read_table,
     title_of,
 )
+from carom.verify.pack.writing import experiment_of, is_one_experiment
 
 ROUNDING = 2e-15  # of the few operations between psi and SI units, relative to their terms
 TIMES = 101  # of a history
 DIGITS = 12  # of every number
+TOLERANCE = 0.01  # in psi_2, of a test of LAMMPS; that of the scorer
 ERROR_DIGITS = Context(prec=2, rounding=ROUND_UP)
 ERROR = "_error"  # the column of errors of a column ends so
 BEFORE = ("normal_speed", "tangential_speed", "spin", "spin2")
@@ -184,12 +189,25 @@ def _rounded_up(error: float) -> str:
     return f"{float(ERROR_DIGITS.create_decimal(repr(float(error)))):.2g}"
 
 
+def unit_tests() -> dict[str, str]:
+    """Return the sets as tests of LAMMPS's own suite, against the frozen numbers, by path."""
+    tests: dict[str, str] = {}
+    for folder in filter(is_one_experiment, folders_with(INPUTS)):
+        reference = read_table(frozen_files()[f"{folder}/{REFERENCE}"])
+        outcomes = Outcomes(*(reference.numbers(name) for name in AFTER))
+        experiment = experiment_of("lammps", case_of(folder), inputs_of(folder))
+        text = unit_test_yaml(experiment, tolerance=TOLERANCE, outcomes=outcomes)
+        tests[f"{folder}/lammps/fix-timestep-{folder}.yaml"] = text
+    return tests
+
+
 def freeze(folder: Path) -> list[Path]:
-    """Write every table of reference numbers below a folder and return the paths."""
+    """Write every table of reference numbers, then every test of LAMMPS, and return the paths."""
     paths = []
-    for name, table in references().items():
+    tables = {name: table.as_csv() for name, table in references().items()}
+    for name, text in (tables | unit_tests()).items():
         path = folder / name
-        path.write_text(table.as_csv(), encoding="utf-8", newline="\n")
+        path.write_text(text, encoding="utf-8", newline="\n")
         paths.append(path)
     return paths
 

@@ -20,8 +20,8 @@ from page_blocks import as_maths, page_with, table
 
 import carom
 from carom.dimensionless.lossy.layout import PSI_OUT
+from carom.dimensionless.lossy.springs.march import marched
 from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
-from carom.dimensionless.lossy.springs.rebounds import marched
 from carom.plots import style
 from carom.verify.engines.experiments import psi_out
 

@@ -8,13 +8,16 @@ import os
 import shutil
 import sysconfig
 import tempfile
-from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 from xdist.scheduler import LoadFileScheduling
 
-SOURCES = sorted(Path(find_spec("carom").submodule_search_locations[0]).rglob("*.py"))
+import carom
+from carom.cli import main
+from tests.processes import Commands
+
+SOURCES = sorted(Path(carom.__file__).parent.rglob("*.py"))
 KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest()[:16]
 
 # jax is here to agree, not to be quick: a third of the time of its tests
@@ -48,6 +51,60 @@ def pytest_collection_finish():
 def pytest_addoption(parser):
     words = "calls of the cheapest fuzz test; the others take a share of it (default: %(default)s)"
     parser.addoption("--fuzz", type=int, default=2000, metavar="N", help=words)
+
+
+@pytest.fixture(scope="session")
+def steel_ball():
+    return carom.Sphere(radius="5 mm", material="steel")
+
+
+@pytest.fixture(scope="session")
+def plate():
+    """The steel that the ball strikes."""
+    return carom.HalfSpace(material="steel")
+
+
+@pytest.fixture(scope="session")
+def pair(steel_ball, plate):
+    return carom.Pair(steel_ball, plate, friction=0.2)
+
+
+@pytest.fixture(scope="session")
+def hit(pair):
+    """An impact that slides, sticks, slips at its edge and slides back."""
+    return carom.impact(pair, speed=2.0, angle="30 deg")
+
+
+@pytest.fixture
+def run(capsys, monkeypatch, tmp_path):
+    """Run a command in an empty folder; returns the exit code, what is printed and told."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        return main([*map(str, arguments)]), *capsys.readouterr()
+
+    return call
+
+
+@pytest.fixture
+def refusal(run):
+    """Run a command that is refused; returns the one line that says why."""
+
+    def call(*arguments, code=2):
+        ended, out, err = run(*arguments)
+        assert (ended, out, err.count("\n")) == (code, "", 1), err
+        assert err.startswith("carom: ")
+        return err
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def command():
+    """Run a command as from a shell, in a process of its own."""
+    commands = Commands()
+    yield commands
+    commands.close()
 
 
 @pytest.fixture

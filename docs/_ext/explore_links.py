@@ -13,7 +13,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import ReferenceRole
 
 from carom.explorer.export import export
-from carom.explorer.presets import PRESETS
+from carom.explorer.page import PRESETS
 
 LIVE = "http://127.0.0.1:8050/"
 COPY = "explore/index.html"

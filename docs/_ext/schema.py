@@ -83,7 +83,7 @@ def directive(text: Callable[[], str]) -> type[SphinxDirective]:
 
     class Made(SphinxDirective):
         def run(self) -> list[nodes.Node]:
-            self.env.note_dependency(glossary.__file__)
+            self.env.note_dependency(str(glossary.FILE))
             return self.parse_text_to_nodes(text(), allow_section_headings=True)
 
     return Made

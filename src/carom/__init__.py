@@ -1,10 +1,12 @@
 """Carom: how an elastic sphere leaves an oblique impact, and what happens inside the contact.
 
-The public names are listed in `__init__.pyi` with their modules. They are loaded when they are
-first used, so that `import carom` is fast.
+A `Sphere` and a `HalfSpace`, `Sphere` or `Cup` make a `Pair`. `impact` lets them meet, `collide`
+does it for many, `sweep` varies any input, and `fit` finds parameters from measured rebounds.
+Groups of names are `carom.laws`, `carom.dem` and `carom.verify` (contact laws of DEM codes),
+`carom.plots`, `carom.datasets`, `carom.results` and `carom.status`; `dir(carom)` lists all.
 """
 
-import lazy_loader
+import lazy_loader  # a name is loaded when it is first used, from where `__init__.pyi` has it
 
 from carom.old_names import with_old_names
 

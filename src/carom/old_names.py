@@ -1,13 +1,9 @@
 """Names of version 0.2: each works for this version, with one warning that gives the new name."""
 
-from collections.abc import Callable
-from functools import wraps
+from collections.abc import Callable, Container
 from importlib import import_module
-from typing import Any, ParamSpec, TypeVar
+from typing import Any
 from warnings import warn
-
-Given = ParamSpec("Given")
-Found = TypeVar("Found")
 
 LAWS_OF_CODES = (
     *("EdemHertzMindlin", "FunctionLaw", "FunctionRebound", "HardSphere", "HertzLinearHistory"),
@@ -38,6 +34,7 @@ NEW_CALLS: dict[str, tuple[str, Callable[[], Any]]] = {  # what a name alone no 
         lambda: _get("carom.verify.catalogue")(),
     ),
 }
+OLD_KEYWORDS = {"time": "at", "step": "at", "psi": "psi_1"}
 
 
 def _get(path: str) -> Any:
@@ -69,15 +66,11 @@ def with_old_names(package: str, load: Callable[[str], Any]) -> Callable[[str], 
     return __getattr__
 
 
-def with_old_keywords(function: Callable[Given, Found]) -> Callable[Given, Found]:
-    """Return a method that takes `at`, called time or step in version 0.2, by those names, too."""
-
-    @wraps(function)
-    def called(*given: Given.args, **named: Given.kwargs) -> Found:
-        for old in {"time", "step"} & named.keys():
-            words = f"{old} of {function.__name__} is now at; the old name ends with 0.3"
-            warn(words, DeprecationWarning, stacklevel=2)
-            named["at"] = named.pop(old)
-        return function(*given, **named)
-
-    return called
+def renamed(name: str, function: str, known: Container[str]) -> str:
+    """Return the name of a keyword now, with a warning if it is one of version 0.2."""
+    new = OLD_KEYWORDS.get(name, name)
+    if name in known or new not in known:
+        return name
+    words = f"{name} of {function} is now {new}; the old name ends with 0.3"
+    warn(words, DeprecationWarning, stacklevel=3)
+    return new

@@ -17,6 +17,8 @@ from urllib.parse import urlsplit
 
 import pytest
 
+import carom
+
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore"]
 PATIENCE = 30.0  # s, on a machine that does other things too
@@ -148,6 +150,14 @@ class Visit:
     def pixels(self, canvas):
         """Return the picture of a canvas as text."""
         return self.page.evaluate(f"document.getElementById('{canvas}').toDataURL()")
+
+
+@pytest.fixture(scope="session")
+def usual():
+    """The impact that the page opens with."""
+    ball = carom.Sphere(radius="5 mm", material="bearing-steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="bearing-steel"), 0.2)
+    return carom.impact(pair, speed=0.6, angle="30 deg")
 
 
 @pytest.fixture(scope="session")

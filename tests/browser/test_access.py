@@ -1,8 +1,7 @@
 """The page for everyone: by keys alone, heard, on a small screen, in the dark, from one host."""
 
-from urllib.request import urlopen
-
 import pytest
+from tests.browser.scripts import script
 
 pytestmark = pytest.mark.browser
 CONTROLS = (
@@ -16,31 +15,8 @@ PANELS = {  # what only a panel has
     "Files": ("tab-files", "history-csv", "history-nc", "history-png", "contact-pdf", "curve-svg"),
     "Python": ("tab-code-panel", "code"),
 }
-FOCUSED = """() => {
-  const at = document.activeElement;
-  const near = [at, at.parentElement, at.parentElement && at.parentElement.parentElement];
-  const marked = near.some(each => each && (style => style.outlineStyle !== 'none'
-    && parseFloat(style.outlineWidth) >= 1)(getComputedStyle(each)));
-  const inside = at.closest('.dash-dropdown-wrapper');
-  const button = inside && inside.querySelector('button');
-  return { id: at.id || (button && button.id) || at.name || at.innerText || at.className,
-    tag: at.tagName, marked };
-}"""
-CONTRASTS = """() => {
-  const parse = text => text.match(/[\\d.]+/g).map(Number);
-  const light = rgb => rgb.slice(0, 3).map(v => v / 255)
-    .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
-    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
-  const ground = at => { for (; at; at = at.parentElement) {
-    const found = parse(getComputedStyle(at).backgroundColor);
-    if (found.length === 3 || found[3] > 0.99) return found; } return [255, 255, 255]; };
-  const words = at => [...at.childNodes].some(n => n.nodeType === 3 && n.textContent.trim());
-  return [...document.querySelectorAll('#page *')]
-    .filter(at => at.checkVisibility() && words(at) && !at.closest('svg'))
-    .map(at => { const [a, b] = [light(parse(getComputedStyle(at).color)), light(ground(at))];
-      return { text: at.textContent.trim().slice(0, 30),
-        ratio: (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05) }; });
-}"""
+FOCUSED = script("focused")
+CONTRASTS = script("contrasts")
 
 
 @pytest.mark.parametrize("panel", PANELS)
@@ -119,18 +95,10 @@ def test_a_small_screen_can_be_used(visit):
     box = slider.bounding_box()
     assert box["width"] > 150
     assert box["height"] >= 20
-    before = seen.result("rebound_angle")
+    row = "rebound_angle"
+    before = seen.result(row)
     seen.page.mouse.click(box["x"] + 0.75 * box["width"], box["y"] + 0.5 * box["height"])
     seen.linked("angle=")
-    row = "rebound_angle"
     seen.until(lambda: seen.result(row) != before)
     for name in ("stage", "patch", "forces", "rebounds"):
         assert seen.page.locator(f"#{name}").bounding_box()["width"] > 300
-
-
-def test_the_header_forbids_other_hosts(address):
-    with urlopen(address) as answer:
-        policy = answer.headers["content-security-policy"]
-    assert "default-src 'self'" in policy
-    assert "*" not in policy
-    assert "http" not in policy

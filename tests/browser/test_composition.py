@@ -3,9 +3,10 @@
 import itertools
 
 import pytest
+from tests.browser.scripts import script
 
 pytestmark = pytest.mark.browser
-WIDTHS = (400, 1024, 1440, 1920)
+WIDTHS = [400, *(pytest.param(wide, marks=pytest.mark.slow) for wide in (1024, 1440)), 1920]
 THEMES = ("light", "dark")
 CHARTS = ("rebounds", "forces", "energies")
 STATES = {
@@ -17,75 +18,10 @@ STATES = {
 }
 EMPTIEST = 1 / 3  # of a card
 ABOUT = 28  # pixels around what a card holds that are not empty
-STAGES = """() => [...document.querySelectorAll('#film canvas')]
-  .filter(each => each.checkVisibility())
-  .map(each => { const box = each.getBoundingClientRect();
-    return [box.left, box.top, innerWidth - box.right, innerHeight - box.bottom]; }).flat()"""
-EMPTY = """about => [...document.querySelectorAll('.carom-card, .carom-cell')]
-  .filter(card => card.checkVisibility()).map(card => {
-    const box = card.getBoundingClientRect();
-    const boxes = [];
-    const walk = document.createTreeWalker(card, NodeFilter.SHOW_TEXT);
-    while (walk.nextNode()) { if (!walk.currentNode.textContent.trim()) continue;
-      const range = document.createRange(); range.selectNodeContents(walk.currentNode);
-      boxes.push(...range.getClientRects()); }
-    card.querySelectorAll('canvas, .main-svg, tr, input, select, button, .carom-drop')
-      .forEach(each => each.checkVisibility() && boxes.push(each.getBoundingClientRect()));
-    const [step, count] = [8, { all: 0, empty: 0 }];
-    for (let x = box.left + step / 2; x < box.right; x += step)
-      for (let y = box.top + step / 2; y < box.bottom; y += step) {
-        count.all++;
-        if (!boxes.some(b => x > b.left - about && x < b.right + about
-          && y > b.top - about && y < b.bottom + about)) count.empty++; }
-    return { card: card.id || card.innerText.slice(0, 20), empty: count.empty / count.all }; })"""
-WORDS = """() => {
-  const clip = at => { const box = { left: 0, top: 0, right: innerWidth, bottom: innerHeight };
-    for (let e = at; e && e !== document.body; e = e.parentElement) {
-      const style = getComputedStyle(e);
-      if (!/auto|scroll|hidden/.test(style.overflowX + style.overflowY)) continue;
-      const b = e.getBoundingClientRect();
-      box.left = Math.max(box.left, b.left); box.right = Math.min(box.right, b.right);
-      box.top = Math.max(box.top, b.top); box.bottom = Math.min(box.bottom, b.bottom); }
-    return box; };
-  const found = [];
-  const add = (at, text, r) => { const c = clip(at);
-    found.push({ text, box: [r.left, r.top, r.right, r.bottom],
-      seen: r.left > c.left - 1 && r.right < c.right + 1
-        && r.top > c.top - 1 && r.bottom < c.bottom + 1,
-      aside: r.left < c.left - 1.5 || r.right > c.right + 1.5 }); };
-  const walk = document.createTreeWalker(document.getElementById('page'), NodeFilter.SHOW_TEXT);
-  while (walk.nextNode()) {
-    const node = walk.currentNode, at = node.parentElement;
-    if (!node.textContent.trim()
-      || !at.checkVisibility({ visibilityProperty: true, opacityProperty: true })
-      || at.closest('select, .hoverlayer, pre, sub, sup, #tip')) continue;
-    const around = [at, at.closest('h2') || at];
-    if (around.some(each => getComputedStyle(each).clipPath !== 'none')) continue;
-    const range = document.createRange(); range.selectNodeContents(node);
-    for (const r of range.getClientRects()) if (r.width > 1) add(at, node.textContent.trim(), r); }
-  return found; }"""
-CANVAS_WORDS = """() => {
-  const found = [], fill = CanvasRenderingContext2D.prototype.fillText;
-  CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
-    const size = this.measureText(text), dense = devicePixelRatio;
-    const at = this.getTransform().transformPoint({ x, y });
-    found.push({ canvas: drawing, still: !this.canvas.isConnected, text,
-      box: [at.x / dense - size.actualBoundingBoxLeft, at.y / dense - size.actualBoundingBoxAscent,
-        at.x / dense + size.actualBoundingBoxRight, at.y / dense + size.actualBoundingBoxDescent],
-      room: [this.canvas.width / dense, this.canvas.height / dense] });
-    return fill.apply(this, arguments); };
-  const drawn = [];
-  let drawing = '';
-  // nothing is kept of these scenes
-  const scenes = Carom.page.answers().map(each => each && Carom.scene.of(each.scene));
-  for (const time of [-0.4, 0.02, 0.2, 0.35, 0.5, 0.7, 0.9, 0.99, 1.4]) {
-    found.length = 0;
-    scenes.forEach((scene, row) => scene && ['stage', 'patch'].forEach(name => {
-      drawing = row ? `${name}-beside` : name;
-      Carom[name].draw(document.getElementById(drawing), scene, time); }));
-    drawn.push(...found.map(each => ({ ...each, time }))); }
-  CanvasRenderingContext2D.prototype.fillText = fill;
-  return drawn; }"""
+STAGES = script("stages")
+EMPTY = script("empty")
+WORDS = script("page_words")
+CANVAS_WORDS = script("canvas_words")
 
 
 def apart(one, other, least=1.0):

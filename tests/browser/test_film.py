@@ -5,18 +5,7 @@ from urllib.parse import parse_qsl
 import numpy as np
 import pytest
 
-import carom
-
 pytestmark = pytest.mark.browser
-HIT = carom.impact(
-    carom.Pair(
-        carom.Sphere(radius="5 mm", material="bearing-steel"),
-        carom.HalfSpace(material="bearing-steel"),
-        0.2,
-    ),
-    speed=0.6,
-    angle="30 deg",
-)
 MICROSECOND = 1e6
 
 
@@ -64,23 +53,25 @@ def test_the_pace_is_as_chosen(visit):
     assert seen.page.evaluate(words) == pytest.approx(0.22, rel=0.15)
 
 
-def test_the_clock_tells_time_and_phase(visit):
+def test_the_clock_tells_time_and_phase(visit, usual):
     seen = visit()
-    for phase in HIT.phases:
+    for phase in usual.phases:
         middle = 0.5 * (phase.start + phase.end)
-        words = f"Carom.clock.set({middle / HIT.duration!r})"
+        words = f"Carom.clock.set({middle / usual.duration!r})"
         seen.page.evaluate(words)
         time = pytest.approx(middle * MICROSECOND, abs=0.051)
         sign = {0: "", 1: " +", -1: " -"}[phase.sign]
         seen.until(lambda time=time, name=phase.kind + sign: told(seen) == (time, name))
     seen.page.focus("#time")
     seen.page.keyboard.press("End")
-    seen.until(lambda: told(seen) == (pytest.approx(1.6 * HIT.duration * 1e6, abs=0.051), "after"))
+    seen.until(
+        lambda: told(seen) == (pytest.approx(1.6 * usual.duration * 1e6, abs=0.051), "after")
+    )
     seen.page.keyboard.press("Home")
     seen.until(lambda: told(seen)[1] == "before")
 
 
-def test_the_cursor_stands_at_the_time_in_both_charts(visit):
+def test_the_cursor_stands_at_the_time_in_both_charts(visit, usual):
     """Where the line stands between the ticks of the time axis is the time."""
     seen = visit("?time=0.8")
     words = (
@@ -97,7 +88,7 @@ def test_the_cursor_stands_at_the_time_in_both_charts(visit):
             seen.page.wait_for_timeout(100)
             ticks, cursor = seen.page.evaluate(words, chart)
             slope, offset = np.polyfit(*np.array(ticks).T[::-1], 1)
-            expected = at * HIT.duration * MICROSECOND
+            expected = at * usual.duration * MICROSECOND
             assert slope * cursor + offset == pytest.approx(expected, abs=2.0 * slope)
 
 
@@ -108,8 +99,8 @@ def test_pointing_at_a_chart_sets_the_time(visit):
     seen.until(lambda: share(seen) == pytest.approx(0.25, abs=0.01))
 
 
-def test_forces_drawn_are_those_of_the_history(visit):
-    history = HIT.history(201)
+def test_forces_drawn_are_those_of_the_history(visit, usual):
+    history = usual.history(201)
     seen = visit()
     drawn = seen.traces("forces")["exact", "lines"]
     assert np.array(drawn["x"]) == pytest.approx(history["time"].values * 1e6, abs=1e-4)
@@ -117,18 +108,18 @@ def test_forces_drawn_are_those_of_the_history(visit):
     assert np.array(drawn["y"]) == pytest.approx(force, abs=1e-4 * np.abs(force).max())
 
 
-def test_the_zones_at_a_time(visit):
+def test_the_zones_at_a_time(visit, usual):
     """Stick radius, contact radius and traction are the history's and the fields' of the time."""
     seen = visit()
-    history = HIT.history(201)
+    history = usual.history(201)
     for row in (30, 86, 100, 120, 140, 160):
         at = seen.page.evaluate(f"Carom.page.scenes[0].at({row / 200})")
         for name in ("contact", "stick"):
-            radius = float(history[f"{name}_radius"][row]) / HIT.max_radius
+            radius = float(history[f"{name}_radius"][row]) / usual.max_radius
             assert at[name] == pytest.approx(radius, abs=2e-4), (name, row)
-        time = row / 200 * HIT.duration
-        edge = at["contact"] * HIT.max_radius
+        time = row / 200 * usual.duration
+        edge = at["contact"] * usual.max_radius
         points = np.column_stack([np.linspace(0.0, edge, 33), np.zeros(33)])
-        field = HIT.fields(time, points=points)
-        expected = field["traction_x"].values / (HIT.pair.friction * HIT.max_pressure)
+        field = usual.fields(time, points=points)
+        expected = field["traction_x"].values / (usual.pair.friction * usual.max_pressure)
         assert np.array(at["traction"]) == pytest.approx(expected, abs=0.03), row

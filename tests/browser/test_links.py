@@ -10,17 +10,9 @@ from carom.verify.entries import named
 pytestmark = pytest.mark.browser
 AFTER, BEFORE = "psi_out", "psi_in"
 LAWS = ("mindlin", "YADE Mindlin", "Walton & Braun")
-BODIES = {
-    "radius": "3.5",
-    "material": "brass",
-    "against": "sphere",
-    "second_radius": "7.25",
-    "second_material": "pmma",
-    "friction": "0.345",
-    "speed": "1.35",
-    "angle": "52.25",
-    "spin": "-240",
-}
+BODIES = {"radius": "3.5", "material": "brass", "against": "sphere", "second_radius": "7.25"}
+BODIES |= {"second_material": "pmma", "friction": "0.345", "speed": "1.35", "angle": "52.25"}
+BODIES["spin"] = "-240"
 DATA = carom.datasets.names()[0]
 GO = "query => { history.pushState({}, '', query); dispatchEvent(new Event('popstate')); }"
 

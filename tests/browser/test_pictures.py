@@ -5,54 +5,15 @@ from base64 import b64decode
 
 import numpy as np
 import pytest
+from tests.browser.scripts import script
 
 import carom
 
-WORDS = """async ([query, part, width, height, shares]) => {
-  const { scene } = await Carom.source.answer(query);
-  const made = Carom.scene.of(scene);
-  const canvas = document.createElement("canvas");
-  canvas.style.cssText = `display: block; width: ${width}px; height: ${height}px`;
-  document.body.append(canvas);
-  const kind = CanvasRenderingContext2D.prototype;
-  const fillText = kind.fillText;
-  let found = [];
-  kind.fillText = function (text, x, y) {
-    const box = this.measureText(text);
-    const size = parseFloat(this.font);
-    const sides = [x - box.actualBoundingBoxLeft, y - box.actualBoundingBoxAscent,
-      x + box.actualBoundingBoxRight, y + box.actualBoundingBoxDescent];
-    if (text) found.push([text, size, ...sides]);
-    return fillText.apply(this, arguments);
-  };
-  const all = shares.map(share => {
-    found = [];
-    Carom.canvas.forget(canvas);
-    Carom[part].draw(canvas, made, share);
-    return found;
-  });
-  kind.fillText = fillText;
-  canvas.remove();
-  return all;
-}"""
+WORDS = script("picture_words")
 BOXES = [(170, 140), (170, 300), (250, 200), (330, 390), (420, 360), (560, 240), (700, 500)]
 SHARES = [-0.4, 0.05, 0.3, 0.5, 0.62, 0.8, 0.95, 1.4]
-PICTURE = """([part, share, width, height, colors]) => {
-  const canvas = document.createElement("canvas");
-  canvas.style.cssText = `display: block; width: ${width}px; height: ${height}px`;
-  document.body.append(canvas);
-  Carom[part].draw(canvas, Carom.page.scenes[0], share);
-  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  const size = [canvas.height, canvas.width];
-  canvas.remove();
-  const text = Array.from(data, byte => String.fromCharCode(byte)).join("");
-  return { size, data: btoa(text), colors: colors.map(name => Carom.theme.color(name)) };
-}"""
-TOLD = """async ([query, shares]) => {
-  const { scene } = await Carom.source.answer(query);
-  const made = Carom.scene.of(scene);
-  return shares.map(share => Carom.told.of(made, share));
-}"""
+PICTURE = script("picture")
+TOLD = script("told")
 TIMES = [round(float(share), 3) for share in np.linspace(0.02, 0.98, 49)]
 
 
@@ -114,15 +75,9 @@ def picture(page, part, share, colors, width=420, height=360):
     return masks
 
 
-def test_zones_on_the_map_in_their_colours(visit):
+def test_zones_on_the_map_in_their_colours(visit, usual):
     """The blue circle against the orange edge is the stick radius against the contact's."""
-    page = visit("?theme=light").page
-    pair = carom.Pair(
-        carom.Sphere(radius="5 mm", material="bearing-steel"),
-        carom.HalfSpace(material="bearing-steel"),
-        0.2,
-    )
-    history = carom.impact(pair, speed=0.6, angle="30 deg").history(201)
+    page, history = visit("?theme=light").page, usual.history(201)
     for row in (120, 150, 160):
         masks = picture(page, "patch", row / 200, ["stick", "slip"])
         spans = {}
@@ -144,13 +99,7 @@ def test_gross_slip_is_grey_on_both_pictures(visit):
 
 
 def test_hatches_tell_the_sign(visit):
-    words = """sign => {
-      const canvas = document.createElement("canvas");
-      canvas.width = canvas.height = 60;
-      const pen = canvas.getContext("2d");
-      Carom.canvas.band(pen, 0, 0, 60, 60, { kind: "slip", sign });
-      return Array.from(pen.getImageData(0, 0, 60, 60).data);
-    }"""
+    words = script("hatch")
     page = visit().page
     for sign in (1, -1):
         level = np.array(page.evaluate(words, sign)).reshape(60, 60, 4)[..., 2].astype(float)
@@ -230,19 +179,7 @@ def check(solved, share, told, query):
 
 
 def test_slow_motion_is_smooth(visit):
-    words = """() => {
-      const clock = Carom.clock;
-      clock.borders([0.4, 0.8]);
-      const run = slow => {
-        clock.slow(slow);
-        const times = [clock.FIRST];
-        while (times.at(-1) < clock.LAST) times.push(clock.after(times.at(-1), 1 / 60));
-        return times;
-      };
-      const found = { usual: run(false), slow: run(true) };
-      clock.slow(false);
-      return found;
-    }"""
+    words = script("slow_motion")
     page = visit().page
     pace = page.evaluate("Carom.clock.pace()")
     found = page.evaluate(words)
@@ -260,11 +197,7 @@ def test_slow_motion_is_smooth(visit):
 def test_jumps_to_changes_of_phase(visit):
     """They are held by links, as they are rounded there: the phase is the one that begins."""
     seen = visit("?time=-0.6")
-    words = """name => {
-      Carom.clock[name]();
-      const now = Carom.clock.now();
-      return [now, Carom.clock.isPlaying(), Carom.page.scenes[0].at(Number(now.toFixed(6))).phase];
-    }"""
+    words = script("jump")
     phases = seen.page.evaluate("Carom.page.scenes[0].data.phases")
     names = [seen.page.evaluate("phase => Carom.scene.nameOf(phase)", phase) for phase in phases]
     borders = [-0.6, 0.0, *(phase["end"] for phase in phases), 1.6]

@@ -5,6 +5,7 @@ import shutil
 
 import numpy as np
 import pytest
+from tests.browser.scripts import script
 
 import carom
 from carom.explorer.export import export
@@ -22,16 +23,8 @@ STEP = 1 / 600  # of the duration: how finely the copy follows an impact
 HARDLY = 3e-4  # of the energy: what takes less is judged as if it took so much
 SHORT = 2 * STEP  # phases that the copy may pass over
 NEAR_FRONT = 0.01  # of the contact radius: there viscous tractions rise like a root
-SOLVE = """states => states.map(([psi, chi, e]) => {
-  const found = Carom.law.solve(psi, chi, e);
-  const names = ["psi", "force", "stick", "contact", "stored", "dissipated", "shear"];
-  const lines = names.map(name => [name, Array.from(found[name])]);
-  const tractions = found.tractions.map(line => line.map(value => Math.round(value * 1e7) / 1e7));
-  const {out, phases} = found;
-  return JSON.stringify({...Object.fromEntries(lines), out, phases, tractions});
-})"""
-ANSWER = """async queries => Promise.all(queries.map(query => Carom.source.answer(query)
-  .then(answer => ({answer}), refusal => ({refusal}))))"""
+SOLVE = script("solve")
+ANSWER = script("answer")
 COUNTED = ("psi_in", "chi", "kappa", "duration", "max_force", "max_radius")
 
 

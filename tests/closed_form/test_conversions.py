@@ -3,7 +3,6 @@ integrated by scipy."""
 
 import re
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from math import gamma, log, pi, sqrt
 
 import numpy as np
@@ -147,25 +146,6 @@ def test_tsuji_leaves_more_than_was_asked_for():
     assert left == pytest.approx(0.7777, abs=2e-4)
 
 
-LEFT = [
-    (carom.dem.LinearSpring, {}, lambda e: e),
-    (carom.dem.LammpsMindlin, {}, lambda e: e),
-    (carom.dem.YadeMindlin, {}, lambda e: e),
-    (carom.dem.LammpsMindlin, {"damping": "tsuji"}, {0.3: 0.4396, 0.7: 0.7777, 0.9: 0.9284}.get),
-]
-
-
-@pytest.mark.parametrize("e", [0.3, 0.7, 0.9])
-@pytest.mark.parametrize(("law", "more", "left"), LEFT)
-def test_laws_leave_that_restitution(law, more, left, e):
-    """The contact laws take the dampings of these conventions: the speed that a history ends with.
-
-    In 10 000 steps, to 1e-3; for tsuji what the equation of motion leaves.
-    """
-    history = law(restitution=e, **more).history(0.5, CHI, steps=10_000)
-    assert -history["normal_velocity"][-1] == pytest.approx(left(e), abs=1e-3)
-
-
 @pytest.mark.parametrize("e", [0.6, 1.0])
 @pytest.mark.parametrize("name", PAIRS)
 def test_recipes_hold_the_stiffnesses(name, e):
@@ -196,12 +176,6 @@ def test_recipes_hold_the_stiffnesses(name, e):
         assert not any(n.startswith("-") for n in numbers), code
     assert ("coeff_restitution" in found["LAMMPS Hertz"]) == (e != 1.0)
     assert ("has no damping" in found["YADE CundallStrack"]) == (e != 1.0)
-
-
-@pytest.mark.parametrize("wanted", ["90 %", "0.9", Fraction(9, 10), np.float64(0.9)])
-def test_a_wanted_restitution_is_read_as_any_number(wanted):
-    pair = PAIRS["steel on steel"]
-    assert recipes(pair, SPEED, wanted) == recipes(pair, SPEED, 0.9)
 
 
 @pytest.mark.parametrize(

@@ -1,173 +1,25 @@
-"""Contact laws are what their codes define, integrated anew in SI units from those definitions.
+"""Contact laws are what their codes and papers define, computed anew in SI units.
 
-Twins: steel sphere on a steel half-space, the stored displacement or force as the code keeps it,
-SciPy's Dormand-Prince of order 8 from event to event; none of the powers and units of the package.
+None of the powers and units of the package are in the twins (`tests.oracles.dem_*`).
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad
+from tests.oracles import dem_codes as codes, dem_softening as softening, dem_steps as steps
+from tests.oracles.dem_contact import CHI, KAPPA, MASS
 
 import carom
 
-YOUNG, POISSON, DENSITY, RADIUS, FRICTION, SPEED = 210e9, 0.3, 7850.0, 5e-3, 0.2, 0.5
-SHEAR = YOUNG / (2 * (1 + POISSON))
-MASS = DENSITY * 4 / 3 * np.pi * RADIUS**3
-E_STAR = YOUNG / (2 * (1 - POISSON**2))
-G_EFF = SHEAR / (2 * (2 - POISSON))  # of LAMMPS and LIGGGHTS
-KAPPA = 4 * G_EFF / E_STAR
-CHI = KAPPA / 2 * 3.5  # solid sphere: m_n/m_t = 1 + m R^2/I
-HERTZ = 4 / 3 * E_STAR * np.sqrt(RADIUS)
-DEEPEST = (1.25 * MASS * SPEED**2 / HERTZ) ** 0.4
-DURATION = 2.94327518432470 * DEEPEST / SPEED
-SLOWEST = FRICTION * SPEED / KAPPA  # V_x of psi = 1
-LEAST = 1e-9  # penetration at both ends, in units of the deepest
-E = 0.8
-BETA = -np.log(E) / np.sqrt(np.pi**2 + np.log(E) ** 2)
-LINEAR = MASS * (np.pi / DURATION) ** 2  # k_n of a linear spring
-
-
-def radius(d):
-    return np.sqrt(RADIUS * max(d, 1e-3 * LEAST * DEEPEST))
-
-
-def mindlin(d):
-    return 8 * G_EFF * radius(d)
-
-
-def normal_dashpot(d):
-    return 2 * np.sqrt(5 / 6) * BETA * np.sqrt(2 * E_STAR * radius(d) * MASS)
-
-
-def tangential_dashpot(d):
-    return 2 * np.sqrt(5 / 6) * BETA * np.sqrt(mindlin(d) * MASS)
-
-
-def hertz(d):
-    return HERTZ * max(d, 0.0) ** 1.5
-
-
-def tsuji_dashpot(d):
-    e = E
-    alpha = 1.2728 - 4.2783 * e + 11.087 * e**2 - 22.348 * e**3 + 27.467 * e**4
-    alpha += -18.022 * e**5 + 4.8218 * e**6
-    return alpha * np.sqrt(MASS * hertz(d) / max(d, 1e-3 * LEAST * DEEPEST))
-
-
-def nothing(d):
-    return 0.0
-
-
-@dataclass(frozen=True)
-class Code:
-    """What a code computes: forces in N of lengths in m and speeds in m/s."""
-
-    force_stored: bool = False
-    shrinks: bool = False  # what is stored, with the radius while the contact unloads
-    stiffness: Callable[[float], float] = mindlin
-    elastic: Callable[[float], float] = hertz
-    normal_dashpot: Callable[[float], float] = nothing
-    dashpot: Callable[[float], float] = nothing
-    limits_sum: bool = True  # else the spring alone
-
-    def normal(self, y):
-        return self.elastic(y[0]) + self.normal_dashpot(y[0]) * y[1]
-
-    def spring(self, y):
-        return y[3] if self.force_stored else self.stiffness(y[0]) * y[3]
-
-    def limited(self, y):
-        return self.spring(y) + (self.dashpot(y[0]) * y[2] if self.limits_sum else 0.0)
-
-    def over(self, y):
-        return abs(self.limited(y)) - FRICTION * abs(self.normal(y))
-
-    def at_limit(self, y, slip):
-        """Return the state with what a sliding contact stores."""
-        force = slip * FRICTION * abs(self.normal(y))
-        force -= self.dashpot(y[0]) * y[2] if self.limits_sum else 0.0
-        return np.array([*y[:3], force if self.force_stored else force / self.stiffness(y[0])])
-
-    def rates(self, y, slip):
-        force = slip * FRICTION * abs(self.normal(y))
-        if slip == 0:
-            force = self.spring(y) + self.dashpot(y[0]) * y[2]
-        growth = self.stiffness(y[0]) * y[2] if self.force_stored else y[2]
-        if self.shrinks and y[1] < 0:
-            growth += y[3] * y[1] / (2 * max(y[0], 1e-3 * LEAST * DEEPEST))
-        stored = growth if slip == 0 else 0.0
-        return np.array([y[1], -self.normal(y) / MASS, -3.5 * force / MASS, stored])
-
-    def would_grow(self, y, slip):
-        """Return how fast the force would outgrow its limit, if the contact stuck."""
-        y = self.at_limit(y, slip)
-        small = 1e-7 * max(y[0], 1e-3 * LEAST * DEEPEST) / SPEED * self.rates(y, 0)
-        excess = [
-            slip * self.limited(z) - FRICTION * abs(self.normal(z)) for z in (y + small, y - small)
-        ]
-        return excess[0] - excess[1]
-
-    def touch(self, psi):
-        d = LEAST * DEEPEST
-        along = psi * SLOWEST * d / SPEED
-        stored = 2 / 3 * self.stiffness(d) * along if self.force_stored else along
-        return np.array([d, SPEED, psi * SLOWEST, stored])
-
-
-def events(code, slip, loading):
-    """Return the instants that end a stretch of motion: parting, turning, sliding or sticking."""
-    found = [
-        lambda t, y: 1.0 if loading else y[0] - LEAST * DEEPEST,
-        lambda t, y: y[1] if loading else 1.0,
-        (lambda t, y: code.would_grow(y, slip)) if slip else (lambda t, y: code.over(y)),
-    ]
-    for event, direction in zip(found, (-1, -1, -1 if slip else 1), strict=True):
-        event.terminal, event.direction = True, direction
-    return found
-
-
-def rebound(code, psi, precision=1e-11):
-    t, y, loading = 0.0, code.touch(psi), True
-    slip = int(np.sign(code.limited(y))) if code.over(y) > 0 else 0
-    if slip and code.would_grow(y, slip) < 0:  # what it stores at touch tears it off at once
-        y = code.at_limit(y, slip)
-        y[3], slip = y[3] - slip * 1e-9 * abs(y[3]), 0
-    stored = hertz(DEEPEST) if code.force_stored else SLOWEST * DEEPEST / SPEED
-    scale = precision * 1e-2 * np.array([DEEPEST, SPEED, SLOWEST, stored])
-    for _ in range(40):
-        run = solve_ivp(
-            lambda t, y, slip=slip: code.rates(y, slip),
-            (t, 5 * DURATION),
-            y,
-            method="DOP853",
-            rtol=precision,
-            atol=scale,
-            events=events(code, slip, loading),
-            max_step=DURATION / 40,
-        )
-        assert run.status == 1, run.message
-        t, y = run.t[-1], run.y[:, -1]
-        y = code.at_limit(y, slip) if slip else y
-        parts, turns, _ = (len(times) > 0 for times in run.t_events)
-        if parts:
-            return y[2] / SLOWEST
-        if turns:
-            loading = False
-        else:
-            slip = 0 if slip else int(np.sign(code.limited(y)))
-    raise AssertionError("the twin does not part")
-
-
-DAMPED = Code(normal_dashpot=normal_dashpot)
-HALF = {"restitution": E, "tangential_damping": 0.5}
+DAMPED = codes.Code(normal_dashpot=codes.normal_dashpot)
+HALF = {"restitution": codes.E, "tangential_damping": 0.5}
 CODES = {
-    "mindlin": Code(),
-    "mindlin/force": Code(force_stored=True),
-    "mindlin_rescale": Code(shrinks=True),
-    "mindlin_rescale/force": Code(force_stored=True, shrinks=True),
+    "mindlin": codes.Code(),
+    "mindlin/force": codes.Code(force_stored=True),
+    "mindlin_rescale": codes.Code(shrinks=True),
+    "mindlin_rescale/force": codes.Code(force_stored=True, shrinks=True),
 }
 ALL = (0.3, 0.8, 1.3, 3.0, 4.6)
 
@@ -175,8 +27,8 @@ CASES = [
     *((carom.dem.LammpsMindlin(name), code, ALL) for name, code in CODES.items()),
     *(
         (
-            carom.dem.LammpsMindlin(name, restitution=E),
-            replace(code, normal_dashpot=normal_dashpot),
+            carom.dem.LammpsMindlin(name, restitution=codes.E),
+            replace(code, normal_dashpot=codes.normal_dashpot),
             (0.3, 3.0),
         )
         for name, code in CODES.items()
@@ -186,48 +38,138 @@ CASES = [
             carom.dem.LammpsMindlin(name, stiffness=2 / 3, **HALF),
             replace(
                 code,
-                stiffness=lambda d: 2 / 3 * mindlin(d),
-                normal_dashpot=normal_dashpot,
-                dashpot=lambda d: 0.5 * normal_dashpot(d),
+                stiffness=lambda d: 2 / 3 * codes.mindlin(d),
+                normal_dashpot=codes.normal_dashpot,
+                dashpot=lambda d: 0.5 * codes.normal_dashpot(d),
             ),
             (0.8, 1.3, 4.6),
         )
         for name, code in CODES.items()
     ),
     (
-        carom.dem.LammpsMindlin("mindlin", restitution=E, damping="tsuji"),
-        Code(normal_dashpot=tsuji_dashpot),
+        carom.dem.LammpsMindlin("mindlin", restitution=codes.E, damping="tsuji"),
+        codes.Code(normal_dashpot=codes.tsuji_dashpot),
         (0.8, 3.0),
     ),
     (
         carom.dem.HertzLinearHistory(1.2, **HALF),
         replace(
             DAMPED,
-            stiffness=lambda d: 1.2 * mindlin(DEEPEST),
-            dashpot=lambda d: 0.5 * normal_dashpot(d),
+            stiffness=lambda d: 1.2 * codes.mindlin(codes.DEEPEST),
+            dashpot=lambda d: 0.5 * codes.normal_dashpot(d),
         ),
         ALL,
     ),
     (
         carom.dem.LinearSpring(0.5, **HALF),
-        Code(
-            stiffness=lambda d: 0.5 * LINEAR,
-            elastic=lambda d: LINEAR * d,
-            normal_dashpot=lambda d: 2 * BETA * np.sqrt(LINEAR * MASS),
-            dashpot=lambda d: BETA * np.sqrt(LINEAR * MASS),
+        codes.Code(
+            stiffness=lambda d: 0.5 * codes.LINEAR,
+            elastic=lambda d: codes.LINEAR * d,
+            normal_dashpot=lambda d: 2 * codes.BETA * np.sqrt(codes.LINEAR * codes.MASS),
+            dashpot=lambda d: codes.BETA * np.sqrt(codes.LINEAR * codes.MASS),
         ),
         ALL,
     ),
     (
-        carom.dem.LiggghtsHertz(E),
-        replace(DAMPED, dashpot=tangential_dashpot, limits_sum=False),
+        carom.dem.LiggghtsHertz(codes.E),
+        replace(DAMPED, dashpot=codes.tangential_dashpot, limits_sum=False),
         ALL,
     ),
-    (carom.dem.EdemHertzMindlin(E), replace(DAMPED, dashpot=tangential_dashpot), ALL),
+    (carom.dem.EdemHertzMindlin(codes.E), replace(DAMPED, dashpot=codes.tangential_dashpot), ALL),
 ]
 
 
 @pytest.mark.parametrize(("law", "code", "psi"), CASES, ids=[str(case[0]) for case in CASES])
 def test_law_is_what_the_code_defines(law, code, psi):
-    twin = [rebound(code, each) for each in psi]
+    twin = [codes.rebound(code, each) for each in psi]
     assert np.allclose(law.rebound(psi, CHI, kappa=KAPPA), twin, rtol=0.0, atol=1e-8)
+
+
+VARIANTS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
+OF_HERTZ = [
+    *((carom.dem.LammpsMindlin(name), lambda name=name: steps.Lammps(name)) for name in VARIANTS),
+    *(
+        (
+            carom.dem.LammpsMindlin(name, restitution=steps.E, tangential_damping=0.6),
+            lambda name=name: steps.Lammps(name, 0.6, damped=True),
+        )
+        for name in VARIANTS
+    ),
+    (carom.dem.LiggghtsHertz(steps.E), lambda: steps.Liggghts(limits_sum=False)),
+    (carom.dem.EdemHertzMindlin(steps.E), lambda: steps.Liggghts(limits_sum=True)),
+]
+OF_SPRINGS = [
+    (carom.dem.LinearSpring(0.4), lambda: steps.Springs(0.4)),
+    (carom.dem.LinearSpring(0.4, steps.E, 0.5), lambda: steps.Springs(0.4, 0.5, damped=True)),
+    (carom.dem.StrongeLaw(0.9, steps.E), lambda: steps.Springs(0.9, bilinear=True)),
+]
+PSI = (0.2, 0.7, 1.1, 2.5, 4.5)
+
+
+@pytest.mark.parametrize("count", [20, 57])
+@pytest.mark.parametrize(("law", "code"), OF_HERTZ, ids=[str(law) for law, _ in OF_HERTZ])
+def test_steps_are_those_of_the_code(law, code, count):
+    """A law in fixed steps is what its code does, step for step."""
+    expected = [steps.rebound(code(), psi, count) for psi in PSI]
+    found = law.rebound(PSI, CHI, kappa=KAPPA, steps=count)
+    assert np.allclose(found, expected, rtol=0.0, atol=1e-11)
+
+
+@pytest.mark.parametrize(("law", "code"), OF_SPRINGS, ids=[str(law) for law, _ in OF_SPRINGS])
+def test_steps_of_springs(law, code):
+    """A linear contact as deep as Hertz's lasts pi, where Hertz's lasts 2.943."""
+    duration = np.sqrt(MASS / steps.K_LINEAR) * 2.94327518432470
+    expected = [steps.rebound(code(), psi, 50, duration) for psi in PSI]
+    found = law.rebound(PSI, CHI, kappa=KAPPA, steps=50)
+    assert np.allclose(found, expected, rtol=0.0, atol=1e-11)
+
+
+Walton, K = softening.Walton, KAPPA * softening.K_1
+Braun = carom.dem.WaltonBraunLaw
+SOLID, LIGHT = 3.5, 9.0  # m_n/m_t: of a solid sphere; of one that turns back more often
+SOFTENING = [
+    (carom.dem.ThorntonLaw(), softening.Thornton(), SOLID, (0.3, 0.8, 1.3, 3.0, 4.6)),
+    (carom.dem.ThorntonLaw(), softening.Thornton(), LIGHT, (0.3, 0.8, 1.5, 3.5)),
+    (
+        carom.dem.WaltonBraunLaw(),
+        softening.Walton(1.0, KAPPA * softening.K_1),
+        SOLID,
+        (0.3, 0.8, 1.3, 3.0),
+    ),
+    (
+        carom.dem.WaltonBraunLaw(),
+        softening.Walton(1.0, KAPPA * softening.K_1),
+        LIGHT,
+        (0.3, 1.5, 3.5),
+    ),
+    (
+        carom.dem.WaltonBraunLaw(restitution=0.7),
+        softening.Walton(0.7, KAPPA * softening.K_1),
+        SOLID,
+        (0.3, 1.3, 3.0),
+    ),
+    (
+        carom.dem.WaltonBraunLaw(0.5, 0.7),
+        softening.Walton(0.7, 0.5 * softening.K_1),
+        LIGHT,
+        (0.3, 1.5),
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("law", "twin", "ratio", "psi"), SOFTENING, ids=[f"{each[0]}-{each[2]}" for each in SOFTENING]
+)
+def test_law_is_what_the_paper_defines(law, twin, ratio, psi):
+    expected = [softening.rebound(twin, each, ratio) for each in psi]
+    found = law.rebound(psi, KAPPA / 2 * ratio, kappa=KAPPA)
+    assert np.allclose(found, expected, rtol=0.0, atol=5e-8)
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.7])
+def test_walton_braun_all_but_slides(restitution):
+    """While N grows T keeps up with it: K_0 theta V_x = mu dN/dt, 1 - T/(mu N) = (cos t/psi)^3."""
+    psi, chi = 20.0, 1.4
+    missing = quad(lambda c: 2 * chi * (c / (psi - 2 * chi * (1 - c))) ** 3, 0, 1)[0]
+    out = carom.dem.WaltonBraunLaw(restitution=restitution).rebound(psi, chi)
+    assert out - (psi - 2 * chi * (1 + restitution)) == pytest.approx(missing, rel=0.01)

@@ -8,7 +8,7 @@ import pytest
 
 import carom
 from carom.dem import ContactStep
-from carom.dem.status import LawStatus
+from carom.status import LawStatus
 
 CHI = 1.4412
 PSI = np.array([-3.0, 0.1, 0.75, 1.0, 1.5, 3.0, 4.6, 6.0, 9.0])

@@ -7,6 +7,7 @@ half the change of u.
 
 import numpy as np
 import pytest
+from tests.convergence.test_halfspace_mindlin import share, shifted
 
 from carom.halfspace.compliance import Materials
 from carom.halfspace.quasistatic import Patch
@@ -22,16 +23,7 @@ def first(u):
 
 def driven(shifts):
     """Return the patch and its steps at depth 1."""
-    patch = Patch.across(ELEMENTS, Materials(1.0))
-    state, steps = patch.advance(patch.untouched(), 1.0, np.zeros(3)).state, []
-    for shift in shifts:
-        steps.append(patch.advance(state, 1.0, np.array([shift, 0.0, 0.0])))
-        state = steps[-1].state
-    return patch, steps
-
-
-def share(step):
-    return step.state.traction[0].sum() / step.state.pressure.sum()
+    return shifted(ELEMENTS, Materials(1.0), *shifts)
 
 
 @pytest.mark.parametrize("top", [0.3, 0.7])

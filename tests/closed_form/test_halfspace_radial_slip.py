@@ -26,8 +26,7 @@ def pull(drift):
     return float(np.sum(0.5 * weights * 3.0 * s**2 * (x / np.hypot(x, y)).mean(axis=1)))
 
 
-@pytest.mark.parametrize("drift", [0.1, 0.3, 0.6, 2.0])
-@pytest.mark.parametrize("beta", [1e-2, -1e-2])
+@pytest.mark.parametrize(("beta", "drift"), [(1e-2, 0.1), (-1e-2, 0.3), (1e-2, 0.6), (-1e-2, 2.0)])
 def test_force_under_radial_slip(beta, drift):
     friction = abs(beta) / RATIO
     patch = Patch.across(16, Materials(0.8, beta, friction))

@@ -26,8 +26,8 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
+from tests.oracles.punches import moment, moment_of, traction_of, turn_of
 
 from carom.halfspace.compliance import Materials
 from carom.halfspace.quasistatic import Patch
@@ -36,28 +36,6 @@ RADII = np.array([0.95, 0.85, 0.6, 0.3])  # of stick, one after the other
 GRIDS = (12, 24, 48)
 NUS = (0.0, 0.4)
 GROSS = pi / 4.0  # M where all slips: (3 pi/16) P
-
-
-def turn_of(c):
-    return 2.0 / pi * (ellipk(1.0 - c * c) - ellipe(1.0 - c * c))
-
-
-def moment_of(c):
-    return 16.0 / (3.0 * pi) * quad(lambda s: s * s * ellipe(1.0 - s * s), c, 1.0)[0]
-
-
-def moment(turn):
-    """Return M for a turn from rest."""
-    return moment_of(brentq(lambda c: turn_of(c) - turn, 1e-9, 1.0)) if turn else 0.0
-
-
-def traction_of(r, c):
-    """Return q at a radius, as the discs add up; the root of s^2 - r^2 is what is integrated."""
-
-    def discs(root):
-        return ellipe(1.0 - r * r - root * root) / (r * r + root * root)
-
-    return 4.0 / pi**2 * r * quad(discs, sqrt(max(c * c - r * r, 0.0)), sqrt(1.0 - r * r))[0]
 
 
 def driven(elements, nu, path, punch=False):

@@ -6,13 +6,11 @@ integral of chi/(t - x) over -1 < t < 1 (Spence 1968, Proc. R. Soc. A 305:55). E
 """
 
 from functools import partial
-from math import asin, atanh, cosh, log, pi, sqrt
+from math import log, pi, sqrt
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
-from scipy.optimize import brentq
-from scipy.special import ellipk
+from tests.oracles.punches import depth_of_sphere, stick_radius, stiffening
 
 from carom.halfspace.compliance import Materials
 from carom.halfspace.quasistatic import Patch
@@ -20,46 +18,6 @@ from carom.halfspace.transforms import Mirrors
 
 HERTZ = 4.0 / 3.0
 ROUGH = 100.0  # friction under which nothing slips
-
-
-def stiffening(beta):
-    """Return the force under a flat punch that sticks over that without friction.
-
-    artanh(beta)/beta, for a rigid punch (1 - nu) ln(3 - 4 nu)/(1 - 2 nu) (Mossakovski 1963, J.
-    Appl. Math. Mech. 27:630).
-    """
-    return atanh(beta) / beta
-
-
-def depth_of_sphere(beta):
-    """Return d/a^2 of a paraboloid that sticks from first touch; 1 without friction.
-
-    It is laid as punches of growing radius. Outside one, u_z = 2 A times the integral of
-    cos(theta ln((1 + t)/(1 - t)))/sqrt(r^2 - t^2), tanh pi theta = beta, A = cosh(pi theta)/pi;
-    at the edge all of them add to d - a^2/2.
-    """
-    theta = atanh(beta) / pi
-
-    def reached(t):
-        wave = np.cos(theta * log((1.0 + t) / (1.0 - t)))
-        return wave * (asin(t) - t * sqrt(1.0 - t * t)) / t**3
-
-    outside, _ = quad(reached, 1e-3, 1.0, limit=400)
-    return 0.5 / (1.0 - 2.0 * cosh(pi * theta) / pi * (outside + 2e-3 / 3.0))
-
-
-def stick_radius(ratio):
-    """Return c/a where tractions do not change the pressure: beta and friction in a small ratio.
-
-    (a/2c) ln((a + c)/(a - c)) = (friction/beta) K(sqrt(1 - c^2/a^2)): there phi of what sticks
-    meets phi of q = friction p outside; the same for profiles of any power (Spence 1975, J.
-    Elasticity 5:297).
-    """
-
-    def missing(c):
-        return ratio * log((1.0 + c) / (1.0 - c)) / (2.0 * c) - ellipk(1.0 - c * c)
-
-    return brentq(missing, 1e-9, 1.0 - 1e-13)
 
 
 def indented(elements, steps, materials):
@@ -117,11 +75,11 @@ def test_sphere_that_sticks(beta):
     assert np.all(held(step) == step.touching)
 
 
-@pytest.mark.parametrize("ratio", [3.0, 2.0, 1.0])
+@pytest.mark.parametrize("ratio", [3.0, 1.0])
 def test_stick_radius(ratio):
     """With beta and friction of 1 % or so the traction leaves the pressure as it is: Goodman 1962.
 
-    c/a is 0.20, 0.49 and 0.90; a mean over the loading, in which it is constant.
+    c/a is 0.20 and 0.90; a mean over the loading, in which it is constant.
     """
     patch, found = Patch.across(48, Materials(0.8, 0.01 * ratio, 0.01), Mirrors(y=True)), []
     state = patch.untouched()

@@ -9,7 +9,7 @@ from carom.dem.coefficients import ELASTIC_PULL
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.hertz import DURATION
 
-PSI, CHIS = np.linspace(0.0, 6.0, 64), (1.0, 1.2, 1.4412, 1.75)
+PSI, CHIS = np.linspace(0.0, 6.0, 64), (1.0, 1.75)
 
 
 def worst(springs, steps, e=1.0):
@@ -44,18 +44,18 @@ def test_errors_are_within_the_range_of_chi_that_is_stated(springs, chis, promis
     """1/N^2 up to chi = 2.5, 8/N^2 up to 10, at the ends of the range and at random in between."""
     rng = np.random.default_rng(springs)
     law, largest = carom.dem.ExactContactLaw(springs), 0.0
-    for chi in (*chis, *np.exp(rng.uniform(*np.log(chis), 10))):
-        psi = np.linspace(0.0, 4.0 * chi + 0.5, 101)
+    for chi in (*chis, *np.exp(rng.uniform(*np.log(chis), 3))):
+        psi = np.linspace(0.0, 4.0 * chi + 0.5, 61)
         largest = max(largest, np.abs(law.rebound(psi, chi) - carom.rebound(psi, chi)).max())
     assert 0.5 * promised < largest * springs**2 <= promised
 
 
 @pytest.mark.parametrize("e", [1.0, 0.7])
 def test_the_order_is_the_second_in_steps_and_springs(e):
-    by_steps = [worst(1024, steps, e) for steps in (25, 400)]
-    assert np.log2(by_steps[0] / by_steps[1]) / 4.0 > 1.9
-    by_springs = [worst(springs, 2000, e) for springs in (16, 128)]
-    assert np.log2(by_springs[0] / by_springs[1]) / 3.0 > 1.8
+    by_steps = [worst(512, steps, e) for steps in (25, 200)]
+    assert np.log2(by_steps[0] / by_steps[1]) / 3.0 > 1.9
+    by_springs = [worst(springs, 1000, e) for springs in (16, 64)]
+    assert np.log2(by_springs[0] / by_springs[1]) / 2.0 > 1.8
 
 
 def left_with(phase, steps, alpha, psi=3.0, chi=1.4412):
@@ -134,13 +134,6 @@ def test_losses_in_compression_alone_leave_shear_elastic():
     exact = carom.rebound(0.9, 1.4412, losses=carom.KelvinVoigt(0.7))
     assert both == pytest.approx(exact, abs=1e-3)
     assert abs(one - exact) > 0.02
-
-
-def test_it_is_first_in_the_ranking():
-    ranking = carom.verify.rank()
-    assert ranking.standings[0].entry.law == carom.dem.ExactContactLaw(32)
-    assert ranking.standings[0].max_error < 1e-3
-    assert ranking.standings[0].force_error < 5e-3
 
 
 @pytest.mark.parametrize("springs", [4, 4100, 33, 32.5, "many", None])

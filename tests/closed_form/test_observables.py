@@ -7,7 +7,7 @@ import pytest
 
 import carom
 from carom import HalfSpace, Material, Pair, Sphere
-from carom.bodies.kinematics import Rebound, Tangential
+from carom.bodies.kinematics import Rebound
 from carom.datasets.observables import BEFORE, IMPULSE, NAMES, OBSERVABLES, convert_observables
 
 STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
@@ -112,10 +112,10 @@ def names_of(pair, names):
 def test_every_quantity_is_that_of_bodies_followed_one_by_one(name):
     pair, truth = impacts(name)
     assert set(truth) == set(NAMES)
-    before = Tangential(truth["tangential_speed"], truth["spin"], truth["spin2"])
+    before = [truth[name] for name in ("normal_speed", "tangential_speed", "spin", "spin2")]
     push = pair.normal_mass * (1 + truth["normal_restitution"]) * truth["normal_speed"]
     impulse = truth["impulse_ratio"] * push
-    rebound = Rebound(pair, truth["normal_speed"], before, truth["normal_restitution"], impulse)
+    rebound = Rebound(pair, *before, truth["normal_restitution"], impulse)
     for key, values in truth.items():
         np.testing.assert_allclose(getattr(rebound, key), values, rtol=1e-11, atol=1e-13)
 

@@ -22,7 +22,7 @@ from carom.verify.scoring import score
 STUDIES = Path(__file__).parents[2] / "studies"
 sys.path.insert(0, str(STUDIES))
 
-from pack_references import ERROR, references, uncertain  # noqa: E402
+from pack_references import ERROR, references, uncertain, unit_tests  # noqa: E402
 
 SETS = (
     "wall",
@@ -38,7 +38,7 @@ SETS = (
 HISTORIES = ("normal", "stick_first", "slip_then_stick", "slip_back", "gross_slip")
 NUMBERS = ("reference.csv", "results.csv", "case.toml")
 DIGESTS = {"1": "779e70d5676c3fe238efa871ab6f371b1da69c3ed07638c87d5383ff87faaa88"}
-# psi_1, chi, psi_2: computed with 52 digits by tests/high_precision/impact_solver.py
+# psi_1, chi, psi_2: computed with 52 digits by tests/oracles/impact_solver.py
 DIGITS = [
     (0.5, 0.875, "-0.35191335345597793398"),
     (0.95, 1.0, "-0.59316152455702849548"),
@@ -114,6 +114,18 @@ def test_frozen_numbers_are_those_computed():
             wide = frozen.numbers(name) - table.numbers(name)  # two digits, rounded up
             assert np.all(np.abs(wide) <= 0.1 * table.numbers(name)), (path, name)
     assert len(computed) == 18
+
+
+def test_frozen_tests_of_lammps_are_those_computed():
+    """Word by word, and numbers to a few units of their last digits: powers differ by machine."""
+    computed = unit_tests()
+    assert len(computed) == 7
+    for path, text in computed.items():
+        for word, frozen in zip(text.split(), frozen_files()[path].split(), strict=True):
+            try:
+                assert float(frozen) == pytest.approx(float(word), rel=1e-13, abs=1e-25), path
+            except ValueError:
+                assert frozen == word, path
 
 
 @pytest.mark.parametrize(("psi", "chi", "digits"), DIGITS)

@@ -109,8 +109,8 @@ def test_long_impacts_are_recorded_whole(psi, chi):
 @pytest.mark.parametrize(
     ("psi", "chi", "name"),
     [
-        *[((1j,), (1.0,), "psi"), (("a",), (1.0,), "psi"), ((0.5,), ("1",), "chi")],
-        *[({}, 1.0, "psi"), ([[1.0], [2.0, 3.0]], 1.0, "psi"), (0.5, [1.44, None, "x"], "chi")],
+        *[((1j,), (1.0,), "psi_1"), (("a",), (1.0,), "psi_1"), ((0.5,), ("1",), "chi")],
+        *[({}, 1.0, "psi_1"), ([[1.0], [2.0, 3.0]], 1.0, "psi_1"), (0.5, [1.44, None, "x"], "chi")],
     ],
 )
 def test_refuses_what_is_not_a_number(psi, chi, name):
@@ -119,7 +119,7 @@ def test_refuses_what_is_not_a_number(psi, chi, name):
 
 
 def test_refuses_shapes_that_do_not_fit():
-    message = r"^psi, chi: the shapes \(3,\) and \(2,\) do not fit each other; give numbers"
+    message = r"^psi_1, chi: the shapes \(3,\) and \(2,\) do not fit each other; give numbers"
     with pytest.raises(ValueError, match=message):
         carom.rebound([1.0, 2.0, 3.0], [1.0, 2.0])
 
@@ -130,7 +130,7 @@ def test_refuses_a_number_of_threads_that_is_none(threads):
         carom.rebound(0.5, 1.44, threads=threads)
 
 
-@pytest.mark.parametrize(("psi", "chi", "name"), [(np.nan, 1.0, "psi"), (0.5, -2.0, "chi")])
+@pytest.mark.parametrize(("psi", "chi", "name"), [(np.nan, 1.0, "psi_1"), (0.5, -2.0, "chi")])
 def test_solve_refuses_what_is_out_of_range(psi, chi, name):
     with pytest.raises(ValueError, match=f"^{name}: .*not allowed"):
         carom.solve(psi, chi)
@@ -139,7 +139,7 @@ def test_solve_refuses_what_is_out_of_range(psi, chi, name):
 @pytest.mark.parametrize(
     ("psi", "chi", "name"),
     [
-        *[([1, 2], 1.44, "psi"), ("a", 1.44, "psi"), (np.zeros((3, 40)), 1.44, "psi")],
+        *[([1, 2], 1.44, "psi_1"), ("a", 1.44, "psi_1"), (np.zeros((3, 40)), 1.44, "psi_1")],
         *[(0.5, None, "chi"), (0.5, [1.0, 2.0], "chi")],
     ],
 )

@@ -2,7 +2,7 @@
 
 import pytest
 
-from carom.halfspace.refinement import Resolution, refinement_error
+from carom.halfspace.solution import Resolution, refinement_error
 
 
 @pytest.mark.parametrize("order", [1.0, 1.5, 2.0, 3.0])

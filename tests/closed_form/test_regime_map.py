@@ -38,10 +38,10 @@ def test_progress_counts_the_rows():
 @pytest.mark.parametrize(
     ("psi", "chi", "named"),
     [
-        ([], [1.0], "psi"),
-        ([np.nan], [1.0], "psi"),
-        ([[1.0]], [1.0], "psi"),
-        ("fast", [1.0], "psi"),
+        ([], [1.0], "psi_1"),
+        ([np.nan], [1.0], "psi_1"),
+        ([[1.0]], [1.0], "psi_1"),
+        ("fast", [1.0], "psi_1"),
         ([1.0], [], "chi"),
         ([1.0], [1.0, 0.0], "chi"),
     ],

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from tests.closed_form.test_scores import forces, velocities, viscous
 
 import carom
 from carom.impacts.curves import REGIMES
@@ -21,70 +22,8 @@ BODIES = {
 MOTION = {"speed": 2.0, "angle": "35 deg", "spin": 50.0}
 
 
-def viscous(e):
-    return carom.KelvinVoigt(restitution=e)
-
-
 def curve(psi, e):
     return {"psi_1": psi, "psi_2": carom.rebound(psi, CHI, losses=viscous(e))}
-
-
-def velocities(e, number=12):
-    rng = np.random.default_rng(1)
-    hits = [
-        carom.impact(
-            PAIR,
-            speed=rng.uniform(0.1, 5.0),
-            angle=rng.uniform(0.0, 1.4),
-            spin=rng.uniform(-300.0, 300.0),
-            losses=viscous(e),
-        )
-        for _ in range(number)
-    ]
-    names = ("normal_speed", "tangential_speed", "spin", "tangential_speed_out", "spin_out")
-    found = {name: [getattr(hit, name) for hit in hits] for name in names}
-    return found | {"normal_speed_out": [e * hit.normal_speed for hit in hits]}
-
-
-def forces(hit, rows=31, shift=0.4):
-    """Exact forces at instants that miss the first and the last touch, in a record around them."""
-    times = (np.arange(rows) + shift) / rows * hit.duration
-    state = hit.solution.at(times / hit.scales.time)
-    before = times[0] - np.arange(4.0, 0.0, -1.0) * times[1]
-    after = times[-1] + np.arange(1.0, 4.0) * times[1]
-    found = {
-        "normal_force": state.normal_force * hit.scales.force,
-        "tangential_force": state.force * hit.scales.tangential_force,
-    }
-    columns = {n: np.concatenate([np.zeros(4), f, np.zeros(3)]) for n, f in found.items()}
-    return columns | {"time": 1.0 + np.concatenate([before, times, after])}
-
-
-@pytest.mark.parametrize("e", [0.95, 0.7, 0.3])
-def test_exact_results_score_zero(e):
-    psi = np.linspace(-7.0, 7.0, 41)
-    results = (
-        score(curve(psi, e), chi=CHI, restitution=e),
-        score(velocities(e), case=PAIR, restitution=e),
-    )
-    for result in results:
-        assert result.passed
-        assert result.restitution == e
-        assert result.max_error <= 1e-11 * np.abs(result.points.psi_in).max()
-        assert max(finding.value for finding in result.audit) <= 1e-9
-        assert result.notes == ()
-
-
-@pytest.mark.parametrize("e", [0.9, 0.5])
-@pytest.mark.parametrize("angle", ["5 deg", "35 deg", "80 deg"])
-def test_exact_histories_score_zero(angle, e):
-    hit = carom.impact(PAIR, speed=2.0, angle=angle, spin=50.0, losses=viscous(e))
-    result = score(forces(hit), case=hit)
-    assert result.passed
-    assert result.restitution == e
-    assert result.max_error <= 1e-8
-    assert {f.name for f in result.audit if f.value > 1e-8} == set()
-    assert result.forces.samples.touch == pytest.approx(1.0, abs=1e-8 * hit.duration)
 
 
 def test_sliding_throughout_is_known_in_closed_form():
@@ -126,7 +65,7 @@ def test_a_damped_law_has_the_error_of_the_ranking():
 
 
 def test_another_restitution_is_named():
-    given = velocities(0.7)
+    given = velocities(PAIR, 0.7)
     result = score(given, case=PAIR, restitution=0.8)
     (audit,) = (f for f in result.audit if f.name == "restitution error")
     assert audit.value == pytest.approx(0.1, abs=1e-12)
@@ -181,5 +120,5 @@ def test_the_results_tell_the_restitution_as_well(tmp_path):
 )
 def test_what_cannot_be_compared_is_refused(given, message):
     with pytest.raises(carom.InputError) as error:
-        score(velocities(0.9, number=3), **given)
+        score(velocities(PAIR, 0.9, number=3), **given)
     assert message in str(error.value)

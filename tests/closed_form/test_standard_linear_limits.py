@@ -5,7 +5,7 @@ import pytest
 
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.rebounds import lossy_rebounds
 
 
 def impacts():

@@ -8,11 +8,11 @@ import carom
 
 RNG = np.random.default_rng(4)
 TOUCH = [
-    (p, c) for p, c in zip(RNG.uniform(0, 1, 25), 10 ** RNG.uniform(-1.3, 1.78, 25), strict=True)
+    (p, c) for p, c in zip(RNG.uniform(0, 1, 10), 10 ** RNG.uniform(-1.3, 1.78, 10), strict=True)
 ]
 SLIDES = [
     (1 + (2 * c - 1) * p, c)
-    for p, c in zip(RNG.uniform(0, 1, 25), RNG.uniform(0.6, 10, 25), strict=True)
+    for p, c in zip(RNG.uniform(0, 1, 10), RNG.uniform(0.6, 10, 10), strict=True)
 ]
 
 

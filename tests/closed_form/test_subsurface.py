@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests.oracles.point_forces import boussinesq, cerruti, summed
 
 from carom.dimensionless.fields import subsurface
 from carom.dimensionless.fields.profile import coefficients, flat, radii, stacked
@@ -73,40 +74,6 @@ def test_traction_on_the_surface(profile, traction):
         smooth &= np.abs(r - STICK) > 1e-9
         assert stress[smooth, 4] == pytest.approx(-FRICTION * traction(r[smooth]), abs=1e-12)
         assert np.abs(stress[:, 5]).max() == 0.0
-
-
-def boussinesq(x, y, z, poisson):
-    """Return 2 pi times the stress due to a unit force into the body (Johnson 1985, 3.2)."""
-    r, distance = np.hypot(x, y), np.sqrt(x * x + y * y + z * z)
-    soft = (1.0 - 2.0 * poisson) * (1.0 - z / distance) / r**2
-    radial = soft - 3.0 * z * r**2 / distance**5
-    hoop = (1.0 - 2.0 * poisson) * z / distance**3 - soft
-    shear = -3.0 * z**2 / distance**5
-    c, s = x / r, y / r
-    inplane = [radial * c * c + hoop * s * s, radial * s * s + hoop * c * c]
-    return np.array([*inplane, z * shear, (radial - hoop) * c * s, x * shear, y * shear])
-
-
-def cerruti(x, y, z, poisson):
-    """Return 2 pi times the stress due to a unit force along x (Johnson 1985, 3.6)."""
-    distance = np.sqrt(x * x + y * y + z * z)
-    t = 1.0 / (distance + z)
-    more = t * t / distance**2 * (1.0 / distance + 2.0 * t)
-    xx = x * (1.0 / distance**3 - 3.0 * t * t / distance + x * x * more)
-    yy = x * (1.0 / distance**3 - t * t / distance + y * y * more)
-    xy = y * (x * x * more - t * t / distance)
-    pulled = np.array([x * x, y * y, 0 * x + z * z, x * y, x * z, y * z]) * (-3.0 * x / distance**5)
-    return pulled + (1.0 - 2.0 * poisson) * np.array([xx, yy, 0 * x, xy, 0 * x, 0 * x])
-
-
-def summed(kernel, at, poisson, weight, radius=1.0):
-    """Integrate weight(r) sqrt(radius^2 - r^2) times a point force's stress over a disc."""
-    nodes, weights = np.polynomial.legendre.leggauss(80)
-    t = np.pi / 4 * (1.0 + nodes)
-    r, angle = np.meshgrid(radius * np.sin(t), 2.0 * np.pi * (np.arange(160) + 0.5) / 160)
-    area = np.pi / 4 * weights * r * radius**2 * np.cos(t) ** 2 * 2.0 * np.pi / 160
-    values = kernel(at[0] - r * np.cos(angle), at[1] - r * np.sin(angle), at[2], poisson)
-    return (values * area * weight(r)).sum(axis=(1, 2)) / (2.0 * np.pi)
 
 
 def one(r):
@@ -238,20 +205,3 @@ def test_near_the_edges(depth, monkeypatch):
         subsurface.turn(expected, parts, 0.6, 0.8, FRICTION)
         stress = stresses([at], CURVED, friction=FRICTION, poisson=0.3)[0]
         assert stress == pytest.approx(expected, abs=3e-13)
-
-
-def test_compiled_equals_uncompiled():
-    """Kernels give what their Python gives."""
-    arguments = (0.5, 0.2, 0.2 + 0.7j, 0.5 + 0.3j, 0.3, 0.4, 0.6)
-    found, plain = np.zeros((2, subsurface.PARTS))
-    subsurface.add_point(found, *arguments)
-    subsurface.add_point.py_func(plain, *arguments)
-    assert found == pytest.approx(plain, abs=1e-14)
-    for way, z in [(subsurface.BELOW, 0.2), (subsurface.INSIDE, 0.0), (subsurface.OUTSIDE, 0.0)]:
-        s = 0.3 if way == subsurface.INSIDE else 0.9
-        u = subsurface.way_to(way, 0.5, z, s)
-        assert u == pytest.approx(subsurface.way_to.py_func(way, 0.5, z, s), abs=1e-15)
-        found = subsurface.along(way, 0.5, z, u)
-        assert found[0] == pytest.approx(s, abs=1e-15)
-        assert found[1] ** 2 == pytest.approx(0.25 + (z + 1j * s) ** 2, abs=1e-15)
-        assert found == pytest.approx(subsurface.along.py_func(way, 0.5, z, u), abs=1e-15)

@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.elastic import slip
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import coefficients, flat, radii, stacked
-from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.chebyshev import evaluate
 
 IMPACTS = [
@@ -109,56 +107,6 @@ def test_cattaneo_is_sliding_minus_sliding_of_the_stick_zone():
     stick = r < a
     assert np.ptp(sampled(ring, b**2, r)[3][stick]) <= 1e-15
     assert np.max(np.abs(sampled(ring, b**2, r)[4][stick])) <= 1e-15
-
-
-@pytest.mark.parametrize(("psi", "chi"), IMPACTS)
-def test_slip_is_the_change_of_shift_since_the_points_met(psi, chi):
-    """Integrating the slip rate over time gives [U - u] between touch and now."""
-    solution = carom.solve(psi, chi)
-    rng = np.random.default_rng(3)
-    for place in (0.2, 0.45, 0.5, 0.505, 0.52, 0.7, 0.95):
-        time = place * solution.duration
-        now = solution.at(time)
-        edge = now.contact_radius[0]
-        beside = edge * (1.0 - np.array([2e-3, 5e-4, 1e-6]))  # touched last of all
-        r = np.sort(np.append(rng.uniform(0.0, edge, 6), beside))
-        slid = solution.slid(time, r)
-        touched = [hertz.time(at**2, np.sqrt(1.0 - at**5)) for at in r]
-        for at, touch, ours in zip(r, touched, slid, strict=True):
-            after, before = (
-                np.array(surface.displacement(solution.memory(t).profile(), at))
-                for t in (time, touch)
-            )
-            moved = now.displacement[0] - solution.at(touch).displacement[0]
-            twin = np.array([moved, 0.0]) * 1.0 - (after - before) * np.array([1.0, -1.0])
-            assert np.max(np.abs(ours - twin)) <= 3e-12
-    assert np.all(solution.slid(0.95 * solution.duration, [0.99]) == 0.0)
-
-
-def test_slip_turns_from_the_traction_by_no_more_than_the_bound():
-    """The largest angle in a ring is arcsin(nu/(2 - nu)), met at its front; none in gross slip."""
-    shapes = np.array([surface.slip_shape(0.6, r) for r in 0.6 + np.geomspace(1e-9, 0.4, 60)])
-    theta = np.linspace(0.0, np.pi / 2, 721)[:, np.newaxis]
-    mean, lateral = shapes[:, 0], NU_RATIO * shapes[:, 1]
-    angle = np.arctan2(lateral * np.sin(2 * theta), mean - lateral * np.cos(2 * theta))
-    bound = np.arcsin(NU_RATIO)
-    assert np.all(angle <= bound + 1e-12)
-    assert abs(angle[:, 0].max() - bound) <= 1e-4
-    assert np.all(np.diff(angle.max(axis=0)) < 0.0)
-    power, turned = slip.directions(np.array([0.0, 0.3, 0.9, 0.999]), NU_RATIO)
-    means = turned / power
-    assert means[0] <= 1e-15
-    assert np.all(np.diff(means) > 0.0)
-    # in a ring much thinner than b, weighted by w_x
-    weight = 1.0 - NU_RATIO * np.cos(2 * theta)
-    thin = np.arctan2(NU_RATIO * np.sin(2 * theta), 1.0 - NU_RATIO * np.cos(2 * theta))
-    assert (
-        abs(
-            means[-1]
-            - np.trapezoid(weight * thin, theta, axis=0)[0] / np.trapezoid(weight, theta, axis=0)[0]
-        )
-        <= 2e-4
-    )
 
 
 def test_slip_angles_of_phases():

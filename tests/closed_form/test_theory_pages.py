@@ -21,10 +21,10 @@ from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import flat, stacked
 from carom.dimensionless.fields.subsurface import stresses
 from carom.dimensionless.load_paths import paths
-from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.springs import motion as at
-from carom.dimensionless.lossy.springs.springs import COLUMNS, NEXT, S, step_of, stretched
+from carom.dimensionless.lossy.springs.springs import NEXT, SPRING_COLUMNS, S, step_of, stretched
 from carom.dimensionless.lossy.springs.thornton import bear
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.dimensionless.numerics import hertz
 from carom.halfspace.compliance import Materials
 
@@ -267,7 +267,7 @@ def test_11_losses():
     assert hit.normal_restitution == pytest.approx(e, rel=1e-10)
     assert e == pytest.approx(1.185 * 1e-3**0.25, rel=1e-3)
     y, d = 0.6, 0.9  # the springs that yield bear the load (11.12)
-    springs, motion = np.zeros((COLUMNS, 2001)), np.zeros(at.MOTION)
+    springs, motion = np.zeros((SPRING_COLUMNS, 2001)), np.zeros(at.MOTION)
     springs[S] = np.linspace(0.0, np.sqrt(d), 2001) ** 2
     motion[at.DEPTH] = d
     bear(y, motion, motion, 0.0, springs, 2001)

@@ -5,21 +5,21 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
+from tests.oracles.springs import spring_force
 
 import carom
 from carom.dem.base import ContactLaw
 from carom.verify import advised_steps, error_map, force_error, step_error
-from carom.verify.entries import CATALOGUE
 
 CHI = 1.4412
 KAPPA = 4 * CHI / 7
-CONTACTS = [entry.law for entry in CATALOGUE if isinstance(entry.law, ContactLaw)]
+
+
 STEPPED = (
     carom.dem.LinearSpring(),
     carom.dem.LammpsMindlin("mindlin/force"),
     carom.dem.ThorntonLaw(),
 )
-SLIDING = [law for law in CONTACTS if not isinstance(law, carom.dem.WaltonBraunLaw)]
 
 
 @pytest.fixture(scope="module")
@@ -41,35 +41,6 @@ def test_error_of_hard_spheres_by_hand(beta, wrong):
     by_hand = np.where(slides, law - (psi - 4.0 * chi), 0.0)
     assert np.where(slides, found.error, 0.0) == pytest.approx(by_hand, abs=1e-12)
     assert (np.abs(by_hand) > 0.05).sum() == wrong
-
-
-@pytest.mark.parametrize("law", SLIDING, ids=str)
-def test_elastic_laws_are_exact_in_gross_slip(law):
-    """Beyond 4 chi all of the impulse is friction, 2 mu m V_1, whatever the law. (Walton & Braun's
-    only nears the limit.)"""
-    found = error_map(law, np.array([4.2, 4.5, 6.0, 9.0]) * CHI, [CHI])
-    assert np.abs(found.error.values).max() < 1e-8
-    assert found.psi_out.values[0] == pytest.approx(np.array([0.2, 0.5, 2.0, 5.0]) * CHI, abs=1e-8)
-
-
-def test_walton_and_braun_only_near_the_limit():
-    """T follows mu N at a distance theta^3 = (N'/(k psi))^3 while N grows, here N = 0.8 sin t and
-    k psi = 0.8 psi: by quadrature along the motion of gross slip, psi = psi_1 - 2 chi (1 - cos t).
-    """
-    psi, time = np.array([15.0, 25.0]), np.linspace(0.0, np.pi / 2, 2001)[:, np.newaxis]
-    theta = np.cos(time) / (psi - 2.0 * CHI * (1.0 - np.cos(time)))
-    missed = 2.5 * CHI * np.trapezoid(0.8 * np.sin(time) * theta**3, time, axis=0)
-    found = error_map(carom.dem.WaltonBraunLaw(), psi, [CHI]).error.values[0]
-    assert found == pytest.approx(missed, rel=0.03)
-
-
-@pytest.mark.parametrize("law", [entry.law for entry in CATALOGUE], ids=str)
-def test_maps_have_no_gaps(law):
-    """Every law of the catalogue is solved everywhere between nu = 1/2 and 0, and is odd."""
-    psi = np.linspace(-7.0, 7.0, 9)
-    found = error_map(law, psi, [7 / 6, 7 / 4])
-    assert np.isfinite(found.error).all()
-    assert found.error.values == pytest.approx(-found.error.values[:, ::-1], abs=1e-12)
 
 
 def test_summaries_of_a_map(spring_map):
@@ -124,21 +95,6 @@ def test_steps_and_kappa_reach_the_law():
     assert abs(there[1.0] - there[0.5]) > 0.2
 
 
-def spring_force(psi, chi, count=40_000):
-    """Return equal parts of the duration, T/(mu P_max) of two linear springs, by the midpoint rule.
-
-    With k_n d_max^2 = m V_1^2 the contact is d = sin t, N = 0.8 sin t, 0 < t < pi.
-    """
-    time = np.linspace(0.0, np.pi, count + 1)
-    step, force, forces = time[1], 0.0, [0.0]
-    for limit in 0.8 * np.sin(time[1:]):
-        middle = psi - 0.5 * step * 2.5 * chi * force
-        force = max(-limit, min(limit, force + 0.8 * step * middle))
-        psi -= step * 2.5 * chi * 0.5 * (forces[-1] + force)
-        forces.append(force)
-    return time / np.pi, np.array(forces)
-
-
 def exact_force(psi, chi_wanted):
     """Return parts of the duration and T/(mu P_max) of a steel ball on steel, through SI units."""
     ball = carom.Sphere(radius="5 mm", material="steel")
@@ -167,28 +123,6 @@ def test_force_error_is_that_of_either_direction_and_nothing_for_a_rigid_law():
     law = carom.dem.LammpsMindlin("mindlin_rescale")
     assert force_error(law, -0.75, CHI) == pytest.approx(force_error(law, 0.75, CHI), rel=1e-9)
     assert np.isnan(force_error(carom.dem.HardSphere(0.4), 1.0, CHI)).all()
-
-
-@pytest.mark.parametrize(
-    ("law", "order"),
-    [
-        (carom.dem.LinearSpring(), 2.0),
-        (carom.dem.LammpsMindlin("mindlin"), 2.0),
-        (carom.dem.LammpsMindlin("mindlin/force"), 1.0),
-        (carom.dem.LammpsMindlin("mindlin_rescale"), 1.0),
-        (carom.dem.LammpsMindlin("mindlin_rescale/force"), 1.0),
-        (carom.dem.ThorntonLaw(), 1.0),
-    ],
-    ids=str,
-)
-def test_order_of_the_steps(law, order):
-    """Verlet's error falls with the square of the step where the force is a function of place;
-    only with the step where the force is added up at the end of the step, or scaled after it."""
-    steps = np.array([100, 200, 400, 800, 1600, 3200])
-    errors = [step_error(law, int(n)) for n in steps]
-    slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
-    assert -slope == pytest.approx(order, abs=0.15)
-    assert errors[-1] < 2e-3
 
 
 def test_a_step_error_is_that_of_the_history():

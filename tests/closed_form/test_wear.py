@@ -118,14 +118,13 @@ def test_pressure_over_the_time():
     np.testing.assert_allclose(carom.solve(0.5, 1.44).pressed(radii), known, rtol=1e-9)
 
 
-@pytest.mark.parametrize("angle", ["10 deg", "-20 deg", "30 deg", "65 deg"])
+@pytest.mark.parametrize("angle", ["10 deg", "-20 deg"])
 def test_fields_through_the_impact_add_up_to_the_map(angle):
-    """At five points."""
     hit = carom.impact(PAIR, speed=2.0, angle=angle, spin="20 rad/s")
-    at = POINTS * hit.max_radius
+    at = POINTS[1:4] * hit.max_radius
     worn = hit.wear(x=np.unique(at[:, 0]), y=np.unique(at[:, 1]))
     found = [float(worn.friction_work.sel(x=x, y=y)) for x, y in at]
-    summed = [in_time(hit, point) for point in at]
+    summed = [in_time(hit, point, 15, 16) for point in at]
     np.testing.assert_allclose(found, summed, rtol=0.0, atol=1e-5 * max(summed))
 
 
@@ -140,8 +139,7 @@ def test_fields_of_viscous_bodies_add_up_to_the_map():
     assert float(worn.work_error) < 1e-5
 
 
-@pytest.mark.parametrize("losses", [None, LOSSES])
-@pytest.mark.parametrize("friction", [0.0, 0.1, 0.6])
+@pytest.mark.parametrize(("friction", "losses"), [(0.0, None), (0.1, LOSSES), (0.6, None)])
 def test_profile_and_volume(friction, losses):
     """The mean depth over the contact is the volume, k/mu times the work; at mu = 0 k V_x J_n."""
     pair = carom.Pair(STEEL, PLANE, friction=friction)
@@ -165,7 +163,7 @@ def test_profile_and_volume(friction, losses):
     assert float(worn.max_wear_depth) >= deepest * (1.0 - 1e-9)
 
 
-@pytest.mark.parametrize("angle", [0.3, 1.5, 3.0, 10.0, 35.0])
+@pytest.mark.parametrize("angle", [0.3, 3.0, 35.0])
 @pytest.mark.parametrize("friction", [0.2, 0.6])
 def test_the_largest_wear_is_that_of_a_dense_map(angle, friction):
     """Anywhere in the contact, on the axes of x or y, which a line along each shows."""

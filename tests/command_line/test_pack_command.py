@@ -12,11 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import typer
+from tests.checks import refused
 
 import carom
-from carom.cli.verify.engines import pack_command
-from carom.quantities.refusals import InputError
 from carom.verify.engines.lammps import Lammps
 from carom.verify.pack import VERSION, write_pack
 from carom.verify.pack.collect import collect
@@ -24,13 +22,8 @@ from carom.verify.pack.frozen import read_table
 from carom.verify.scoring import score
 
 SETS = (
-    "wall",
-    "wall_spin",
-    "wall_mixed",
-    "rigid_wall",
-    "equal_spheres",
-    "unequal_sizes",
-    "unequal_materials",
+    *("wall", "wall_spin", "wall_mixed", "rigid_wall"),
+    *("equal_spheres", "unequal_sizes", "unequal_materials"),
 )
 PROGRAMS = ("lammps", "liggghts", "yade")
 
@@ -83,13 +76,10 @@ def test_it_is_small(pack):
     assert all(b"\r" not in text and text.decode() for text in files.values())
 
 
-def test_command_lists_the_files_as_json(tmp_path, capsys):
+def test_command_lists_the_files_as_json(run, tmp_path):
     """All that was written, relative to the folder, and the version."""
     target = tmp_path / "bench"
-    app = typer.Typer()
-    app.command()(pack_command)
-    app([str(target), "--json"], standalone_mode=False)
-    record = json.loads(capsys.readouterr().out)
+    record = json.loads(run("verify", "pack", target, "--json")[1])
     assert record["version"] == VERSION == json.loads((target / "pack.json").read_text())["version"]
     assert set(record["files"]) == set(contents(target))
 
@@ -106,13 +96,10 @@ def test_folders_in_use_are_refused(tmp_path, make, words):
     target = tmp_path / "bench"
     make(target)
     before = contents(tmp_path)
-    with pytest.raises(InputError, match=words):
-        write_pack(target)
+    refused(words, write_pack, target)
     assert contents(tmp_path) == before
-    with pytest.raises(InputError, match="must exist; make it first"):
-        write_pack(tmp_path / "nowhere" / "bench")
-    with pytest.raises(InputError, match="must be the name of a folder"):
-        write_pack(3.0)
+    refused("must exist; make it first", write_pack, tmp_path / "nowhere" / "bench")
+    refused("must be the name of a folder", write_pack, 3.0)
 
 
 def test_a_pack_that_cannot_be_finished_leaves_nothing(tmp_path, monkeypatch):
@@ -125,8 +112,7 @@ def test_a_pack_that_cannot_be_finished_leaves_nothing(tmp_path, monkeypatch):
         return written(path, data)
 
     monkeypatch.setattr(Path, "write_bytes", full)
-    with pytest.raises(InputError, match="No space left"):
-        write_pack(tmp_path / "bench")
+    refused("No space left", write_pack, tmp_path / "bench")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -155,8 +141,8 @@ def test_templates_are_filled_in_and_scored(pack, tmp_path, name):
     with (tmp_path / "mine.csv").open("w", newline="") as file:
         csv.writer(file).writerows([head, *filled])
     assert score(tmp_path / "mine.csv", case=folder / "case.toml", tolerance=1e-8).passed
-    with pytest.raises(InputError, match="normal_speed_out: not a number"):
-        score(folder / "results.csv", case=folder / "case.toml")
+    words = "normal_speed_out: not a number"
+    refused(words, score, folder / "results.csv", case=folder / "case.toml")
 
 
 @pytest.mark.parametrize("name", SETS)
@@ -181,8 +167,7 @@ def test_each_set_has_inputs_of_each_program(pack, name):
 def test_collecting_what_yade_leaves(copy):
     """Outcomes that are exact pass the scorer by way of results.csv."""
     folder, answers = copy / "wall_mixed" / "yade", exact(copy / "wall_mixed")
-    with pytest.raises(InputError, match=r"YADE has left no results .*; run it first"):
-        collect(folder)
+    refused(r"YADE has left no results .*; run it first", collect, folder)
     columns = ("tangential_speed_out", "normal_speed_out", "spin_out")
     drift, normal, spin = (answers[name] for name in columns)
     rows = np.column_stack([np.zeros(49), np.full(49, 0.0051), drift, normal, -spin])
@@ -194,11 +179,9 @@ def test_collecting_what_yade_leaves(copy):
 
 def test_collecting_elsewhere_is_refused(copy):
     """Only in the folder of a program, in a set."""
-    with pytest.raises(InputError, match="must be one of lammps, liggghts, yade"):
-        collect(copy / "wall")
+    refused("must be one of lammps, liggghts, yade", collect, copy / "wall")
     (copy / "wall" / "results.csv").unlink()
-    with pytest.raises(InputError, match="its set is not whole"):
-        collect(copy / "wall" / "lammps")
+    refused("its set is not whole", collect, copy / "wall" / "lammps")
 
 
 @pytest.mark.engine

@@ -2,14 +2,15 @@
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.checks import refused
 
 import carom
 from carom.bodies.cases import case_of
-from carom.cli import main
 
 CHI = 1.4412
 PSI = np.array([0.1, 0.5, 1.0, 2.0, 4.0, 6.0])
@@ -24,15 +25,18 @@ material = "steel"
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "ball.toml").write_text(CASE)
+def folder(run):
+    Path("ball.toml").write_text(CASE)
+
+
+@pytest.fixture
+def score(run):
+    """Return exit code, output and errors of a score."""
+    return partial(run, "verify", "score")
 
 
 @pytest.fixture(scope="module")
-def hit():
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+def struck(pair):
     return carom.impact(pair, speed=2.0, angle="35 deg")
 
 
@@ -40,16 +44,8 @@ def table(columns, name="results.csv"):
     """Write columns as CSV and return the name of the file."""
     rows = zip(*columns.values(), strict=True)
     lines = [",".join(columns), *(",".join(map(str, row)) for row in rows)]
-    with open(name, "w") as stream:
-        stream.write("\n".join(lines) + "\n")
+    Path(name).write_text("\n".join(lines) + "\n")
     return name
-
-
-def run(capsys, *arguments):
-    """Return exit code, output and errors of a score."""
-    code = main(["verify", "score", *arguments])
-    shown = capsys.readouterr()
-    return code, shown.out, shown.err
 
 
 def psi_columns(added=0.0):
@@ -57,33 +53,32 @@ def psi_columns(added=0.0):
 
 
 @pytest.mark.parametrize(("added", "code", "word"), [(0.009, 0, "PASS"), (0.011, 1, "FAIL")])
-def test_exit_code_is_the_verdict(capsys, added, code, word):
+def test_exit_code_is_the_verdict(score, added, code, word):
     """0.01 of psi_2, the tolerance by default, lies between; another one turns it."""
     file = table(psi_columns(added))
-    found, out, err = run(capsys, file, "--chi", str(CHI))
+    found, out, err = score(file, "--chi", str(CHI))
     assert (found, err) == (code, "")
     assert out.strip().splitlines()[-1].startswith(f"{word}: max |error in psi_2| = {added}")
-    assert run(capsys, file, "--chi", str(CHI), "--tolerance", "0.02")[0] == 0
-    assert run(capsys, file, "--chi", str(CHI), "--tolerance", "0.001")[0] == 1
+    assert score(file, "--chi", str(CHI), "--tolerance", "0.02")[0] == 0
+    assert score(file, "--chi", str(CHI), "--tolerance", "0.001")[0] == 1
 
 
-def test_damped_results_are_compared_with_what_loses_as_much(capsys):
+def test_damped_results_are_compared_with_what_loses_as_much(score):
     damped = {"psi_1": PSI, "psi_2": carom.rebound(PSI, CHI, losses=carom.KelvinVoigt(0.8))}
     file = table(damped)
-    assert run(capsys, file, "--chi", str(CHI))[0] == 1
-    code, out, _ = run(capsys, file, "--chi", str(CHI), "--restitution", "0.8", "--json")
+    assert score(file, "--chi", str(CHI))[0] == 1
+    code, out, _ = score(file, "--chi", str(CHI), "--restitution", "0.8", "--json")
     told = json.loads(out)
     assert (code, told["passed"], told["restitution"]) == (0, True, 0.8)
-    with open("damped.toml", "w") as stream:
-        stream.write("restitution = 0.8\n" + CASE)
-    code, out, _ = run(capsys, file, "--case", "damped.toml", "--json")
+    Path("damped.toml").write_text("restitution = 0.8\n" + CASE)
+    code, out, _ = score(file, "--case", "damped.toml", "--json")
     assert json.loads(out)["restitution"] == 0.8
 
 
-def test_table_tells_points_phases_and_audit(capsys):
+def test_table_tells_points_phases_and_audit(score):
     columns = psi_columns()
     columns["psi_2"][2] = 1.5
-    _, out, _ = run(capsys, table(columns), "--chi", str(CHI))
+    _, out, _ = score(table(columns), "--chi", str(CHI))
     (line,) = (text for text in out.splitlines() if text.split()[:2] == ["4", "1"])
     assert float(line.split()[3]) == 1.5
     assert float(line.split()[5]) == pytest.approx(1.5 - carom.rebound(1.0, CHI), rel=1e-3)
@@ -91,9 +86,9 @@ def test_table_tells_points_phases_and_audit(capsys):
     assert "energy is gained in line 4: 1.25 in psi^2" in out
 
 
-def test_json_holds_the_same(capsys):
+def test_json_holds_the_same(score):
     columns = psi_columns(0.02)
-    code, out, _ = run(capsys, table(columns), "--chi", str(CHI), "--json")
+    code, out, _ = score(table(columns), "--chi", str(CHI), "--json")
     record = json.loads(out)
     assert (code, record["passed"], record["failures"]) == (1, False, ["psi_2"])
     np.testing.assert_allclose(record["points"]["error"], 0.02, rtol=1e-10)
@@ -103,27 +98,26 @@ def test_json_holds_the_same(capsys):
     assert {finding["name"] for finding in record["audit"]} == {"energy gain", "friction impulse"}
 
 
-def test_velocities_and_forces_with_a_case(capsys, hit):
+def test_velocities_and_forces_with_a_case(score, struck):
     """The bodies from the case file; the motion of it only for a history."""
-    hits = [carom.impact(hit.pair, speed=1.0, angle=angle) for angle in (0.1, 0.6, 1.2)]
+    hits = [carom.impact(struck.pair, speed=1.0, angle=angle) for angle in (0.1, 0.6, 1.2)]
     names = ("normal_speed", "tangential_speed", "spin", "tangential_speed_out", "spin_out")
     file = table({name: [getattr(one, name) for one in hits] for name in names})
-    code, out, _ = run(capsys, file, "--case", "ball.toml")
+    code, out, _ = score(file, "--case", "ball.toml")
     assert code == 0
     assert "note: normal_speed_out is not given" in out
-    history = hit.history(50)
+    history = struck.history(50)
     names = ("time", "normal_force", "tangential_force")
-    code, out, _ = run(
-        capsys, table({n: history[n].values for n in names}), "--case", "ball.toml", "--json"
-    )
+    file = table({name: history[name].values for name in names})
+    code, out, _ = score(file, "--case", "ball.toml", "--json")
     assert code == 0
     assert json.loads(out)["kind"] == "history"
-    assert json.loads(out)["points"]["psi_in"] == [pytest.approx(hit.psi_in, rel=1e-12)]
+    assert json.loads(out)["points"]["psi_in"] == [pytest.approx(struck.psi_in, rel=1e-12)]
 
 
-def test_figure_and_data_are_stored(capsys, tmp_path):
+def test_figure_and_data_are_stored(score, tmp_path):
     options = ("--chi", str(CHI), "--plot", "score.png", "--output", "score.nc")
-    code, _, err = run(capsys, table(psi_columns(0.02)), *options)
+    code, _, err = score(table(psi_columns(0.02)), *options)
     assert code == 1
     assert sorted(err.splitlines()) == [f"Carom has stored score.{end}." for end in ("nc", "png")]
     assert (tmp_path / "score.png").read_bytes().startswith(b"\x89PNG")
@@ -153,26 +147,21 @@ BAD_WITH_CASE = {
 }
 
 
+def told(refusal, message, *arguments):
+    line = refusal("verify", "score", *arguments)
+    assert re.search(message.replace("[", r"\[").replace("(", r"\("), line), line
+
+
 @pytest.mark.parametrize("text", BAD)
-def test_bad_results_are_refused_in_one_line(capsys, text):
-    with open("bad.csv", "w") as stream:
-        stream.write(text)
-    refused(capsys, BAD[text], "bad.csv")
+def test_bad_results_are_refused_in_one_line(refusal, text):
+    Path("bad.csv").write_text(text)
+    told(refusal, BAD[text], "bad.csv")
 
 
 @pytest.mark.parametrize("text", BAD_WITH_CASE)
-def test_bad_velocities_and_forces_are_refused(capsys, text):
-    body = text if text.count("\n") > 1 else text + "1,0,0,0\n" * 3
-    with open("bad.csv", "w") as stream:
-        stream.write(body)
-    refused(capsys, BAD_WITH_CASE[text], "bad.csv", "--case", "ball.toml")
-
-
-def refused(capsys, message, *arguments):
-    code, out, err = run(capsys, *arguments)
-    assert (code, out) == (2, "")
-    assert err.count("\n") == 1
-    assert re.search(message.replace("[", r"\[").replace("(", r"\("), err), err
+def test_bad_velocities_and_forces_are_refused(refusal, text):
+    Path("bad.csv").write_text(text if text.count("\n") > 1 else text + "1,0,0,0\n" * 3)
+    told(refusal, BAD_WITH_CASE[text], "bad.csv", "--case", "ball.toml")
 
 
 @pytest.mark.parametrize(
@@ -191,18 +180,17 @@ def refused(capsys, message, *arguments):
         ),
     ],
 )
-def test_records_that_are_no_whole_contact_are_refused(capsys, hit, change, message):
+def test_records_that_are_no_whole_contact_are_refused(score, refusal, struck, change, message):
     """What to do is said; a unit in the head of the column is accepted."""
-    history = hit.history(60)
+    history = struck.history(60)
     names = ("time", "normal_force", "tangential_force")
     columns = change({name: history[name].values for name in names})
-    code, _, err = run(capsys, table(columns), "--case", "ball.toml")
-    assert (code, err.count("\n")) == (2, 1)
+    err = refusal("verify", "score", table(columns), "--case", "ball.toml")
     assert re.search(message, err), err
     unit = re.search(r"'(\w+) (\[\w+\])'", err)
     if unit:
         headed = {f"{n} {unit[2]}" if n == unit[1] else n: v for n, v in columns.items()}
-        assert run(capsys, table(headed), "--case", "ball.toml")[0] == 0
+        assert score(table(headed), "--case", "ball.toml")[0] == 0
 
 
 @pytest.mark.parametrize(
@@ -219,28 +207,22 @@ def test_records_that_are_no_whole_contact_are_refused(capsys, hit, change, mess
         (("good.csv", "--chi", "1.4", "--output", "good.csv"), "this file is also that of results"),
     ],
 )
-def test_bad_options_are_refused(capsys, options, message):
+def test_bad_options_are_refused(refusal, options, message):
     table(psi_columns(), "good.csv")
-    code, _, err = run(capsys, *options)
-    assert (code, err.count("\n")) == (2, 1)
-    assert message in err
+    assert message in refusal("verify", "score", *options)
 
 
-def test_bodies_in_a_comment(capsys, hit):
+def test_bodies_in_a_comment(score, refusal, pair):
     """Results that bring their bodies along need no case; another one is refused."""
-    pair = hit.pair
     rows = {"normal_speed": [1.0] * 3, "tangential_speed": [0.1, 0.2, 0.3], "spin": [0.0] * 3}
     hits = [carom.impact(pair, normal_speed=1.0, tangential_speed=t) for t in (0.1, 0.2, 0.3)]
-    rows |= {
-        name: [getattr(h, name) for h in hits] for name in ("tangential_speed_out", "spin_out")
-    }
+    for name in ("tangential_speed_out", "spin_out"):
+        rows[name] = [getattr(one, name) for one in hits]
     text = Path(table(rows)).read_text()
     Path("results.csv").write_text(f"# case: {json.dumps(case_of(pair))}\n{text}")
-    assert run(capsys, "results.csv")[0] == 0
+    assert score("results.csv")[0] == 0
     other = case_of(pair) | {"friction": 0.9 * pair.friction}
-    with pytest.raises(carom.InputError, match="bodies differ from those in the results"):
-        carom.verify.score("results.csv", case=other)
+    words = "bodies differ from those in the results"
+    refused(words, carom.verify.score, "results.csv", case=other)
     Path("results.csv").write_text(f"# case: nothing\n{text}")
-    code, _, err = run(capsys, "results.csv")
-    assert (code, err.count("\n")) == (2, 1)
-    assert "there is no JSON" in err
+    told(refusal, "there is no JSON", "results.csv")

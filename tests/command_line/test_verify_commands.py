@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import carom
-from carom.cli import main
 from carom.verify import Lammps, rank, recipes, tune
 from carom.verify.entries import CATALOGUE, EXACT
 
@@ -31,21 +30,15 @@ MEASURED = {
     "mindlin_rescale/force": 0.42995,
 }
 ONE = ("--law", "mindlin")
+FALSE = ("--program", "/bin/false")
 engine = pytest.mark.engine
 installed = pytest.mark.skipif(Lammps().executable() is None, reason="no LAMMPS is installed")
 
 
 @pytest.fixture
-def run(capsys, monkeypatch, tmp_path):
+def verify(run):
     """Return a call of `carom verify` in an empty folder: exit code, output, errors."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        code = main(["verify", *map(str, arguments)])
-        caught = capsys.readouterr()
-        return code, caught.out, caught.err
-
-    return call
+    return partial(run, "verify")
 
 
 @pytest.fixture
@@ -61,10 +54,10 @@ def folder():
     return {path.name for path in Path().iterdir()}
 
 
-def test_laws_as_json(run):
+def test_laws_as_json(verify):
     """All laws, by rising error, with the six errors that were measured independently; nothing
     else on standard output."""
-    code, out, err = run("laws", "--json")
+    code, out, err = verify("laws", "--json")
     record = json.loads(out)
     found = {law["law"]: law["max_error"] for law in record["laws"]}
     assert (code, err) == (0, "")
@@ -73,21 +66,21 @@ def test_laws_as_json(run):
     assert list(found.values()) == sorted(found.values())
 
 
-def test_laws_of_a_shell(run):
+def test_laws_of_a_shell(verify):
     """chi, kappa and psi_1 as given; the table holds what the library finds."""
     options = ("--chi", "1.0294", "--kappa", "0.8235", "--psi", "0.5", "--psi", "2")
-    code, out, _ = run("laws", *options)
+    code, out, _ = verify("laws", *options)
     expected = rank(chi=1.0294, kappa=0.8235, psi=(0.5, 2.0))
     assert (code, out) == (0, f"{expected}\n")
     assert out.splitlines()[0].endswith(", at 2 incidences, psi_1 from 0.5 to 2")
-    record = json.loads(run("laws", *options, "--json")[1])
-    assert record == expected.as_record()
-    assert record["laws"] != rank(chi=1.0294, psi=(0.5, 2.0)).as_record()["laws"]
+    record = json.loads(verify("laws", *options, "--json")[1])
+    assert record == expected.to_dict()
+    assert record["laws"] != rank(chi=1.0294, psi=(0.5, 2.0)).to_dict()["laws"]
 
 
-def test_one_law_with_all_that_can_be_stored(run):
+def test_one_law_with_all_that_can_be_stored(verify):
     files = ("--output", "laws.nc", "--plot", "laws.svg", "--map", "map.png")
-    code, out, err = run("laws", *ONE, *files, "--json")
+    code, out, err = verify("laws", *ONE, *files, "--json")
     assert code == 0
     assert [law["law"] for law in json.loads(out)["laws"]] == ["mindlin"]
     assert folder() == {"laws.nc", "laws.svg", "map.png"}
@@ -98,51 +91,49 @@ def test_one_law_with_all_that_can_be_stored(run):
     assert carom.read("laws.nc").max_error.item() == pytest.approx(0.5763, abs=1e-3)
 
 
-def test_map_as_a_table(run):
+def test_map_as_a_table(verify):
     """The error of one law over psi_1 and chi is that of the library, to the last bit."""
-    code, _, _ = run("laws", "--law", "rigid Coulomb", "--map", "map.nc", "--output", "laws.csv")
+    code, _, _ = verify("laws", "--law", "rigid Coulomb", "--map", "map.nc", "--output", "laws.csv")
     assert code == 0
     assert carom.read("map.nc").identical(carom.verify.error_map(carom.dem.HardSphere()))
     assert Path("laws.csv").read_text().splitlines()[1].startswith("rigid Coulomb,")
 
 
-def test_figure_of_all_laws(run):
-    code, _, _ = run("laws", "--psi", "1", "--psi", "3", "--psi", "5", "--plot", "laws.pdf")
+def test_figure_of_all_laws(verify):
+    code, _, _ = verify("laws", "--psi", "1", "--psi", "3", "--psi", "5", "--plot", "laws.pdf")
     assert code == 0
     assert Path("laws.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_tune_without_bodies(run, few_laws):
-    code, out, err = run("tune", "--chi", "1.4412", "--from", "0.5", "--to", "4", "--json")
-    expected = few_laws(chi=1.4412, psi=np.linspace(0.5, 4.0, 61)).as_record()
+def test_tune_without_bodies(verify, few_laws):
+    code, out, err = verify("tune", "--chi", "1.4412", "--from", "0.5", "--to", "4", "--json")
+    expected = few_laws(chi=1.4412, psi=np.linspace(0.5, 4.0, 61)).to_dict()
     record = json.loads(out)
     assert (code, err) == (0, "")
     assert {name: record[name] for name in expected} == expected
     assert (record["inputs"], record["normal_speed"], record["duration"]) == ({}, None, None)
-    assert run("tune", "--chi", "1.4412")[1].count("linear spring") == 1
+    assert verify("tune", "--chi", "1.4412")[1].count("linear spring") == 1
 
 
-def test_tune_by_another_measure_and_kappa(run, few_laws):
+def test_tune_by_another_measure_and_kappa(verify, few_laws):
     options = ("--chi", "1.4412", "--kappa", "1.0", "--measure", "rms", "--json")
-    record = json.loads(run("tune", *options)[1])
-    expected = few_laws(chi=1.4412, kappa=1.0, measure="rms").as_record()
+    record = json.loads(verify("tune", *options)[1])
+    expected = few_laws(chi=1.4412, kappa=1.0, measure="rms").to_dict()
     assert {name: record[name] for name in expected} == expected
 
 
 @pytest.mark.usefixtures("few_laws")
-def test_tune_a_case_between_angles(run):
+def test_tune_a_case_between_angles(verify, pair):
     """psi_1 = kappa tan(angle)/mu; inputs and time step for the normal speed of the case."""
     Path("ball.toml").write_text(CASE)
     options = ("--from", "5 deg", "--to", "60 deg", "--restitution", "0.8")
-    code, out, _ = run("tune", "ball.toml", *options, "--json")
+    code, out, _ = verify("tune", "ball.toml", *options, "--json")
     record = json.loads(out)
     kappa = 2 * (1 - 0.3) / (2 - 0.3)
     ends = kappa * np.tan(np.deg2rad([5.0, 60.0])) / 0.2
     assert code == 0
     assert (record["kappa"], record["chi"]) == pytest.approx((kappa, 7 / 4 * kappa), rel=1e-12)
     assert record["psi_in"] == pytest.approx(ends, rel=1e-12)
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     speed = 2.0 * np.cos(np.deg2rad(35.0))
     hit = carom.impact(pair, normal_speed=speed)
     assert record["normal_speed"] == pytest.approx(speed, rel=1e-12)
@@ -152,7 +143,7 @@ def test_tune_a_case_between_angles(run):
     sideways = carom.dem.LammpsMindlin("mindlin_rescale/force", tangential_damping=1.0)
     assert record["inputs"] == recipes(pair, speed, 0.8, spring=best, mindlin=sideways)
     assert " 1 0.2 damping coeff_restitution" in record["inputs"]["LAMMPS Hertz"]
-    table = run("tune", "ball.toml", *options)[1]
+    table = verify("tune", "ball.toml", *options)[1]
     micro = 1e6 * record["duration"]
     assert f"normal speed of {speed:.4g} m/s the contact lasts {micro:.4g} µs; " in table
     assert all(text in table for text in record["inputs"].values())
@@ -160,31 +151,31 @@ def test_tune_a_case_between_angles(run):
 
 @pytest.mark.usefixtures("few_laws")
 @pytest.mark.parametrize("e", [1.0, 0.5])
-def test_tune_names_the_exact_law(run, e):
+def test_tune_names_the_exact_law(verify, e):
     """Those who cannot change their law should know that some codes can; in LIGGGHTS e is 1."""
     Path("ball.toml").write_text(CASE)
-    out = run("tune", "ball.toml", "--restitution", e)[1]
-    told = json.loads(run("tune", "ball.toml", "--restitution", e, "--json")[1])["exact_law"]
+    out = verify("tune", "ball.toml", "--restitution", e)[1]
+    told = json.loads(verify("tune", "ball.toml", "--restitution", e, "--json")[1])["exact_law"]
     assert "pair_style carom in LAMMPS" in out
     assert told["LAMMPS"] == "pair_style carom"
     assert ("tangential carom in LIGGGHTS" in out) == ("LIGGGHTS" in told) == (e == 1.0)
 
 
 @pytest.mark.usefixtures("few_laws")
-def test_tune_a_case_without_motion(run):
+def test_tune_a_case_without_motion(verify):
     """Where the case has no speed the inputs are for 1 m/s, and that is said."""
     Path("ball.toml").write_text(CASE.replace("speed", "#").replace("angle", "#"))
-    code, out, _ = run("tune", "ball.toml")
+    code, out, _ = verify("tune", "ball.toml")
     assert code == 0
     assert "At a normal speed of 1 m/s the contact lasts " in out
 
 
 @engine
 @installed
-def test_lammps_as_json(run):
+def test_lammps_as_json(verify):
     """Every law of LAMMPS, by rising error; each is the law of Carom at the same steps, and the six
     errors are those that were measured independently."""
-    code, out, err = run("lammps", "--json")
+    code, out, err = verify("lammps", "--json")
     record = json.loads(out)
     laws = {law["law"]: law for law in record["laws"]}
     found = {label: laws[label]["max_error"] for label in MEASURED}
@@ -199,23 +190,23 @@ def test_lammps_as_json(run):
 
 @engine
 @installed
-def test_from_nothing_to_a_verdict(run):
+def test_from_nothing_to_a_verdict(verify):
     """Two commands: LAMMPS computes the impacts, the scorer finds bodies and error by itself; what
     carom finds for mindlin, 0.576, is what it says."""
-    code, out, err = run("lammps", *ONE, "--output", "results.csv")
+    code, out, err = verify("lammps", *ONE, "--output", "results.csv")
     assert (code, err, folder()) == (0, "Carom has stored results.csv.\n", {"results.csv"})
     assert out.count("mindlin") == 1
-    code, out, _ = run("score", "results.csv")
+    code, out, _ = verify("score", "results.csv")
     assert code == 1
     assert out.splitlines()[-1].startswith("FAIL: max |error in psi_2| = 0.5763")
-    assert run("score", "results.csv", "--tolerance", "0.6")[0] == 0
+    assert verify("score", "results.csv", "--tolerance", "0.6")[0] == 0
 
 
 @engine
 @installed
-def test_lammps_with_other_bodies_and_steps(run):
+def test_lammps_with_other_bodies_and_steps(verify):
     Path("ball.toml").write_text(CASE.replace('"steel"', '"soda-lime-glass"'))
-    code, out, _ = run("lammps", *ONE, "--case", "ball.toml", "--steps", "500", "--json")
+    code, out, _ = verify("lammps", *ONE, "--case", "ball.toml", "--steps", "500", "--json")
     record = json.loads(out)
     glass = carom.Sphere(radius="5 mm", material="soda-lime-glass")
     pair = carom.Pair(glass, carom.HalfSpace(material="soda-lime-glass"), friction=0.2)
@@ -227,14 +218,14 @@ def test_lammps_with_other_bodies_and_steps(run):
 
 
 @pytest.mark.skipif(not Path("/bin/false").exists(), reason="needs a program that fails")
-def test_a_program_that_fails(run):
+def test_a_program_that_fails(verify):
     """Exit code 1, what happened in the place of the numbers, and no results."""
-    options = ("lammps", "--program", "/bin/false", *ONE, "--output", "results.csv")
-    code, out, err = run(*options, "--json")
+    options = ("lammps", *FALSE, *ONE, "--output", "results.csv")
+    code, out, err = verify(*options, "--json")
     (law,) = json.loads(out)["laws"]
     assert (code, err, folder()) == (1, "", set())
     assert re.match(r"LAMMPS has crashed \(exit code 1\)", law["failure"])
-    code, out, _ = run(*options)
+    code, out, _ = verify(*options)
     assert code == 1
     assert law["failure"] in out
 
@@ -247,14 +238,7 @@ BAD = {
     ("laws", "--law", "qqq"): "law: 'qqq' .*must be one of: linear spring, k_t/k_n = kappa; ",
     ("laws", "--chi", "1e4", *ONE): "chi: 10000.0 .*is not solved: more than 200 phases",
     ("laws", "--psi", "0"): "psi: .*must not all be zero",
-    (
-        "laws",
-        *ONE,
-        "--map",
-        "x.nc",
-        "--output",
-        "x.nc",
-    ): "map: 'x.nc' .*this file is also that of output",
+    ("laws", *ONE, "--map", "x.nc", "--output", "x.nc"): "map: 'x.nc' .*this file is also that of",
     ("laws", *ONE, "--map", "x.nc", "--kappa", "1"): "map: it shows solid spheres",
     ("laws", "--output", "x.xls"): r"output file: 'x.xls' .*\.nc or \.csv",
     ("laws", "--plot", "x.txt"): r"output file: 'x.txt' .*\.png",
@@ -289,29 +273,17 @@ BAD = {
     ("lammps", "--program", "/nowhere/lmp"): "LAMMPS: '/nowhere/lmp' is not an executable",
     ("liggghts", "--program", "/nowhere"): "LIGGGHTS: '/nowhere' is not an executable",
     ("yade", "--program", "/nowhere"): "YADE: '/nowhere' is not an executable",
-    ("lammps", "--program", "/bin/false", "--steps", "9"): "steps: '9' .*at least 10",
-    ("lammps", "--program", "/bin/false", "--case", "smooth.toml"): "friction: 0.0 .*positive",
-    (
-        "lammps",
-        "--program",
-        "/bin/false",
-        "--case",
-        "cup.toml",
-    ): "second body: .*DEM codes have no cups",
-    (
-        "lammps",
-        "--program",
-        "/bin/false",
-        "--law",
-        "rigid Coulomb",
-    ): "LAMMPS does not have it; it has linear spring, .*; mindlin",
+    ("lammps", *FALSE, "--steps", "9"): "steps: '9' .*at least 10",
+    ("lammps", *FALSE, "--case", "smooth.toml"): "friction: 0.0 .*positive",
+    ("lammps", *FALSE, "--case", "cup.toml"): "second body: .*DEM codes have no cups",
+    ("lammps", *FALSE, "--law", "rigid Coulomb"): "it has linear spring, .*; mindlin",
     ("lamps",): "No such command 'lamps'. Did you mean 'lammps'",
     ("laws", "--colour", "red"): "No such option: --colour",
 }
 
 
 @pytest.mark.parametrize("arguments", BAD, ids=" ".join)
-def test_bad_input_gets_one_clear_line(run, arguments):
+def test_bad_input_gets_one_clear_line(refusal, arguments):
     cases = {
         "ball.toml": CASE,
         "smooth.toml": CASE.replace("0.2", "0"),
@@ -319,8 +291,6 @@ def test_bad_input_gets_one_clear_line(run, arguments):
     }
     for name, text in cases.items():
         Path(name).write_text(text)
-    code, out, err = run(*arguments)
-    assert (code, out) == (2, "")
-    assert (err.startswith("carom: "), err.count("\n")) == (True, 1)
-    assert re.search(BAD[arguments], err), err
+    line = refusal("verify", *arguments)
+    assert re.search(BAD[arguments], line), line
     assert folder() == cases.keys()

@@ -6,7 +6,7 @@ from tests.oracles.contact import drive
 
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.solving import solve_with_losses
+from carom.dimensionless.solution import solve_lossy
 
 
 def wandering(seed, n):
@@ -24,7 +24,7 @@ def wandering(seed, n):
 def test_driven_as_an_impact_moves_it_gives_its_forces(impact):
     """To first order in the steps, in the mean: the load sets in like the root of time."""
     psi, chi, alpha = impact
-    h = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).history(4001)
+    h = solve_lossy(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).history(4001)
     errors = []
     for stride in (4, 2, 1):
         path = h.time[::stride], h.penetration[::stride], h.displacement[::stride]

@@ -5,6 +5,7 @@ import signal
 from contextlib import contextmanager
 
 import pytest
+from tests.checks import one_line
 
 from carom.quantities.refusals import InputError
 
@@ -49,10 +50,7 @@ def answered():
             with _within(seconds):
                 function(*args)
         except InputError as error:
-            message = str(error)
-            assert "\n" not in message, message
-            assert ": " in message, message
-            assert len(message) < 3000, message
+            one_line(error, 3000)
             return False
         return True
 

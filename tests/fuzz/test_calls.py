@@ -50,244 +50,243 @@ MANY = (
     *(UNITS.Quantity([0.5, 1.0], "mm"), UNITS.Quantity([0.5, 1.0], "N"), pd.Series([0.5, 1.0])),
     *(xr.DataArray([0.5, 1.0]), xr.DataArray([0.5, 1.0], attrs={"units": "mm"}), range(3)),
     *(xr.Dataset({"a": 1.0}), pd.DataFrame({"a": [1.0]}), [0.5, [1.0, [2.0]]], bytearray(b"12")),
-    *(
-        RECORDS,
-        RECORDS[0],
-        RECORDS.view(np.recarray),
-        np.ma.masked_array(RECORDS),
-        RECORDS.reshape(2, 1),
-    ),
-    *(
-        np.zeros(2, "V8"),
-        np.zeros(2, [("psi_1", "f8", 2), ("psi_2", "f8")]),
-        [{}],
-        [[]],
-        [["psi_out"]],
-    ),
+    *(RECORDS, RECORDS[0], RECORDS.view(np.recarray), np.ma.masked_array(RECORDS)),
+    *(RECORDS.reshape(2, 1), np.zeros(2, "V8"), [{}], [[]], [["psi_out"]]),
+    np.zeros(2, [("psi_1", "f8", 2), ("psi_2", "f8")]),
     *([np.array(["psi_out"])], pd.Series(["psi_out"]), ("psi_out",), {"psi_out"}, [pd.NA], pd.NA),
 )
-THINGS = (
-    int,
-    lambda *_: None,
-    object(),
-    carom.KelvinVoigt,
-    carom.KelvinVoigt(restitution=0.9),
-    iter([1]),
-)
+LOSSY = carom.KelvinVoigt(restitution=0.9)
+THINGS = (int, lambda *_: None, object(), carom.KelvinVoigt, LOSSY, iter([1]))
 HOSTILE = (*SCALARS, *MANY, *THINGS)
+
+
+BALL = carom.Sphere(radius="5 mm", material="steel")
+WALL = carom.HalfSpace(material="steel")
+PAIR, BALLS = (carom.Pair(BALL, other, friction=0.2) for other in (WALL, BALL))
+POLAR, CARTESIAN = {"speed": 2.0, "angle": 0.5}, {"normal_speed": 1.0, "tangential_speed": 0.5}
+MOTION = {"spin": 3.0, "spin2": 1.0, "losses": None, "method": "exact", "progress": False}
+MOTION["normal_spin"] = 100.0
+AT_CHI = {"chi": 1.44, "kappa": 0.8}
+SLIDING = {"tangential_damping": 0.5, "restitution": 0.9}
+OWN = dem.FunctionLaw(lambda contact, state: (-1e-3 * contact.normal_force, state))
+RULE = dem.FunctionRebound(lambda psi, chi: -0.4 * psi)
+LAWS = {
+    dem.LinearSpring: {"stiffness_ratio": 0.3, **SLIDING},
+    dem.ExactContactLaw: {"springs": 16, "restitution": 0.9, "viscous_shear": True},
+    dem.HertzLinearHistory: {"stiffness": 0.8, **SLIDING},
+    dem.LammpsMindlin: {"variant": "mindlin", "stiffness": 1.0, "damping": "tsuji", **SLIDING},
+    dem.LiggghtsHertz: {"restitution": 0.9},
+    dem.EdemHertzMindlin: {"restitution": 0.9},
+    dem.YadeMindlin: {"restitution": 0.9},
+    dem.ThorntonLaw: {},
+    dem.WaltonBraunLaw: {"stiffness_ratio": 0.3, "restitution": 0.9},
+    dem.StrongeLaw: {"stiffness_ratio": 0.3, "restitution": 0.9},
+    dem.HardSphere: {"tangential_restitution": 0.4, "restitution": 0.9},
+}
+
+
+class Calls(dict):
+    """Callables with valid arguments by name; a name says what is called, and in which way."""
+
+    def add(self, name, function, /, **valid):
+        assert name not in self
+        self[name] = function, valid
+
+
+def bodies_and_losses(calls):
+    stuff = {"young": 2e11, "poisson": 0.3, "density": 7850.0, "yield_strength": "1 GPa"}
+    calls.add("Material", carom.Material, **stuff, name="stuff")
+    calls.add("material", carom.material, name="steel")
+    calls.add("Sphere", carom.Sphere, radius=0.01, material="steel", inner_radius=0.001)
+    weighted = {"material": WALL.material, "gyration_radius": 0.005}
+    calls.add("Sphere, K", carom.Sphere, radius=0.01, **weighted)
+    calls.add("HalfSpace", carom.HalfSpace, material="steel")
+    calls.add("Cup", carom.Cup, radius=0.01, material="steel")
+    calls.add("Pair", carom.Pair, first=BALL, second=WALL, friction=0.2)
+    calls.add("KelvinVoigt", carom.KelvinVoigt, restitution=0.9)
+    calls.add("KelvinVoigt, time", carom.KelvinVoigt, loss_time=1e-6)
+    calls.add("ElasticPlastic", carom.ElasticPlastic, yield_velocity=0.1)
+    solid = {"modulus_ratio": 1.5, "relaxation_time": 1e-5}
+    calls.add("StandardLinearSolid", carom.StandardLinearSolid, **solid)
+    known = {"speed": 2.0, "angle": [0.1, 0.5], "contact_beta": 0.3, "spin": 1.0}
+    known |= {"normal_restitution": 0.9, "wanted": "rebound_angle"}
+    calls.add("convert", lambda wanted, **known: convert(PAIR, known=known, wanted=wanted), **known)
+    calls.add("convert, all", convert, pair=PAIR, known=POLAR, wanted="normal_speed")
+    force = {"pair": PAIR, "normal_force": 10.0}
+    calls.add("cattaneo_mindlin", classical.cattaneo_mindlin, **force, tangential_force=[1.0])
+    calls.add("loop_energy", classical.loop_energy, **force, amplitude=1.0)
+    calls.add("critical_obliquity", classical.critical_obliquity, pair=PAIR)
+    calls.add("dataset", carom.datasets.table, name="kharaz2001")
+    calls.add("table", read_table, source=RECORDS, columns=None)
+
+
+def rebounds(calls):
+    solved, lost = carom.solve(0.5, 1.44), carom.solve(1.5, 1.44, losses=LOSSY)
+    one = {"psi_1": 0.5, "chi": 1.44}
+    calls.add("rebound", carom.rebound, psi_1=[0.5, 1.0], chi=1.44, threads=1, losses=None)
+    calls.add("rebound, status", carom.rebound, **one, return_status=True)
+    calls.add("rebound, losses", carom.rebound, **one, losses=LOSSY)
+    calls.add("solve", carom.solve, **one, losses=None)
+    calls.add("solve, losses", carom.solve, **one, losses=LOSSY)
+    for kind, each in (("solution", solved), ("lossy", lost)):
+        calls.add(f"{kind}.at", each.at, time=[0.1, 1.0])
+        calls.add(f"{kind}.history", each.history, n=5)
+    for name in ("memory", "phase_at", "slip_rate"):
+        calls.add(name, getattr(solved, name), time=1.0)
+    for name in ("traction", "slid"):
+        calls.add(name, getattr(solved, name), time=1.0, radii=[0.0, 0.5])
+    calls.add("slip_angles", solved.slip_angles, lateral_ratio=0.2)
+    calls.add("curve", carom.curve, chi=1.44, psi_1=[0.0, 1.0], losses=None)
+    calls.add("regime_map", carom.regime_map, psi_1=[0.5, 2.0], chi=1.44, progress=False)
+
+
+def tabulated(calls):
+    law, mixed = carom.laws.ReboundLaw(1.44), carom.laws.ReboundLaw((1.2, 1.3))
+    for name, each in (("law", law), ("impulse", law.impulse), ("dissipation", law.dissipation)):
+        calls.add(name, each, psi=[0.5, 2.0])
+    from_dict = carom.laws.ReboundLaw.from_dict
+    calls.add("from_dict", from_dict, table=law.to_dict())
+    calls.add("from_dict, items", lambda **table: from_dict(table), **law.to_dict())
+    calls.add("from_dict, one item", _with_one(law), item=law.edges[1])
+    calls.add("mixture", mixed, psi=[0.5, 2.0], chi=1.25, return_status=False)
+    calls.add("SmoothLaw", carom.laws.SmoothLaw, restitution=0.9)
+    calls.add("RoughLaw", carom.laws.RoughLaw, restitution=0.9)
+    both = {"restitution": 0.9, "tangential_restitution": 0.4}
+    calls.add("WaltonLaw", carom.laws.WaltonLaw, friction=0.2, **both)
+
+
+def contact_laws(calls):
+    many, steps = {"psi_1": [0.5, 2.0], **AT_CHI}, {"steps": 50}
+    for kind, given in LAWS.items():
+        name = kind.__name__
+        calls.add(name, kind, **given)
+        calls.add(f"{name}.rebound", kind(**given).rebound, **many, **steps, threads=1)
+        if kind is not dem.HardSphere:
+            calls.add(f"{name}.history", kind(**given).history, psi_1=0.5, **AT_CHI, **steps)
+    own = {"function": OWN.function, "name": "own"}  # a state may be anything
+    own |= {"normal": "linear", "restitution": 0.9, "normal_speed": 0.1, "pair": PAIR}
+    calls.add("FunctionLaw", dem.FunctionLaw, **own)
+    calls.add("FunctionLaw.rebound", OWN.rebound, **many, **steps, threads=1)
+    calls.add("FunctionLaw.history", OWN.history, psi_1=0.5, **AT_CHI, **steps)
+    calls.add("FunctionRebound", dem.FunctionRebound, function=RULE.function, name="own")
+    calls.add("FunctionRebound.rebound", RULE.rebound, **many, return_status=False)
+    spring, speed = dem.LinearSpring(), {"pair": PAIR, "normal_speed": 1.0}
+    calls.add("force_error", verify.force_error, law=spring, psi=0.5, **AT_CHI)
+    calls.add("force_error, own", verify.force_error, law=OWN, psi=0.5, chi=1.44)
+    grid = {"psi": [0.5, 1.0], **AT_CHI}
+    calls.add("error_map", verify.error_map, law=dem.HardSphere(0.4), **grid, **steps)
+    calls.add("stiffnesses", verify.stiffnesses, **speed)
+    calls.add("poisson_from_kappa", verify.poisson_from_kappa, kappa=0.8)
+    told = {"restitution": 0.9, "convention": "critical"}
+    calls.add("damping", verify.damping_from_restitution, **told)
+    told = {"value": 0.1, "convention": "thornton"}
+    calls.add("restitution", verify.restitution_from_damping, **told)
+    tuned = {"spring": spring, "mindlin": dem.LammpsMindlin()}
+    calls.add("recipes", verify.recipes, **speed, wanted=0.9, **tuned)
+    motion = {"normal_speed": 0.1, "tangential_speed": (0.1, 0.0), "spin": (0.0, 1.0)}
+    given = {"pair": PAIR, "law": dem.LammpsMindlin(), "steps": 99}
+    calls.add("Experiment", verify.Experiment, **given, **motion)
+    calls.add("bench", verify.bench, engine=verify.Lammps("/nowhere"), steps=100, psi=[0.5])
+    calls.add("Entry", verify.Entry, label="one", law=spring, used_by="")
+
+
+def impacts_and_paths(calls):
+    hit = carom.impact(PAIR, speed=2.0, angle="30 deg")
+    path = carom.load_path(PAIR, normal_force="10 N", tangential_force=[0.0, 1.0])
+    calls.add("impact", carom.impact, pair=BALLS, **POLAR, **MOTION)
+    calls.add("impact, components", carom.impact, pair=BALLS, **CARTESIAN, **MOTION)
+    calls.add("impact, losses", carom.impact, pair=PAIR, **CARTESIAN, losses=LOSSY)
+    places = {"x": [0.0, 1e-5], "y": [0.0], "points": None}
+    for name, each, at in (("hit", hit, 5e-6), ("path", path, 1)):
+        calls.add(f"{name}.contact", each.contact, at=at)
+        calls.add(f"{name}.fields", each.fields, at=at, **places)
+        calls.add(f"{name}.radial", each.radial, at=at, n=3)
+    calls.add("hit.history", hit.history, n=3)
+    steps = {"normal_force": "10 N", "tangential_force": [0.0, 1.0, -1.0]}
+    aside, pushed = [[1e-7, 0.0], [1e-7, 1e-7]], [[0.5, 0.0], [0.0, 0.5]]
+    moved = {"pair": PAIR, "penetration": [1e-6, 2e-6]}
+    calls.add("load_path", carom.load_path, pair=PAIR, **steps)
+    calls.add("load_path, moved", carom.load_path, **moved, displacement=1e-7)
+    given = {"normal_force": 10.0, "displacement": aside, "progress": False}
+    calls.add("load_path, two ways", carom.load_path, pair=PAIR, **given)
+    calls.add("load_path, pushed", carom.load_path, **moved, tangential_force=pushed)
+    calls.add("then", path.then, **steps)
+    vectors = {"velocity1": [[1.0, 0.0, 1.0]], "spin1": [0.0, 1.0, 0.0], "velocity2": None}
+    vectors["normal"] = [0.0, 0.0, 1.0]
+    given = {"law": None, "inplace": False, "threads": 1}
+    calls.add("collide", carom.collide, pair=PAIR, **vectors, **given)
+    given = {"spin2": [0.0, 0.0, 1.0], "law": laws.RoughLaw()}
+    calls.add("collide, balls", carom.collide, pair=BALLS, **vectors, **given)
+    calls.add("collide, judged", carom.collide, pair=PAIR, **vectors, judge=True)
+    calls.add("BoundaryElements", carom.BoundaryElements, elements=16, steps=50)
+
+
+CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 2.0, "friction": 0.2}
+GRID = carom.Grid({"angle": [0.1, 0.5]})
+
+
+def sweeps(calls):
+    ends = {"from": 0.1, "to": 0.2, "points": 3}
+    calls.add("outputs", lambda outputs: SweepProblem(CASE, GRID, outputs), outputs=["psi_out"])
+    calls.add("Grid", lambda **axes: carom.Grid(axes), angle=[0.1, 0.2], friction=ends)
+    calls.add("Grid, range", lambda **span: carom.Grid({"angle": span}), **ends, spacing="log")
+    calls.add("Grid, axes", carom.Grid, axes={"angle": [0.1]})
+    ranges = {"friction": (0.1, 0.2)}
+    calls.add("LatinHypercube", carom.LatinHypercube, ranges=ranges, samples=5, seed=1)
+
+
+def slow_ones(calls):
+    """Those that take more than a millisecond."""
+    hit = carom.impact(PAIR, speed=2.0, angle="30 deg")
+    path = carom.load_path(PAIR, normal_force="10 N", tangential_force=[0.0, 1.0])
+    calls.add("ReboundLaw", carom.laws.ReboundLaw, chi=1.44, losses=None)
+    calls.add("MixtureLaw", lambda low: carom.laws.ReboundLaw((low, 1.3)), low=1.2)
+    calls.add("fit_walton", carom.laws.fit_walton, pair=PAIR, span=5.0)
+    below = {"x": [0.0, 1e-5], "z": [0.0, 1e-5], "points": None, "body": "second"}
+    calls.add("hit.stress", hit.stress, at=5e-6, **below)
+    calls.add("path.stress", path.stress, at=1, **below)
+    calls.add("hit.peaks", hit.peaks, depth=1e-5)
+    calls.add("hit.wear", hit.wear, n=3, coefficient=1e-13, x=[0.0, 1e-5], y=[0.0])
+    calls.add("hit.spectrum", hit.spectrum, frequencies=[0.0, 1e5])
+    calls.add("hit.spectrum, n", hit.spectrum, max_frequency=1e5, n=3)
+    alone = {"workers": 1, "progress": False}
+    calls.add("strength", carom.bearable_speeds, pair=PAIR, angle=[0.5], friction=[0.2], **alone)
+    worn = {"spin": 1.0, "counts": [1.0, 2.0], "coefficient": 1e-13, "area": 1e-4, "n": 3}
+    calls.add("wear", carom.wear_of_many, pair=PAIR, **POLAR, **worn, losses=None)
+    calls.add("wear, components", carom.wear_of_many, pair=BALLS, **CARTESIAN, spin2=1.0)
+    swept = {"case": CASE, "design": GRID, "outputs": ["psi_out"], "scheduler": None}
+    calls.add("sweep", carom.sweep, **swept, **alone, resume=False)
+    at = {"psi": [0.5], **AT_CHI}
+    calls.add("step_error", verify.step_error, law=dem.LinearSpring(), steps=50, **at)
+    calls.add("advised_steps", verify.advised_steps, law=dem.LinearSpring(), allowed=0.1, **at)
+    calls.add("rank", verify.rank, entries=[dem.LinearSpring()], **at, progress=False)
+    calls.add("rank, own", verify.rank, entries=[OWN, RULE], **at, progress=False)
+    measure = {"measure": "max", "progress": False}
+    calls.add("tune", verify.tune, laws=[dem.HardSphere()], **at, **measure)
+    results = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.0, -1.0]}
+    given = {"case": None, "chi": 1.44, "law": "new", "restitution": 0.9}
+    common = {"tolerance": 0.01, "code": "own"}
+    calls.add("score", verify.score, results=results, **given, **common)
+    given = {"results": OWN, "case": PAIR, "chi": None, "restitution": None}
+    calls.add("score, own", verify.score, **given, **common)
 
 
 @cache
 def tables():
     """Callables with valid arguments by name: those that take a millisecond, and the rest."""
-    BALL = carom.Sphere(radius="5 mm", material="steel")
-    WALL = carom.HalfSpace(material="steel")
-    PAIR = carom.Pair(BALL, WALL, friction=0.2)
-    BALLS = carom.Pair(BALL, BALL, friction=0.2)
-    HIT = carom.impact(PAIR, speed=2.0, angle="30 deg")
-    LOSSY = carom.KelvinVoigt(restitution=0.9)
-    PATH = carom.load_path(PAIR, normal_force="10 N", tangential_force=[0.0, 1.0])
-    SOLVED, LOST = carom.solve(0.5, 1.44), carom.solve(1.5, 1.44, losses=LOSSY)
-    LAW, MIXED = carom.laws.ReboundLaw(1.44), carom.laws.ReboundLaw((1.2, 1.3))
-    SLIDING = {"tangential_damping": 0.5, "restitution": 0.9}
-    OWN = dem.FunctionLaw(lambda contact, state: (-1e-3 * contact.normal_force, state))
-    RULE = dem.FunctionRebound(lambda psi, chi: -0.4 * psi)
-    LAWS = {
-        dem.LinearSpring: {"stiffness_ratio": 0.3, **SLIDING},
-        dem.ExactContactLaw: {"springs": 16, "restitution": 0.9, "viscous_shear": True},
-        dem.HertzLinearHistory: {"stiffness": 0.8, **SLIDING},
-        dem.LammpsMindlin: {"variant": "mindlin", "stiffness": 1.0, "damping": "tsuji", **SLIDING},
-        dem.LiggghtsHertz: {"restitution": 0.9},
-        dem.EdemHertzMindlin: {"restitution": 0.9},
-        dem.YadeMindlin: {"restitution": 0.9},
-        dem.ThorntonLaw: {},
-        dem.WaltonBraunLaw: {"stiffness_ratio": 0.3, "restitution": 0.9},
-        dem.StrongeLaw: {"stiffness_ratio": 0.3, "restitution": 0.9},
-        dem.HardSphere: {"tangential_restitution": 0.4, "restitution": 0.9},
-    }
-    MOTION = {"spin": 3.0, "spin2": 1.0, "losses": None, "method": "exact", "progress": False}
-    MOTION["normal_spin"] = 100.0
-    POLAR, CARTESIAN = {"speed": 2.0, "angle": 0.5}, {"normal_speed": 1.0, "tangential_speed": 0.5}
-    STEPS = {"normal_force": "10 N", "tangential_force": [0.0, 1.0, -1.0]}
-    PLACES = {"x": [0.0, 1e-5], "y": [0.0], "points": None}
-    BELOW = {"x": [0.0, 1e-5], "z": [0.0, 1e-5], "points": None, "body": "second"}
-    VECTORS = {"velocity1": [[1.0, 0.0, 1.0]], "spin1": [0.0, 1.0, 0.0], "velocity2": None}
-    INSIDE = {"at": 5e-6}
-    CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 2.0, "friction": 0.2}
-    GRID = carom.Grid({"angle": [0.1, 0.5]})
-
-    cheap = {  # callables and valid arguments by name
-        "Material": (carom.Material, {"young": 2e11, "poisson": 0.3, "density": 7850.0,
-                                      "yield_strength": "1 GPa", "name": "stuff"}),
-        "material": (carom.material, {"name": "steel"}),
-        "Sphere": (carom.Sphere, {"radius": 0.01, "material": "steel", "inner_radius": 0.001}),
-        "Sphere, K": (carom.Sphere, {"radius": 0.01, "material": WALL.material,
-                                      "gyration_radius": 0.005}),
-        "HalfSpace": (carom.HalfSpace, {"material": "steel"}),
-        "Cup": (carom.Cup, {"radius": 0.01, "material": "steel"}),
-        "Pair": (carom.Pair, {"first": BALL, "second": WALL, "friction": 0.2}),
-        "KelvinVoigt": (carom.KelvinVoigt, {"restitution": 0.9}),
-        "KelvinVoigt, time": (carom.KelvinVoigt, {"loss_time": 1e-6}),
-        "ElasticPlastic": (carom.ElasticPlastic, {"yield_velocity": 0.1}),
-        "StandardLinearSolid": (
-            carom.StandardLinearSolid,
-            {"modulus_ratio": 1.5, "relaxation_time": 1e-5},
-        ),
-        "impact": (carom.impact, {"pair": BALLS, **POLAR, **MOTION}),
-        "impact, components": (carom.impact, {"pair": BALLS, **CARTESIAN, **MOTION}),
-        "impact, losses": (carom.impact, {"pair": PAIR, **CARTESIAN, "losses": LOSSY}),
-        "rebound": (carom.rebound, {"psi": [0.5, 1.0], "chi": 1.44, "threads": 1, "losses": None}),
-        "rebound, status": (carom.rebound, {"psi": 0.5, "chi": 1.44, "return_status": True}),
-        "rebound, losses": (carom.rebound, {"psi": 0.5, "chi": 1.44, "losses": LOSSY}),
-        "solve": (carom.solve, {"psi": 0.5, "chi": 1.44, "losses": None}),
-        "solve, losses": (carom.solve, {"psi": 0.5, "chi": 1.44, "losses": LOSSY}),
-        **{f"{kind}.{name}": (getattr(each, name), {argument: value})
-           for kind, each in (("solution", SOLVED), ("lossy", LOST))
-           for name, argument, value in (("at", "time", [0.1, 1.0]), ("history", "n", 5))},
-        **{name: (getattr(SOLVED, name), {"time": 1.0})
-           for name in ("memory", "phase_at", "slip_rate")},
-        **{name: (getattr(SOLVED, name), {"time": 1.0, "radii": [0.0, 0.5]})
-           for name in ("traction", "slid")},
-        "slip_angles": (SOLVED.slip_angles, {"lateral_ratio": 0.2}),
-        "curve": (carom.curve, {"chi": 1.44, "psi": [0.0, 1.0], "losses": None}),
-        "regime_map": (carom.regime_map, {"psi": [0.5, 2.0], "chi": 1.44, "progress": False}),
-        "law": (LAW, {"psi": [0.5, 2.0]}),
-        "impulse": (LAW.impulse, {"psi": [0.5, 2.0]}),
-        "dissipation": (LAW.dissipation, {"psi": [0.5, 2.0]}),
-        "from_dict": (carom.laws.ReboundLaw.from_dict, {"table": LAW.to_dict()}),
-        "from_dict, items": (lambda **table: carom.laws.ReboundLaw.from_dict(table), LAW.to_dict()),
-        "from_dict, one item": (_with_one(LAW), {"item": LAW.edges[1]}),
-        "outputs": (lambda outputs: SweepProblem(CASE, GRID, outputs), {"outputs": ["psi_out"]}),
-        "table": (read_table, {"source": RECORDS, "columns": None}),
-        "mixture": (MIXED, {"psi": [0.5, 2.0], "chi": 1.25, "return_status": False}),
-        "SmoothLaw": (carom.laws.SmoothLaw, {"restitution": 0.9}),
-        "RoughLaw": (carom.laws.RoughLaw, {"restitution": 0.9}),
-        "WaltonLaw": (carom.laws.WaltonLaw, {"friction": 0.2, "restitution": 0.9,
-                                        "tangential_restitution": 0.4}),
-        **{kind.__name__: (kind, given) for kind, given in LAWS.items()},
-        **{f"{kind.__name__}.rebound": (kind(**given).rebound, {"psi": [0.5, 2.0], "chi": 1.44,
-                                        "kappa": 0.8, "steps": 50, "threads": 1})
-           for kind, given in LAWS.items()},
-        **{f"{kind.__name__}.history": (kind(**given).history, {"psi": 0.5, "chi": 1.44,
-                                        "kappa": 0.8, "steps": 50})
-           for kind, given in LAWS.items() if kind is not dem.HardSphere},
-        "FunctionLaw": (dem.FunctionLaw, {"function": OWN.function, "name": "own", "pair": PAIR,
-                                            "normal": "linear", "restitution": 0.9,
-                                            "normal_speed": 0.1}),  # a state may be anything
-        "FunctionLaw.rebound": (OWN.rebound, {"psi": [0.5, 2.0], "chi": 1.44, "kappa": 0.8,
-                                              "steps": 50, "threads": 1}),
-        "FunctionLaw.history": (OWN.history, {"psi": 0.5, "chi": 1.44, "kappa": 0.8, "steps": 50}),
-        "FunctionRebound": (dem.FunctionRebound, {"function": RULE.function, "name": "own"}),
-        "FunctionRebound.rebound": (RULE.rebound, {"psi": [0.5, 2.0], "chi": 1.44, "kappa": 0.8,
-                                                   "return_status": False}),
-        "force_error, own": (verify.force_error, {"law": OWN, "psi": 0.5, "chi": 1.44}),
-        "collide": (carom.collide, {"pair": PAIR, **VECTORS, "normal": [0.0, 0.0, 1.0], "law": None,
-                                    "inplace": False, "threads": 1}),
-        "collide, balls": (carom.collide, {"pair": BALLS, **VECTORS, "spin2": [0.0, 0.0, 1.0],
-                                           "normal": [0.0, 0.0, 1.0], "law": laws.RoughLaw()}),
-        "collide, judged": (carom.collide, {"pair": PAIR, **VECTORS, "normal": [0.0, 0.0, 1.0],
-                                            "judge": True}),
-        "convert": (
-                    lambda wanted, **known: convert(PAIR, known=known, wanted=wanted),
-                    {"speed": 2.0, "angle": [0.1, 0.5], "contact_beta": 0.3, "spin": 1.0,
-                     "normal_restitution": 0.9, "wanted": "rebound_angle"}),
-        "convert, all": (convert, {"pair": PAIR, "known": POLAR, "wanted": "normal_speed"}),
-        "load_path": (carom.load_path, {"pair": PAIR, **STEPS}),
-        "load_path, moved": (carom.load_path, {"pair": PAIR, "penetration": [1e-6, 2e-6],
-                                               "displacement": 1e-7}),
-        "load_path, two ways": (carom.load_path, {"pair": PAIR, "normal_force": 10.0,
-                                "displacement": [[1e-7, 0.0], [1e-7, 1e-7]], "progress": False}),
-        "load_path, pushed": (carom.load_path, {"pair": PAIR, "penetration": [1e-6, 2e-6],
-                              "tangential_force": [[0.5, 0.0], [0.0, 0.5]]}),
-        "then": (PATH.then, STEPS),
-        "path.contact": (PATH.contact, {"at": 1}),
-        "path.fields": (PATH.fields, {"at": 1, **PLACES}),
-        "path.radial": (PATH.radial, {"at": 1, "n": 3}),
-        "hit.contact": (HIT.contact, INSIDE),
-        "hit.fields": (HIT.fields, {**INSIDE, **PLACES}),
-        "hit.radial": (HIT.radial, {**INSIDE, "n": 3}),
-        "hit.history": (HIT.history, {"n": 3}),
-        "cattaneo_mindlin": (classical.cattaneo_mindlin, {"pair": PAIR, "normal_force": 10.0,
-                                                          "tangential_force": [1.0]}),
-        "loop_energy": (classical.loop_energy, {"pair": PAIR, "normal_force": 10.0,
-                                                "amplitude": 1.0}),
-        "critical_obliquity": (classical.critical_obliquity, {"pair": PAIR}),
-        "BoundaryElements": (carom.BoundaryElements, {"elements": 16, "steps": 50}),
-        "Grid": (lambda **axes: carom.Grid(axes), {"angle": [0.1, 0.2], "friction": {
-            "from": 0.1, "to": 0.2, "points": 3}}),
-        "Grid, range": (lambda **ends: carom.Grid({"angle": {key.strip("_"): value for key, value
-            in ends.items()}}), {"from_": 0.1, "to": 0.2, "points": 3, "spacing": "log"}),
-        "Grid, axes": (carom.Grid, {"axes": {"angle": [0.1]}}),
-        "LatinHypercube": (carom.LatinHypercube, {"ranges": {"friction": (0.1, 0.2)}, "samples": 5,
-                                                  "seed": 1}),
-        "stiffnesses": (verify.stiffnesses, {"pair": PAIR, "normal_speed": 1.0}),
-        "poisson_from_kappa": (verify.poisson_from_kappa, {"kappa": 0.8}),
-        "damping": (verify.damping_from_restitution,
-                    {"restitution": 0.9, "convention": "critical"}),
-        "restitution": (verify.restitution_from_damping, {"value": 0.1, "convention": "thornton"}),
-        "recipes": (verify.recipes, {"pair": PAIR, "normal_speed": 1.0, "wanted": 0.9,
-                                     "spring": dem.LinearSpring(),
-                                     "mindlin": dem.LammpsMindlin()}),
-        "Experiment": (verify.Experiment, {"pair": PAIR, "law": dem.LammpsMindlin(), "steps": 99,
-                                           "normal_speed": 0.1, "tangential_speed": (0.1, 0.0),
-                                           "spin": (0.0, 1.0)}),
-        "force_error": (verify.force_error, {"law": dem.LinearSpring(), "psi": 0.5, "chi": 1.44,
-                                             "kappa": 0.8}),
-        "error_map": (verify.error_map, {"law": dem.HardSphere(0.4), "psi": [0.5, 1.0],
-                                         "chi": 1.44, "kappa": 0.8, "steps": 50}),
-        "bench": (verify.bench, {"engine": verify.Lammps("/nowhere"), "steps": 100, "psi": [0.5]}),
-        "Entry": (verify.Entry, {"label": "one", "law": dem.LinearSpring(), "used_by": ""}),
-        "dataset": (carom.datasets.table, {"name": "kharaz2001"}),
-    }  # fmt: skip
-    costly = {
-        "ReboundLaw": (carom.laws.ReboundLaw, {"chi": 1.44, "losses": None}),
-        "MixtureLaw": (lambda low: carom.laws.ReboundLaw((low, 1.3)), {"low": 1.2}),
-        "fit_walton": (carom.laws.fit_walton, {"pair": PAIR, "span": 5.0}),
-        "hit.stress": (HIT.stress, {**INSIDE, **BELOW}),
-        "path.stress": (PATH.stress, {"at": 1, **BELOW}),
-        "hit.peaks": (HIT.peaks, {"depth": 1e-5}),
-        "hit.wear": (HIT.wear, {"n": 3, "coefficient": 1e-13, "x": [0.0, 1e-5], "y": [0.0]}),
-        "hit.spectrum": (HIT.spectrum, {"frequencies": [0.0, 1e5]}),
-        "hit.spectrum, n": (HIT.spectrum, {"max_frequency": 1e5, "n": 3}),
-        "strength": (carom.bearable_speeds, {"pair": PAIR, "angle": [0.5], "friction": [0.2],
-                                      "workers": 1, "progress": False}),
-        "wear": (carom.wear_of_many, {"pair": PAIR, **POLAR, "spin": 1.0, "counts": [1.0, 2.0],
-                              "coefficient": 1e-13, "area": 1e-4, "n": 3, "losses": None}),
-        "wear, components": (carom.wear_of_many, {"pair": BALLS, **CARTESIAN, "spin2": 1.0}),
-        "sweep": (carom.sweep, {"case": CASE, "design": GRID, "outputs": ["psi_out"], "workers": 1,
-                                "progress": False, "scheduler": None, "resume": False}),
-        "step_error": (verify.step_error, {"law": dem.LinearSpring(), "steps": 50, "psi": [0.5],
-                                           "chi": 1.44, "kappa": 0.8}),
-        "advised_steps": (verify.advised_steps, {"law": dem.LinearSpring(), "allowed": 0.1,
-                                                 "psi": [0.5], "chi": 1.44, "kappa": 0.8}),
-        "rank": (verify.rank, {"entries": [dem.LinearSpring()], "chi": 1.44, "kappa": 0.8,
-                               "psi": [0.5], "progress": False}),
-        "tune": (verify.tune, {"laws": [dem.HardSphere()], "chi": 1.44, "kappa": 0.8,
-                               "psi": [0.5], "measure": "max", "progress": False}),
-        "score": (verify.score, {"results": {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.0, -1.0]},
-                                 "case": None, "chi": 1.44, "tolerance": 0.01, "code": "own",
-                                 "law": "new", "restitution": 0.9}),
-        "score, own": (verify.score, {"results": OWN, "case": PAIR, "chi": None, "code": "own",
-                                      "restitution": None, "tolerance": 0.01}),
-        "rank, own": (verify.rank, {"entries": [OWN, RULE], "chi": 1.44, "kappa": 0.8,
-                                    "psi": [0.5], "progress": False}),
-    }  # fmt: skip
+    cheap, costly = Calls(), Calls()
+    for fill in (bodies_and_losses, rebounds, tabulated, contact_laws, impacts_and_paths, sweeps):
+        fill(cheap)
+    slow_ones(costly)
     return cheap, costly
 
 
 OPEN = {  # NaN or infinity that the docstring tells
     *("law", "impulse", "dissipation", "convert", "convert, all", "Material", "error_map", "tune"),
-    *(
-        "KelvinVoigt",
-        "KelvinVoigt, time",
-        "ElasticPlastic",
-        "StandardLinearSolid",
-        "rank",
-        "step_error",
-        "Grid, range",
-    ),
+    *("KelvinVoigt", "KelvinVoigt, time", "ElasticPlastic", "StandardLinearSolid", "step_error"),
     *("RoughLaw", "sweep", "force_error", "force_error, own", "memory", "Entry", "rank, own"),
-    *("hit.spectrum", "hit.spectrum, n", "strength", "wear", "wear, components"),
+    *("hit.spectrum", "hit.spectrum, n", "strength", "wear", "wear, components", "rank"),
+    "Grid, range",
 }
 
 

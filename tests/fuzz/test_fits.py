@@ -4,39 +4,35 @@ Few rows, equal rows, one angle, normal impacts, gaps, outliers, no scatter, any
 """
 
 import json
-import re
 import warnings
 
 import numpy as np
-import xarray as xr
+from tests.checks import is_stored, one_line
 
 import carom
 from carom.datasets.observables import OBSERVABLES, SCALED
 
 PARAMETERS = ("friction", "kappa", "chi", "restitution", "spin_offset")
 RATIOS = tuple(name for name in OBSERVABLES if name not in SCALED)
-LINE = re.compile(r"[^\n:]+: .+")
+
+
+def solid(young, poisson, density):
+    return carom.Material(young=young, poisson=poisson, density=density)
+
+
 BALLS = {
     "steel": carom.Sphere(radius="5 mm", material="steel"),
     "small": carom.Sphere(radius="1 mm", material="soda-lime-glass"),
     "shell": carom.Sphere(radius="20 mm", material="steel", inner_radius="19.5 mm"),
     "weighted": carom.Sphere(radius="20 mm", material="steel", gyration_radius="8 mm"),
     "wheel": carom.Sphere(radius="20 mm", material="steel", gyration_radius="30 mm"),
-    "rigid": carom.Sphere(
-        radius="3 mm", material=carom.Material(young=np.inf, poisson=0.0, density=8000.0)
-    ),
-    "rubber": carom.Sphere(
-        radius="30 mm", material=carom.Material(young="3 MPa", poisson=0.5, density=1100.0)
-    ),
-    "auxetic": carom.Sphere(
-        radius="10 mm", material=carom.Material(young="1 GPa", poisson=-0.9, density=500.0)
-    ),
+    "rigid": carom.Sphere(radius="3 mm", material=solid(np.inf, 0.0, 8000.0)),
+    "rubber": carom.Sphere(radius="30 mm", material=solid("3 MPa", 0.5, 1100.0)),
+    "auxetic": carom.Sphere(radius="10 mm", material=solid("1 GPa", -0.9, 500.0)),
 }
 OTHERS = {
     "glass": carom.HalfSpace(material="soda-lime-glass"),
-    "rubber floor": carom.HalfSpace(
-        material=carom.Material(young="3 MPa", poisson=0.49, density=1100.0)
-    ),
+    "rubber floor": carom.HalfSpace(material=solid("3 MPa", 0.49, 1100.0)),
     "rigid floor": carom.HalfSpace(material="rigid"),
     "cup": carom.Cup(radius="50 mm", material="steel"),
     "ball": carom.Sphere(radius="5 mm", material="steel"),
@@ -94,12 +90,9 @@ def rebounds(rng, pair, before, names):
     psi = carom.convert_observables(pair, known=before, wanted="psi_in")
     out = carom.rebound(psi, pair.chi)
     known = before | {"psi_out": out, "normal_restitution": np.maximum(restitution, 1e-9)}
-    found = {}
-    for name in names:
-        found[name] = restitution if name == "normal_restitution" else None
-        if found[name] is None:
-            found[name] = carom.convert_observables(pair, known=known, wanted=name)
-    return found
+    others = [name for name in names if name != "normal_restitution"]
+    found = dict.fromkeys(names, restitution)
+    return found | {n: carom.convert_observables(pair, known=known, wanted=n) for n in others}
 
 
 def measured(rng, pair):
@@ -159,13 +152,8 @@ def habits(rng, table, before, names):
 
 def options(rng, pair):
     """Return the other arguments of `fit`."""
-    values = {
-        "friction": pair.friction,
-        "kappa": pair.kappa,
-        "chi": pair.chi,
-        "restitution": 0.98,
-        "spin_offset": 0.0,
-    }
+    values = {name: getattr(pair, name) for name in ("friction", "kappa", "chi")}
+    values |= {"restitution": 0.98, "spin_offset": 0.0}
     given = {"robust": bool(rng.random() < 0.7)}
     given["confidence"] = float(rng.choice([0.5, 0.68, 0.95, 0.999]))
     way = rng.random()
@@ -230,20 +218,6 @@ def used(found):
         assert str(advice)
 
 
-def stored(found, folder):
-    """Store a fit, and assert that its file gives it back."""
-    dataset = found.to_dataset()
-    xr.testing.assert_identical(carom.read(carom.save(found, folder / "fit.nc")), dataset)
-    found.plot(folder / "fit.png")
-    assert "<table" in found._repr_html_()
-
-
-def line(error):
-    """Return the one line that a refusal is."""
-    assert LINE.fullmatch(str(error)), error
-    return str(error)
-
-
 def attempt(seed, folder, pictures=True):
     """Make up measurements and fit them; return the fit, or the line that refuses them."""
     rng = np.random.default_rng(seed)
@@ -256,10 +230,10 @@ def attempt(seed, folder, pictures=True):
         try:
             found = carom.fit(table, pair=other, **given)
         except carom.InputError as error:
-            return line(error)
+            return one_line(error)
         used(found)
         if pictures:
-            stored(found, folder)
+            is_stored(found, folder)
     return found
 
 

@@ -17,10 +17,9 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import files, uploads
-from carom.explorer.app import FOR_THE_PAGE, WRITTEN, new_app
-from carom.explorer.knobs import CHOICES, KNOBS
+from carom.explorer.app import ANSWERED_IN_JSON, WRITTEN_FILES, new_app
 from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
-from carom.explorer.views import LAWS, View
+from carom.explorer.views import CHOICES, FIELDS, LAWS, View
 from carom.explorer.warming import STEPS, Warming
 
 SOON = 5.0  # s of a core, for the slowest answer
@@ -117,19 +116,19 @@ def word(rng, name):
     kind = rng.random()
     if kind < 0.2:
         return rng.choice(WORDS + NUMBERS)
-    if name in KNOBS:
-        knob = KNOBS[name]
-        value = rng.choice([knob.least, knob.most, rng.uniform(knob.least, knob.most)])
+    if name in FIELDS and FIELDS[name].is_number:
+        field = FIELDS[name]
+        value = rng.choice([field.least, field.most, rng.uniform(field.least, field.most)])
         right = repr(value * rng.choice([1.0, 1.0, 1.0, -1.0, 1.1]))
     else:
-        right = rng.choice(CHOICES.get(name, FAST_LAWS))
+        right = rng.choice((CHOICES | {"law": FAST_LAWS}).get(name, FAST_LAWS))
     return right if kind < 0.9 else garbled(rng, right)
 
 
 def link(rng):
     """Return the query of a link, seldom quite right."""
-    known = [*KNOBS, *CHOICES, "law", "law", "time", "theme", "other"]
-    pairs = [(name, word(rng, name)) for name in rng.choices(known, k=rng.randint(0, 7))]
+    names = [*FIELDS, "law", "time", "theme", "other"]
+    pairs = [(name, word(rng, name)) for name in rng.choices(names, k=rng.randint(0, 7))]
     found = urlencode(pairs, errors="replace")
     return garbled(rng, found) if rng.random() < 0.2 else found
 
@@ -139,7 +138,7 @@ def test_links_and_files(ask, calls):
     rng = random.Random(0)
     right = 0
     for _ in range(calls // 20):
-        name = rng.choice(["view.py", "answer"] * 20 + ["laws"] * 8 + [*WRITTEN])
+        name = rng.choice(["view.py", "answer"] * 20 + ["laws"] * 8 + [*WRITTEN_FILES])
         right += ask(f"/{name}?{quote(link(rng), safe='=&%+', errors='replace')}")
     assert right > 0
     assert not ask(f"/view.py?{'a' * (LONGEST_LINK + 1)}")
@@ -147,7 +146,7 @@ def test_links_and_files(ask, calls):
 
 def test_addresses_methods_and_headers(ask, calls):
     rng = random.Random(1)
-    known = ["/", "/view.py", "/assets/stage.js", "/plotly.min.js", *FOR_THE_PAGE]
+    known = ["/", "/view.py", "/assets/stage.js", "/plotly.min.js", *ANSWERED_IN_JSON]
     for _ in range(calls // 4):
         path = rng.choice(known)
         if rng.random() < 0.7:

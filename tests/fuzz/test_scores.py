@@ -4,15 +4,13 @@ Rebound curves, velocities and histories of forces, with few, equal, wrong and o
 """
 
 import json
-import re
 import warnings
 
 import numpy as np
-import xarray as xr
+from tests.checks import is_stored, one_line
 
 import carom
 
-LINE = re.compile(r"[^\n:]+: .+")
 STEEL = carom.material("steel")
 BALL = carom.Sphere(radius="5 mm", material=STEEL)
 PAIRS = {
@@ -78,11 +76,8 @@ def velocities(rng):
         psi = pair.psi(along + pair.first.radius * spin, normal)
         unit = pair.scales(normal).tangential_speed * pair.tangential_mass
         impulse = unit * (psi - carom.rebound(psi, pair.chi))
-    turned = (
-        impulse
-        * pair.first.radius
-        / (pair.first.mass * pair.first.gyration_ratio * pair.first.radius**2)
-    )
+    ball = pair.first
+    turned = impulse / (ball.mass * ball.gyration_ratio * ball.radius)
     table = {"normal_speed": normal, "tangential_speed": along, "spin": spin}
     if rng.random() < 0.4:
         table = {"speed": np.hypot(normal, along), "angle": np.arctan2(along, normal), "spin": spin}
@@ -152,20 +147,6 @@ def used(score):
             assert np.isfinite(values.values).all(), name
 
 
-def stored(score, folder):
-    """Store a score, and assert that its file gives it back."""
-    dataset = score.to_dataset()
-    xr.testing.assert_identical(carom.read(carom.save(score, folder / "score.nc")), dataset)
-    score.plot(folder / "score.png")
-    assert "<table" in score._repr_html_()
-
-
-def line(error):
-    """Return the one line that a refusal is."""
-    assert LINE.fullmatch(str(error)), error
-    return str(error)
-
-
 def attempt(seed, folder, pictures=True):
     """Make up results and score them; return the score, or the line that refuses them."""
     rng = np.random.default_rng(seed)
@@ -180,10 +161,10 @@ def attempt(seed, folder, pictures=True):
         try:
             score = carom.verify.score(table, **given)
         except carom.InputError as error:
-            return line(error)
+            return one_line(error)
         used(score)
         if pictures:
-            stored(score, folder)
+            is_stored(score, folder)
     return score
 
 

@@ -6,8 +6,8 @@ import pytest
 import carom
 from carom.fitting.reading import read_problem
 from carom.io import csv_cells
-from carom.io.columns import column_in_si
 from carom.io.tables import read_table
+from carom.io.user_table import column_in_si
 
 HEAD = "angle [deg],speed [m/s],spin,spin_out [rpm],e_n,tangential_restitution [%]\n"
 COLUMNS = {"e_n": "normal_restitution"}
@@ -19,12 +19,6 @@ CASES = (
     "angle [deg]\tfriction\tfirst.radius\tsecond.material\n10\t0.1\t5 mm\tsteel\n"
     '20\t20 %\t0.005\t"young=70 GPa, poisson=0.3"\n30\t0.3\t5e-3\tglass\n'
 )
-
-
-@pytest.fixture(scope="module")
-def pair():
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    return carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
 
 
 @pytest.fixture
@@ -98,6 +92,6 @@ def test_the_ends_of_blocks_change_nothing(calls, file, rng, mutated, monkeypatc
         lines = [",".join(rng.choices(numbers, k=3)) for _ in range(rng.randrange(1, 9))]
         path = file("a,b,c\n" + "\n".join([*lines[:-1], mutated(lines[-1])]))
         with monkeypatch.context() as small:
-            small.setattr(csv_cells, "BLOCK", 2)
+            small.setattr(csv_cells, "BLOCK_ROWS", 2)
             found = read(path)
         assert read(path) == found

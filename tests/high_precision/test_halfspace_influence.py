@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from mpmath import mp
 
-from carom.halfspace.influence import influence
+from carom.halfspace.compliance import influence
 
 KERNELS = {
     "xx": lambda x, y: x**2 / mpmath.hypot(x, y) ** 3,

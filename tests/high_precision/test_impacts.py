@@ -60,8 +60,8 @@ def test_phases(row):
 
 
 def test_the_generator_confirms_its_table():
-    """With other precision and order, for the first lines; `--check` alone does all, in minutes."""
-    program = [sys.executable, "-m", "tests.oracles.generate_impacts", "--check", "--first", "3"]
+    """With other precision and order, for the first line; `--check` alone does all, in minutes."""
+    program = [sys.executable, "-m", "tests.oracles.generate_impacts", "--check", "--first", "1"]
     done = subprocess.run(program, cwd=HERE.parents[1], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "3 impacts confirmed" in done.stdout
+    assert "1 impacts confirmed" in done.stdout

@@ -1,33 +1,23 @@
 """Normal motion of the solver for impacts with losses against power series at 40 digits.
 
-The figures are those of the table beside (test_kelvin_voigt), which makes them; here are some.
+The table is that of `tests.oracles.kelvin_voigt`.
 """
+
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.special import beta
 
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.stages import restitution, viscous_loss
-from carom.dimensionless.lossy.panels.work import new_work
-from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
+from carom.dimensionless.lossy.viscoelastic.normal import restitution, viscous_loss
+from carom.dimensionless.lossy.viscoelastic.work import new_work
+from carom.dimensionless.rebounds import LossyRebounds, lossy_rebounds
 
 WORK = new_work()
 
-# alpha, restitution, duration, largest b^2
-TABLE = np.array(
-    [
-        [1e-6, 0.999998108297074864538, 2.94327474110608010186, 0.999999243318357358765],
-        [1e-4, 0.999810858694227770822, 2.94323086529316996062, 0.999924338752814766042],
-        [1e-3, 0.998111218305156711169, 2.94283225114521915528, 0.999244015736712340625],
-        [0.01, 0.981371609939200244115, 2.93887134963297834857, 0.992502373139721106056],
-        [0.05, 0.912241720358431630459, 2.92179990294291061364, 0.963831094296967884330],
-        [0.1, 0.836404652176792274528, 2.90158915191212801191, 0.930695879791390401007],
-        [0.2, 0.712382433649457977447, 2.86442300773268560600, 0.872045107390488178155],
-        [0.45, 0.505932242030271667667, 2.78606682051943807647, 0.757949515255600387783],
-        [1.0, 0.287230201467896573168, 2.65907259723084280453, 0.599265075186471385219],
-    ]
-)
+# alpha, restitution, duration, largest b^2, its time
+TABLE = np.loadtxt(Path(__file__).parent / "kelvin_voigt.csv", delimiter=",")
 
 
 def impacts(psi: float, chi: float = 1.44) -> LossyRebounds:

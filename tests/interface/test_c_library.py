@@ -111,8 +111,7 @@ def test_the_examples_run(name, tmp_path):
 def test_it_needs_nothing_but_the_c_library():
     if shutil.which("ldd") is None:
         pytest.skip("there is no ldd")
-    output = subprocess.run(
-        ["ldd", carom.get_library()], check=True, capture_output=True, text=True
-    )
+    words = ["ldd", carom.get_library()]
+    output = subprocess.run(words, check=True, capture_output=True, text=True)
     names = set(re.findall(r"^\s*(?:\S*/)?(\w[\w-]*)\.", output.stdout, re.MULTILINE))
     assert names <= {"linux-vdso", "libm", "libc", "ld-linux-x86-64", "ld-linux-aarch64"}

@@ -4,17 +4,11 @@ import math
 import time
 
 import pytest
+from tests.checks import refused
 
 import carom
-from carom import InputError
-from carom.bodies.cases import (
-    check_case,
-    material_values,
-    motion_of,
-    pair_of,
-    read_case,
-    read_material,
-)
+from carom.bodies import cases
+from carom.bodies.cases import check_case, material_values, pair_of, read_case, read_material
 
 POINTS = (
     "^material: '3' cannot be used; write e.g. young=210 GPa, poisson=0.3, density=7850 with "
@@ -39,8 +33,7 @@ def test_a_number_of_a_file_is_finite(tmp_path, young):
     """It would be a rigid body; that is said by the name of its material."""
     path = tmp_path / "case.toml"
     path.write_text(TOML.replace('"210 GPa"', young))
-    with pytest.raises(InputError, match=f"young: '{young}' cannot be used"):
-        pair_of(read_case(path))
+    refused(f"young: '{young}' cannot be used", lambda: pair_of(read_case(path)))
 
 
 def test_a_file_makes_the_pair_that_it_describes(tmp_path):
@@ -52,13 +45,16 @@ def test_a_file_makes_the_pair_that_it_describes(tmp_path):
     first = carom.Sphere(radius=0.005, inner_radius=0.001, material=stuff)
     second = carom.Sphere(radius=0.005, material="glass")
     assert pair_of(case) == carom.Pair(first, second, 0.3)
-    assert carom.impact(pair_of(case), **motion_of(case)).tangential_speed == pytest.approx(1.0)
+    assert carom.impact(pair_of(case), **cases.motion_of(case)).tangential_speed == pytest.approx(
+        1.0
+    )
 
 
 def test_a_sphere_may_have_a_hole_of_no_size():
-    assert carom.Sphere(radius=1, material="steel", inner_radius=0).mass == pytest.approx(
-        carom.Sphere(radius=1, material="steel").mass, rel=1e-15
+    hollow, solid = (
+        carom.Sphere(radius=1, material="steel", **h) for h in ({"inner_radius": 0}, {})
     )
+    assert hollow.mass == pytest.approx(solid.mass, rel=1e-15)
 
 
 def test_values_of_materials_with_and_without_gaps():
@@ -91,16 +87,13 @@ def test_values_of_materials_with_and_without_gaps():
     ],
 )
 def test_what_is_no_case_is_refused(make, message):
-    with pytest.raises(InputError, match=message):
-        make()
+    refused(message, make)
 
 
 def test_all_unknown_keys_are_counted_and_the_first_are_told(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text("".join(f"k{i} = 1\n" for i in range(30)), encoding="utf-8")
-    with pytest.raises(carom.InputError) as refused:
-        carom.read(path)
-    message = str(refused.value)
+    message = refused("", carom.read, path)
     assert message.startswith("30 faults: (1) k0: unknown key in ")
     assert message.endswith("; and 18 more")
     assert message.count("unknown key") == 12
@@ -120,10 +113,8 @@ def test_long_lines_are_read_at_once(text, told, tmp_path):
     path = tmp_path / "case.toml"
     path.write_text(text)
     begin = time.process_time()
-    with pytest.raises(InputError, match=told) as found:
-        carom.read(path)
+    assert len(refused(told, carom.read, path)) < 600
     assert time.process_time() - begin < 5.0
-    assert len(str(found.value)) < 600
 
 
 @pytest.mark.parametrize(
@@ -136,6 +127,5 @@ def test_long_lines_are_read_at_once(text, told, tmp_path):
 )
 def test_a_long_material_is_read_at_once(text, told):
     begin = time.process_time()
-    with pytest.raises(InputError, match=told):
-        read_material(text)
+    refused(told, read_material, text)
     assert time.process_time() - begin < 5.0

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests import checks
 
 import carom
 
@@ -21,8 +22,7 @@ def motion(*shape):
 
 
 def refused(name, pair=PAIR, **given):
-    with pytest.raises(carom.InputError, match=f"^{name}: [^\n]+$"):
-        carom.collide(pair, **(ONE | given))
+    checks.refused(f"^{name}: ", carom.collide, pair, **(ONE | given))
 
 
 @pytest.mark.parametrize("name", ["velocity1", "spin1", "velocity2", "spin2", "normal"])
@@ -56,8 +56,7 @@ def test_refuses_what_is_no_law(law):
 @pytest.mark.parametrize("threads", [0, -1, 1.5, "two"])
 def test_refuses_bad_threads(threads):
     """As `rebound` does: a whole number from 1 on."""
-    with pytest.raises(ValueError, match=r"^threads: [^\n]+$"):
-        carom.collide(PAIR, **ONE, threads=threads)
+    refused("threads", threads=threads)
 
 
 @pytest.mark.parametrize(
@@ -98,11 +97,9 @@ def test_in_place_refuses_what_may_not_be_written():
     refused("spin1", **given, inplace=True)
     given = motion(5)
     for one, other in (("velocity1", "spin1"), ("velocity1", "velocity2"), ("spin2", "normal")):
-        with pytest.raises(carom.InputError, match=r"^\w+: [^\n]+$"):
-            carom.collide(PAIR, **(given | {other: given[one]}), inplace=True)
+        refused(r"\w+", **(given | {other: given[one]}), inplace=True)
     room = np.zeros((6, 3))
-    with pytest.raises(carom.InputError, match=r"^\w+: [^\n]+$"):
-        carom.collide(PAIR, **(given | {"velocity1": room[:5], "spin1": room[1:]}), inplace=True)
+    refused(r"\w+", **(given | {"velocity1": room[:5], "spin1": room[1:]}), inplace=True)
 
 
 def test_in_place_of_neighbours_in_one_block_of_memory():
@@ -169,28 +166,23 @@ def test_says_what_became_of_a_pair():
     assert "too large" in words[carom.status.CollisionStatus.NOT_FINITE]
 
 
-@pytest.mark.parametrize(
-    ("law", "name", "values"),
-    [
-        (carom.laws.SmoothLaw, "restitution", {"restitution": 1.1}),
-        (carom.laws.RoughLaw, "restitution", {"restitution": -0.1}),
-        (carom.laws.RoughLaw, "restitution", {"restitution": float("nan")}),
-        (carom.laws.WaltonLaw, "friction", {"friction": -0.1, "tangential_restitution": 0.0}),
-        (carom.laws.WaltonLaw, "friction", {"friction": np.inf, "tangential_restitution": 0.0}),
-        (carom.laws.WaltonLaw, "restitution",
-         {"friction": 0.1, "restitution": 2.0, "tangential_restitution": 0.0}),
-        (carom.laws.WaltonLaw, "tangential_restitution",
-         {"friction": 0.1, "tangential_restitution": 1.01}),
-        (carom.laws.WaltonLaw, "tangential_restitution",
-         {"friction": 0.1, "tangential_restitution": -1.01}),
-        (carom.laws.WaltonLaw, "tangential_restitution",
-         {"friction": 0.1, "tangential_restitution": "most"}),
-    ],
-)  # fmt: skip
+OUT_OF_RANGE = [
+    *((carom.laws.SmoothLaw, "restitution", {"restitution": e}) for e in (1.1,)),
+    *((carom.laws.RoughLaw, "restitution", {"restitution": e}) for e in (-0.1, float("nan"))),
+    *((carom.laws.WaltonLaw, "friction", {"friction": mu}) for mu in (-0.1, np.inf)),
+    (carom.laws.WaltonLaw, "restitution", {"restitution": 2.0}),
+    *(
+        (carom.laws.WaltonLaw, "tangential_restitution", {"tangential_restitution": beta})
+        for beta in (1.01, -1.01, "most")
+    ),
+]
+
+
+@pytest.mark.parametrize(("law", "name", "values"), OUT_OF_RANGE)
 def test_laws_refuse_values_out_of_range(law, name, values):
     """One line that names the parameter."""
-    with pytest.raises(carom.InputError, match=f"^{name}: [^\n]+$"):
-        law(**values)
+    others = {"friction": 0.1, "tangential_restitution": 0.0} if "Walton" in str(law) else {}
+    checks.refused(f"^{name}: ", law, **(others | values))
 
 
 def test_lists_take_the_type_of_the_arrays():
@@ -212,5 +204,5 @@ def test_what_broadcasts_is_not_written_in_place():
 
 
 def test_a_mask_is_not_passed_over():
-    with pytest.raises(carom.InputError, match=r"velocity1: .*masked arrays are not supported"):
-        carom.collide(PAIR, velocity1=np.ma.ones((2, 3)), normal=[0.0, 0.0, 1.0])
+    words, normal = "velocity1: .*masked arrays are not supported", [0.0, 0.0, 1.0]
+    checks.refused(words, carom.collide, PAIR, velocity1=np.ma.ones((2, 3)), normal=normal)

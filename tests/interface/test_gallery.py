@@ -24,9 +24,11 @@ def checks_in(script):
     }
 
 
+@pytest.mark.slow  # together
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
 def test_example_holds_and_draws(script, tmp_path, monkeypatch, capsys):
     """A script prints one line when its checks have passed and stores a figure of its name."""
+    monkeypatch.setattr("carom.plots.style.DPI", 100)  # sooner stored
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
     monkeypatch.setattr("sys.argv", [str(script)])
@@ -34,7 +36,7 @@ def test_example_holds_and_draws(script, tmp_path, monkeypatch, capsys):
     assert len(capsys.readouterr().out.splitlines()) == 1
     (figure,) = tmp_path.iterdir()
     assert figure.stem == script.stem
-    assert figure.stat().st_size > 20_000, "an empty figure is smaller"
+    assert figure.stat().st_size > 5_000, "an empty figure is smaller"
     assert len(checks_in(script)) >= 3
 
 

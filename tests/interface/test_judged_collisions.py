@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests.checks import refused
 
 import carom
 from carom.dimensionless.neglected import rebound_error, spin_error
@@ -19,11 +20,8 @@ def judged(pair, **given):
 
 @pytest.mark.parametrize("pair", [LIKE, UNLIKE])
 def test_a_judged_collision_is_the_same_collision(pair):
-    motion = {
-        "velocity1": RANDOM.normal(size=(50, 3)) + np.array(UP),
-        "spin1": RANDOM.normal(size=(50, 3)) * 50.0,
-        "normal": UP,
-    }
+    velocity, spin = RANDOM.normal(size=(2, 50, 3))
+    motion = {"velocity1": velocity + np.array(UP), "spin1": 50.0 * spin, "normal": UP}
     found, plain = judged(pair, **motion), carom.collide(pair, **motion)
     for name in plain._fields:
         assert np.array_equal(getattr(found, name), getattr(plain, name)), name
@@ -36,11 +34,9 @@ def test_a_judged_collision_is_the_same_collision(pair):
 def test_the_error_is_that_of_the_impact():
     """Motion along x and spin about the normal, as `impact` takes and judges them."""
     for pair in (LIKE, UNLIKE):
-        spin = 300.0
-        hit = carom.impact(
-            pair, normal_speed=1.0, tangential_speed=0.4, spin=20.0, normal_spin=spin
-        )
-        found = judged(pair, velocity1=[0.4, 0.0, 1.0], spin1=[0.0, 20.0, spin], normal=UP)
+        spins = {"spin": 20.0, "normal_spin": 300.0}
+        hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.4, **spins)
+        found = judged(pair, velocity1=[0.4, 0.0, 1.0], spin1=[0.0, 20.0, 300.0], normal=UP)
         parts = [f.value for f in hit.validity.findings if f.name.startswith("error of psi_2")]
         assert len(parts) == 2
         assert float(found.psi_out_error) == pytest.approx(sum(parts), rel=1e-12)
@@ -52,10 +48,9 @@ def test_direction_does_not_matter():
     turned, _ = np.linalg.qr(RANDOM.normal(size=(3, 3)))
     turned *= np.sign(np.linalg.det(turned))
     velocity, spin = np.array([0.4, 0.1, 1.0]), np.array([5.0, -20.0, 100.0])
-    one = judged(LIKE, velocity1=velocity, spin1=spin, normal=UP)
-    other = judged(
-        LIKE, velocity1=turned @ velocity, spin1=turned @ spin, normal=turned @ np.array(UP)
-    )
+    motion = {"velocity1": velocity, "spin1": spin, "normal": np.array(UP)}
+    one = judged(LIKE, **motion)
+    other = judged(LIKE, **{name: turned @ vector for name, vector in motion.items()})
     assert float(other.psi_out_error) == pytest.approx(float(one.psi_out_error), rel=1e-9)
 
 
@@ -91,16 +86,11 @@ def test_written_in_place_it_is_judged_as_it_was():
     assert np.array_equal(after.psi_out_error, before.psi_out_error)
 
 
-@pytest.mark.parametrize(
-    ("more", "said"),
-    [
-        ({"law": carom.laws.SmoothLaw()}, r"^law: .*judge=True judges the exact law"),
-        ({"judge": "yes"}, r"^judge: "),
-    ],
-)
-def test_what_cannot_be_judged_is_refused(more, said):
-    with pytest.raises(carom.InputError, match=said):
-        carom.collide(LIKE, velocity1=UP, normal=UP, **{"judge": True, **more})
+def test_what_cannot_be_judged_is_refused():
+    given = {"velocity1": UP, "normal": UP}
+    words = r"^law: .*judge=True judges the exact law"
+    refused(words, carom.collide, LIKE, **given, judge=True, law=carom.laws.SmoothLaw())
+    refused("^judge: ", carom.collide, LIKE, **given, judge="yes")
 
 
 def test_errors_take_arrays():
@@ -117,11 +107,8 @@ def test_errors_take_arrays():
 
 def test_contacts_too_large_for_hertz_are_not_judged():
     rubber = carom.Sphere(radius="10 mm", material="rubber")
-    found = judged(
-        carom.Pair(rubber, carom.HalfSpace(material="rubber"), friction=0.5),
-        velocity1=[[0.1, 0.0, v] for v in (0.01, 30.0)],
-        normal=UP,
-    )
+    bodies = carom.Pair(rubber, carom.HalfSpace(material="rubber"), friction=0.5)
+    found = judged(bodies, velocity1=[[0.1, 0.0, v] for v in (0.01, 30.0)], normal=UP)
     assert found.judgement.tolist() == [0, 1]
 
 

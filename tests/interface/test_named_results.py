@@ -5,17 +5,16 @@ import json
 import numpy as np
 import pandas as pd
 import pytest
+from tests.checks import refused
 
 import carom
-from carom.cli import main
 from carom.plots.scores import plot_score
 from carom.verify.scoring import score
 
 CHI = 1.44
 PSI = np.array([0.25, 0.75, 1.5, 3.0, 6.0])
 LAWS = {"mindlin": carom.dem.LammpsMindlin("mindlin"), "exact": carom.dem.ExactContactLaw(32)}
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
+NAMES = ["$x_1$", "$", "_hidden", "a" * 300, "two\nlines", "µ-DEM", "%d {0} \\alpha"]
 
 
 def both(code="LAMMPS"):
@@ -73,27 +72,32 @@ def test_the_legend_names_code_law_and_error():
     assert labels(score(LAWS["mindlin"], chi=CHI))[1].startswith("mindlin ")
 
 
-@pytest.mark.parametrize(
-    "name", ["$x_1$", "$", "_hidden", "a" * 300, "two\nlines", "µ-DEM", "%d {0} \\alpha"]
-)
+@pytest.mark.parametrize("name", NAMES)
 def test_any_name_can_be_drawn(name, tmp_path):
     result = score(one(), chi=CHI, code=name, law=name)
     carom.plots.save_figure(result.plot(), tmp_path / "score.svg")
     assert any("off by 0.58" in label for label in labels(result))
-    law = carom.dem.FunctionLaw(lambda contact, state: (0.0, state), name=name)
-    carom.plots.save_figure(carom.verify.rank(law, psi=[0.5]).plot(), tmp_path / "rank.svg")
-    found = carom.verify.error_map(law, [0.5, 1.0], [1.2, 1.4], steps=20)
+    found = carom.verify.error_map(named(name), [0.5, 1.0], [1.2, 1.4], steps=20)
     carom.plots.save_figure(carom.plots.plot_error_map(found), tmp_path / "map.svg")
+
+
+def named(name):
+    return carom.dem.FunctionLaw(lambda contact, state: (0.0, state), name=name)
+
+
+def test_a_ranking_of_any_names_can_be_drawn(tmp_path):
+    ranking = carom.verify.rank([named(name) for name in NAMES], psi=[0.5])
+    carom.plots.save_figure(ranking.plot(), tmp_path / "rank.svg")
 
 
 def test_comments_of_a_file_name_what_columns_do_not(tmp_path):
     comments = "# code: LAMMPS 22 Jul\n# law: mindlin, 2/3\n"
     result = score(written(tmp_path / "results.csv", one(), comments), chi=CHI)
-    assert result.origins.known == (("LAMMPS 22 Jul", "mindlin, 2/3"),)
+    assert result.origins.distinct == (("LAMMPS 22 Jul", "mindlin, 2/3"),)
     result = score(written(tmp_path / "results.csv", both(), comments), chi=CHI)
-    assert [origin.law for origin in result.origins.known] == ["mindlin", "exact"]
+    assert [origin.law for origin in result.origins.distinct] == ["mindlin", "exact"]
     result = score(written(tmp_path / "results.csv", both()), chi=CHI, code="own", law="new")
-    assert result.origins.known == (("own", "new"),)
+    assert result.origins.distinct == (("own", "new"),)
 
 
 def test_names_are_kept_in_stored_scores(tmp_path):
@@ -108,11 +112,11 @@ def test_names_are_kept_in_stored_scores(tmp_path):
     assert "code" not in score(one(), chi=CHI).to_dataset()
 
 
-def test_names_of_velocities_and_of_a_history(tmp_path):
-    hits = [carom.impact(PAIR, speed=1.0, angle=angle) for angle in (0.1, 0.4, 1.0)]
+def test_names_of_velocities_and_of_a_history(pair):
+    hits = [carom.impact(pair, speed=1.0, angle=angle) for angle in (0.1, 0.4, 1.0)]
     names = ("normal_speed", "tangential_speed", "spin", "tangential_speed_out", "spin_out")
     columns = {name: [getattr(hit, name) for hit in hits] for name in names}
-    result = score(columns | {"law": ["a", "b", "b"]}, case=PAIR)
+    result = score(columns | {"law": ["a", "b", "b"]}, case=pair)
     assert [group.points for group in result.by_origin] == [1, 2]
     history = hits[1].history(40)
     forces = {name: history[name].values for name in ("time", "normal_force", "tangential_force")}
@@ -137,22 +141,21 @@ def test_more_names_than_a_figure_tells_apart_are_left_out():
     psi = np.linspace(0.1, 6.0, 40)
     table = {"psi_1": psi, "psi_2": carom.rebound(psi, CHI), "law": [f"run {i}" for i in range(40)]}
     result = score(table, chi=CHI, code="own")
-    assert result.origins.known == (("own", ""),)
+    assert result.origins.distinct == (("own", ""),)
     assert "40 of them" in result.notes[0]
 
 
 @pytest.mark.parametrize("name", ["", " ", 3, ["mindlin"]])
 def test_a_name_that_is_none_is_refused(name):
-    with pytest.raises(carom.InputError, match=r"^law: .* must be a text"):
-        score(one(), chi=CHI, law=name)
+    refused(r"^law: .* must be a text", score, one(), chi=CHI, law=name)
 
 
-def test_the_command_names_them_too(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
+def test_the_command_names_them_too(run, tmp_path):
     written(tmp_path / "own.csv", one())
-    given = ["verify", "score", "own.csv", "--chi", str(CHI), "--code", "own", "--law", "new"]
-    assert main([*given, "--json"]) == 1
-    laws = json.loads(capsys.readouterr().out)["laws"]
-    assert [(law["code"], law["law"]) for law in laws] == [("own", "new")]
-    assert main([*given, "--tolerance", "0.6"]) == 0
-    assert "with own, new in line" in capsys.readouterr().out
+    given = ["verify", "score", "own.csv", "--chi", CHI, "--code", "own", "--law", "new"]
+    code, out, _ = run(*given, "--json")
+    assert code == 1
+    assert [(law["code"], law["law"]) for law in json.loads(out)["laws"]] == [("own", "new")]
+    code, out, _ = run(*given, "--tolerance", "0.6")
+    assert code == 0
+    assert "with own, new in line" in out

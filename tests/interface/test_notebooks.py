@@ -2,19 +2,20 @@
 
 import re
 from base64 import b64decode
+from html import unescape
 from html.parser import HTMLParser
 from io import BytesIO
 
 import numpy as np
+import pandas as pd
 import pytest
+from matplotlib.figure import Figure
 from PIL import Image
 
 import carom
 from carom.io.citations import ELEMENTS, FITS, IMPACT, LOADS, SAMPLES, VISCOUS, bibtex
 from carom.plots.result import card
 
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 MOTION = {"speed": 2.0, "angle": "30 deg"}
 TINY = carom.BoundaryElements(elements=8, steps=20)
 
@@ -51,15 +52,14 @@ def picture(html):
     [{}, {"method": TINY}, {"losses": carom.KelvinVoigt(restitution=0.9)}],
     ids=["exact", "halfspace", "lossy"],
 )
-def test_impacts_are_a_table_and_a_picture(how):
-    hit = carom.impact(PAIR, **MOTION, **how)
+def test_impacts_are_a_table_and_a_picture(pair, how):
+    hit = carom.impact(pair, **MOTION, **how)
     html = hit._repr_html_()
     told = Balanced(html)
     rows = dict(zip(told.cells[::2], told.cells[1::2], strict=True))
     assert 8 <= len(rows) <= 12
-    assert float(rows["dimensionless velocity of the contact point after"]) == pytest.approx(
-        hit.psi_out, rel=1e-5
-    )
+    after = float(rows["dimensionless velocity of the contact point after"])
+    assert after == pytest.approx(hit.psi_out, rel=1e-5)
     assert rows["speed of the centres after the impact"].endswith(" m/s")
     for phase in hit.phases:
         assert phase.kind in html
@@ -84,13 +84,13 @@ def told(result):
     return dict(zip(cells[::2], cells[1::2], strict=True)), html
 
 
-def test_load_paths_are_a_table_and_a_picture():
-    path = carom.load_path(PAIR, normal_force=[1.0, 10.0], tangential_force=[0.0, 1.5])
+def test_load_paths_are_a_table_and_a_picture(pair):
+    path = carom.load_path(pair, normal_force=[1.0, 10.0], tangential_force=[0.0, 1.5])
     rows, html = told(path)
     assert rows["normal force"] == "1 to 10 N"
     assert rows["tangential force, positive against V_x"] == "0 to 1.5 N"
     assert picture(html).std() > 10.0
-    one = carom.load_path(PAIR, normal_force=1.0, tangential_force=0.0)
+    one = carom.load_path(pair, normal_force=1.0, tangential_force=0.0)
     assert "<img" not in one._repr_html_(), "a single step is no line"
 
 
@@ -99,16 +99,14 @@ def test_rankings_are_a_table_and_a_picture():
     ranking = carom.verify.rank(laws, psi=[1.0, 2.0])
     rows, html = told(ranking)
     worst = {one.entry.label: one.max_error for one in ranking.standings}
-    assert {name: float(text.split()[0]) for name, text in rows.items()} == pytest.approx(
-        worst, abs=5e-4
-    )
+    shown = {name: float(text.split()[0]) for name, text in rows.items()}
+    assert shown == pytest.approx(worst, abs=5e-4)
     assert picture(html).std() > 10.0
 
 
 def test_tunings_are_a_table():
-    rows, html = told(
-        carom.verify.tune([carom.dem.HardSphere(), carom.dem.ThorntonLaw()], chi=1.44)
-    )
+    laws = [carom.dem.HardSphere(), carom.dem.ThorntonLaw()]
+    rows, html = told(carom.verify.tune(laws, chi=1.44))
     assert next(iter(rows)) == "Thornton, incremental"
     assert "tangential_restitution 0.36" in rows["hard sphere"]
     assert "<img" not in html
@@ -124,19 +122,41 @@ def test_scores_are_a_verdict_a_table_and_a_picture(error, verdict):
     assert picture(html).std() > 10.0
 
 
-def test_collisions_are_counted():
+def test_collisions_are_counted(pair):
     velocity = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, 2.0], [0.0, 0.0, np.nan]]
     with pytest.warns(UserWarning, match="1 with a number that is not finite"):
-        after = carom.collide(PAIR, velocity1=velocity, normal=[0.0, 0.0, 1.0])
+        after = carom.collide(pair, velocity1=velocity, normal=[0.0, 0.0, 1.0])
     rows, html = told(after)
     assert rows["collided"] == "2"
     assert rows["left alone: the bodies do not approach"] == "1"
     assert "4 collisions" in html
 
 
-def test_cards_are_readable_on_any_ground():
+@pytest.mark.parametrize(
+    ("of", "text"),
+    [
+        (
+            lambda hit: hit.pair,
+            "sphere (steel, R = 5 mm) on half-space (steel): friction 0.2, chi 1.441, ",
+        ),
+        (lambda hit: hit.validity, "ok    a_max/R* = 0.0604: the contact is small"),
+        (
+            lambda _: carom.results.Estimate("friction", 0.0921, 0.0914, 0.0928),
+            "0.0921 (0.0914 to 0.0928)",
+        ),
+    ],
+    ids=["pair", "validity", "estimate"],
+)
+def test_what_prints_as_text_is_that_text_in_notebooks_and_data_frames(hit, of, text):
+    shown = of(hit)
+    assert str(shown).startswith(text)
+    assert unescape(shown._repr_html_()) == f"<pre>{shown}</pre>"
+    assert text in pd.DataFrame({"it": [shown]}).to_string(max_colwidth=None)
+
+
+def test_cards_are_readable_on_any_ground(hit):
     """Text has the colours of the notebook; pictures are black on white."""
-    html = carom.impact(PAIR, **MOTION)._repr_html_()
+    html = hit._repr_html_()
     assert not re.search(r"(?<!-)color:", html)
     shown = picture(html)
     edges = (shown[0], shown[-1], shown[:, 0], shown[:, -1])
@@ -144,8 +164,6 @@ def test_cards_are_readable_on_any_ground():
 
 
 def test_text_is_escaped():
-    from matplotlib.figure import Figure
-
     html = card("a < b", {"<x>": "1 & 2"}, Figure(figsize=(1, 1)), "p < q")
     assert "<x>" not in html
     assert Balanced(html).cells == ["<x>", "1 & 2"]
@@ -155,17 +173,17 @@ def entries(text):
     return re.findall(r"^@\w+\{(\w+),$", text, re.M)
 
 
-def test_what_was_used_is_cited():
-    lossy = carom.impact(PAIR, **MOTION, losses=carom.KelvinVoigt(restitution=0.9))
-    yielding = carom.impact(PAIR, **MOTION, losses=carom.ElasticPlastic(yield_velocity=0.1))
-    assert entries(carom.impact(PAIR, **MOTION).cite()) == ["carom", "barber1979", "maw1976"]
+def test_what_was_used_is_cited(pair):
+    lossy = carom.impact(pair, **MOTION, losses=carom.KelvinVoigt(restitution=0.9))
+    yielding = carom.impact(pair, **MOTION, losses=carom.ElasticPlastic(yield_velocity=0.1))
+    assert entries(carom.impact(pair, **MOTION).cite()) == ["carom", "barber1979", "maw1976"]
     assert entries(lossy.cite())[-1] == "kuwabara1987"
     assert entries(yielding.cite())[-1] == "thornton1997"
-    path = carom.load_path(PAIR, penetration=[1e-6], displacement=[0.0])
+    path = carom.load_path(pair, penetration=[1e-6], displacement=[0.0])
     assert "mindlin1953" in entries(path.cite())
     aside = path.then(normal_force=10.0, tangential_force=[[0.0, 0.5]])
     assert entries(aside.cite())[-1] == "moreau1977"
-    assert "kalker1990" in entries(carom.impact(PAIR, **MOTION, method=TINY).cite())
+    assert "kalker1990" in entries(carom.impact(pair, **MOTION, method=TINY).cite())
     assert entries(carom.laws.ReboundLaw(1.44).cite()) == list(IMPACT)
     table = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.0, 0.0, 0.0]}
     assert entries(carom.verify.score(table, chi=1.44).cite()) == list(IMPACT)
@@ -182,28 +200,18 @@ def test_the_data_of_a_fit_are_cited(name, get):
     assert entries(fit.cite(posterior=True))[4:] == [*SAMPLES, source]
 
 
-def test_fits_cite_losses_and_data_of_ones_own(tmp_path):
-    angles = [10.0, 20.0, 40.0, 60.0, 75.0]
-    hits = [
-        carom.impact(
-            PAIR, speed=2.0, angle=f"{angle} deg", losses=carom.KelvinVoigt(restitution=0.9)
-        )
-        for angle in angles
-    ]
-    rows = [
-        f"{angle},{hit.contact_restitution},{hit.normal_restitution}"
-        for angle, hit in zip(angles, hits, strict=True)
-    ]
+def test_fits_cite_losses_and_data_of_ones_own(pair, tmp_path):
+    table = {"angle [deg]": [10.0, 20.0, 40.0, 60.0, 75.0]}
+    motion = {"speed": 2.0, "losses": carom.KelvinVoigt(restitution=0.9)}
+    hits = [carom.impact(pair, angle=f"{a} deg", **motion) for a in table["angle [deg]"]]
+    for name in ("contact_restitution", "normal_restitution"):
+        table[name] = [getattr(hit, name) for hit in hits]
     file = tmp_path / "own.csv"
-    head = "angle [deg],contact_restitution,normal_restitution"
-    file.write_text("\n".join(["# doi: 10.1000/182", head, *rows]))
-    text = carom.fit(file, pair=PAIR).cite()
+    file.write_text("# doi: 10.1000/182\n" + pd.DataFrame(table).to_csv(index=False))
+    text = carom.fit(file, pair=pair).cite()
     assert entries(text) == [*FITS, "kuwabara1987", "data"]
     assert "doi = {10.1000/182}" in text
-    mapping = dict(
-        zip(head.split(","), np.array([r.split(",") for r in rows], float).T, strict=True)
-    )
-    assert entries(carom.fit(mapping, pair=PAIR).cite()) == [*FITS, "kuwabara1987"]
+    assert entries(carom.fit(table, pair=pair).cite()) == [*FITS, "kuwabara1987"]
 
 
 @pytest.mark.parametrize(

@@ -70,10 +70,21 @@ def test_a_name_that_never_was_is_no_attribute():
         carom.MemoryLaws  # noqa: B018
 
 
-def test_the_old_names_of_the_instant_work():
-    ball = carom.Sphere(radius=0.005, material="steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    hit = carom.impact(pair, speed=2.0, angle="30 deg")
+def test_the_old_name_of_psi_1_works():
+    calls = (
+        lambda **given: carom.rebound(chi=1.44, **given),
+        lambda **given: carom.solve(chi=1.44, **given).psi_out,
+        lambda **given: carom.dem.LinearSpring().rebound(chi=1.44, **given),
+        lambda **given: carom.curve(1.44, **given).psi_out.item(),
+    )
+    for call in calls:
+        with pytest.warns(DeprecationWarning, match=r"^psi of \w+ is now psi_1; the old name ends"):
+            assert call(psi=0.5) == call(psi_1=0.5)
+    with pytest.raises(carom.InputError, match=r"^psi_in: no keyword of solve; "):
+        carom.solve(psi_in=0.5, chi=1.44)
+
+
+def test_the_old_names_of_the_instant_work(pair, hit):
     path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.0])
     for result, old, at in ((hit, "time", 0.5 * hit.duration), (path, "step", 0)):
         for name in ("contact", "fields", "stress", "radial"):

@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import answers, warming
-from carom.explorer.app import WRITTEN, new_app
+from carom.explorer.app import WRITTEN_FILES, new_app
 from carom.explorer.page import plotly_file
 from carom.explorer.views import LAWS, View
 from carom.explorer.warming import Preparing, Warming
@@ -118,7 +118,7 @@ def test_files_are_refused_in_a_line_of_text(client, caplog):
 
 
 def test_addresses_of_files(client):
-    for name in WRITTEN:
+    for name in WRITTEN_FILES:
         if name != "history.png":
             answered = client.get(f"/{name}?angle=50&time=0.25")
             assert answered.text == f"{name} angle=50 0.25"
@@ -171,7 +171,7 @@ def test_what_is_compiled_is_told_with_how_far_it_is(monkeypatch):
     go = threading.Event()
     steps = [lambda: None, *[lambda: go.wait(PATIENCE)] * 4]
     monkeypatch.setattr(warming, "STEPS", steps)
-    monkeypatch.setattr(warming, "PATIENCE", 0.2)
+    monkeypatch.setattr(warming, "PATIENCE_SECONDS", 0.2)
     monkeypatch.setattr(warming.shared_library, "reason", lambda: "there is none")
     busy = Warming()
     client = new_app(Told(), busy, ["localhost"]).test_client()
@@ -179,10 +179,10 @@ def test_what_is_compiled_is_told_with_how_far_it_is(monkeypatch):
     found = client.get("/answer")
     assert found.status_code == 200
     told = found.get_json()
-    assert (told["percent"], told["again"]) == (0, 1)
-    assert "0 % of what this answer needs" in told["message"]
+    assert (told["percent"], told["again"]) == (33, 1)  # one step of three
+    assert "33 % of what this answer needs" in told["message"]
     go.set()
-    monkeypatch.setattr(warming, "PATIENCE", PATIENCE)
+    monkeypatch.setattr(warming, "PATIENCE_SECONDS", PATIENCE)
     for query in ("angle=3", "restitution=0.9"):
         assert "scene" in client.get(f"/answer?{query}").get_json()
 

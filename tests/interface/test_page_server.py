@@ -36,7 +36,7 @@ def slow():
 @pytest.fixture
 def port(slow, monkeypatch):
     """A server for four connections and as many requests at a time."""
-    monkeypatch.setattr(serving, "CONNECTIONS", 4)
+    monkeypatch.setattr(serving, "MOST_CONNECTIONS", 4)
     monkeypatch.setattr(serving, "THREADS", 4)
     app = Flask("small")
 

@@ -12,11 +12,10 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer.answers import answer, laws
-from carom.explorer.config import REGIMES, config
-from carom.explorer.knobs import KNOBS, NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.page import REGIMES, config
 from carom.explorer.scenes import ENERGIES, impact_of, scene_of
-from carom.explorer.views import LAWS, View
+from carom.explorer.views import FIELDS, LAWS, NUMBERS, View
 from carom.impacts.curves import REGIMES as LONG
 from carom.plots.bands import BANDS
 from carom.plots.impact import ENERGIES as IN_FIGURES, LOST
@@ -93,7 +92,7 @@ def test_the_page_is_told_all_that_it_shows():
     assert set(told["fields"]) == {field.name for field in fields(View)}
     for name, field in told["fields"].items():
         assert field["label"]
-        assert (name in KNOBS) == (field["most"] is not None)
+        assert FIELDS[name].is_number == (field["most"] is not None)
         assert View.of(urlencode({name: field["default"]}, doseq=True)) == View()
         assert field["symbol"] in ("", *told["symbols"])
     assert [law["label"] for law in told["laws"]] == list(LAWS)

@@ -11,7 +11,8 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import worker as workers
-from carom.explorer.limits import WAITING, Busy, Refused
+from carom.explorer.limits import MOST_WAITING, Busy
+from carom.explorer.views import Refused
 from carom.explorer.worker import Desk, Worker
 
 ECHO = """\
@@ -29,7 +30,8 @@ while True:
         time.sleep(0.6)
     answer = asked, os.getpid()
     if asked in ("refuse", "busy", "fail"):
-        from carom.explorer.limits import Busy, Refused
+        from carom.explorer.views import Refused
+        from carom.explorer.limits import Busy
         refusal, busy, failure = Refused("angle", "no"), Busy(), RuntimeError("no")
         answer = {"refuse": refusal, "busy": busy, "fail": failure}[asked]
 """
@@ -69,7 +71,7 @@ def test_what_never_ends_is_killed_and_the_next_is_answered(desk):
 
 def test_refusals_failures_and_crashes_are_told_apart(desk):
     desk._seconds = PATIENCE
-    with pytest.raises(Refused, match=r"^no$") as refused:
+    with pytest.raises(Refused, match=r"^Incidence: no$") as refused:
         desk.ask(name="refuse")
     assert refused.value.field == "angle"
     with pytest.raises(Busy, match="the page is busy"):
@@ -97,13 +99,13 @@ def test_a_question_is_asked_again_if_its_process_was_killed(desk, when):
 
 def test_a_few_wait_and_the_rest_is_told_that_the_page_is_busy(desk):
     desk.ask(name="one")
-    with ThreadPoolExecutor(WAITING + 4) as visitors:
+    with ThreadPoolExecutor(MOST_WAITING + 4) as visitors:
         asked = [visitors.submit(desk.ask, name="hang")]
         time.sleep(0.3)
-        asked += [visitors.submit(desk.ask, name=str(row)) for row in range(WAITING + 3)]
+        asked += [visitors.submit(desk.ask, name=str(row)) for row in range(MOST_WAITING + 3)]
         found = [each.exception(PATIENCE) for each in asked]
     assert isinstance(found[0], Refused)
-    assert sum(each is None for each in found) == WAITING
+    assert sum(each is None for each in found) == MOST_WAITING
     assert sum(isinstance(each, Busy) for each in found) == 3
 
 

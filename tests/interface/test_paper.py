@@ -1,12 +1,14 @@
 """The paper for a journal and the citation file: complete, and with the numbers of the manual."""
 
 import re
-import sys
+import runpy
+import tomllib
 from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 import yaml
+from PIL import Image
 
 ROOT = Path(__file__).parents[2]
 PAPER = (ROOT / "paper/paper.md").read_text(encoding="utf-8")
@@ -16,6 +18,8 @@ SHIPPED = (ROOT / "src/carom/data/citations.bib").read_text(encoding="utf-8")
 CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
 DOI = r"10\.\d{4,9}/[-._;()/:A-Za-z0-9]+"
 
+STEPPED = "contact laws in fixed steps"
+WORDS = " ".join(BODY.split())
 # rows of the paper's table, and of that in docs/accuracy.md: (claim, checked against)
 ROWS = {
     "rebound $": ("$", "47 impacts"),
@@ -23,14 +27,17 @@ ROWS = {
     "energy balance": ("energy balance", "memory"),
     "tractions": ("fields at the surface", "Cerruti"),
     "stress below the surface": ("stress below the surface", "Boussinesq"),
-    "contact laws in fixed steps, $\\psi_2$ | LAMMPS": ("contact laws in fixed steps", "LAMMPS"),
-    "contact laws in fixed steps, $\\psi_2$ | YADE": (
-        "contact laws in fixed steps",
-        "LIGGGHTS, YADE",
-    ),
+    f"{STEPPED}, $\\psi_2$ | LAMMPS": (STEPPED, "LAMMPS"),
+    f"{STEPPED}, $\\psi_2$ | YADE": (STEPPED, "LIGGGHTS, YADE"),
     "boundary elements": ("boundary elements", "the exact impact"),
     "bound on what": ("bound on what", "full contact"),
 }
+
+
+def manual(name):
+    """Return the text of a page, and as words with one blank between them."""
+    text = (ROOT / f"docs/{name}.md").read_text(encoding="utf-8")
+    return text, " ".join(text.split())
 
 
 def entries(bib):
@@ -51,16 +58,14 @@ def rows(text):
 def last_number(text):
     """Return the last number of a cell: 4e-13, [4e-9](laws.md) or $4 \\cdot 10^{-13}$."""
     text = re.sub(r"\]\([^)]*\)| of \$p_0\$| in \$\\psi_2\$| of the bound", "]", text)
-    text = re.sub(
-        r"\$(?:([\d.]+) \\cdot )?10\^\{(-?\d+)\}\$", lambda m: f"{m[1] or 1}e{m[2]}", text
-    )
+    power = r"\$(?:([\d.]+) \\cdot )?10\^\{(-?\d+)\}\$"
+    text = re.sub(power, lambda found: f"{found[1] or 1}e{found[2]}", text)
     return float(re.findall(r"\d+(?:\.\d+)?(?:e-?\d+)?", text)[-1])
 
 
 def table_of_claims():
     """Return (claim, checked against, found) of docs/accuracy.md."""
-    page = (ROOT / "docs/accuracy.md").read_text(encoding="utf-8")
-    cells = [re.split(r" \| ", row) for row in rows(page)]
+    cells = [re.split(r" \| ", row) for row in rows(manual("accuracy")[0])]
     return [row[:3] for row in cells if len(row) == 4 and "`tests/" in row[3]]
 
 
@@ -69,9 +74,8 @@ def test_header_is_what_the_journal_asks_for():
     assert header["bibliography"] == "paper.bib"
     assert (ROOT / "paper" / header["bibliography"]).is_file()
     assert header["title"] == CITATION["title"]
-    assert [author["name"] for author in header["authors"]] == [
-        author["name"] for author in CITATION["authors"]
-    ]
+    authors, cited = ([each["name"] for each in who["authors"]] for who in (header, CITATION))
+    assert authors == cited
     places = {place["index"] for place in header["affiliations"]}
     assert {author["affiliation"] for author in header["authors"]} == places
     assert re.fullmatch(r"\d{1,2} [A-Z][a-z]+ \d{4}", header["date"])
@@ -116,25 +120,20 @@ def test_references_agree_with_those_that_results_cite():
 
 
 def test_figures_are_there_and_drawn_by_the_script_that_is_named(tmp_path):
-    from PIL import Image
-
     (name,) = re.findall(r"\]\(([^)]+\.png)\)", BODY)
     assert re.findall(r"\\label\{(fig:\w+)\}", BODY) == ["fig:contact"]
     (script,) = re.findall(r"`(paper/\w+\.py)`", BODY)
-    sys.path.insert(0, str((ROOT / script).parent))
-    try:
-        from figure import main
-    finally:
-        sys.path.pop(0)
+    main = runpy.run_path(str(ROOT / script))["main"]
     with Image.open(main(tmp_path)) as drawn, Image.open(ROOT / "paper" / name) as stored:
         assert drawn.size[0] == pytest.approx(stored.size[0], rel=0.02)
         assert drawn.size[1] == pytest.approx(stored.size[1], rel=0.02)
 
 
 def test_labels_that_are_referred_to_are_there():
-    assert set(re.findall(r"\\autoref\{([\w:]+)\}", BODY)) == set(
-        re.findall(r"\\label\{([\w:]+)\}", BODY)
+    used, made = (
+        set(re.findall(rf"\\{each}\{{([\w:]+)\}}", BODY)) for each in ("autoref", "label")
     )
+    assert used == made
 
 
 @pytest.mark.parametrize("row", ROWS)
@@ -158,40 +157,33 @@ def test_the_whole_table_is_compared():
     assert all(sum(row.startswith(name) for name in ROWS) == 1 for row in table)
 
 
-@pytest.mark.parametrize(
-    ("said", "page"),
-    [
-        ("20 to 30 µs", "accuracy"),
-        ("92 to 97 %", "accuracy"),
-        ("500 synthetic", "accuracy"),
-        ("1,136 impacts", "halfspace_study"),
-    ],
-)
+OTHERS = [(said, "accuracy") for said in ("20 to 30 µs", "92 to 97 %", "500 synthetic")]
+
+
+@pytest.mark.parametrize(("said", "page"), [*OTHERS, ("1,136 impacts", "halfspace_study")])
 def test_other_numbers_are_those_of_the_manual(said, page):
-    text = (ROOT / f"docs/{page}.md").read_text(encoding="utf-8")
-    assert said in " ".join(BODY.split())
-    assert said in " ".join(text.split())
+    assert said in WORDS
+    assert said in manual(page)[1]
 
 
 def test_what_a_table_saves_is_that_of_the_measured_times():
     """A law as a table over the solver from which it is made: as the manual's table has it."""
-    page = " ".join((ROOT / "docs/accuracy.md").read_text(encoding="utf-8").split())
+    _, page = manual("accuracy")
     times = dict(re.findall(r"\| (\w+) \| \w+ \| ([\d.]+) \|", page))
     saved = float(f"{float(times['rebound']) / float(times['ReboundLaw']):.1g}")
     assert f"is {saved:g} times cheaper here" in page
-    for text in (page, " ".join(BODY.split())):
+    for text in (page, WORDS):
         assert re.search(rf"100 to {saved:g} times (?:cheaper|shorter)", text)
 
 
 def test_errors_of_contact_laws_are_those_of_the_manual():
     """The largest error at chi = 1.4412, as the paper rounds it."""
-    page = (ROOT / "docs/laws.md").read_text(encoding="utf-8")
+    page, _ = manual("laws")
     ranking = re.search(r"<!-- begin: ranking -->(.*?)<!-- end -->", page, re.DOTALL)[1]
     largest = {}
     for row in rows(ranking)[2:]:
         name, _, value, *_ = row.split(" | ")
         largest[name] = float(value)
-    words = " ".join(BODY.split())
     for pattern, names in (
         (r"- (\S+) with `mindlin` of LAMMPS", ("mindlin", "LIGGGHTS hertz, history")),
         (r"- (\S+) with that of YADE", ("YADE Mindlin",)),
@@ -201,39 +193,33 @@ def test_errors_of_contact_laws_are_those_of_the_manual():
         (r"(\S+) with the ratio 2/7", ("linear spring, $k_t/k_n = 2/7$",)),
         (r"off by (\S+) in \$\\psi_2\$ with 32 springs", ("exact, 32 springs",)),
     ):
-        said = re.search(pattern, words)[1]
+        said = re.search(pattern, WORDS)[1]
         digits = len(said.partition(".")[2])
         for name in names:
             assert f"{largest[name]:.{digits}f}" == said, name
     softer = re.search(r"<!-- begin: softer -->\S+, (\S+) and", page)[1]
-    assert re.search(r"`mindlin_rescale/force` is off by (\S+)\.(?:\s|$)", words)[1] == softer
+    assert re.search(r"`mindlin_rescale/force` is off by (\S+)\.(?:\s|$)", WORDS)[1] == softer
 
 
 def test_the_ball_at_ten_degrees_is_that_of_the_manual():
-    page = (ROOT / "docs/laws.md").read_text(encoding="utf-8")
+    page, _ = manual("laws")
     ball = re.search(r"<!-- begin: steel_ball -->(.*?)<!-- end -->", page, re.DOTALL)[1]
     angles = dict(re.findall(r"(?m)^\| (exact|mindlin) \| ([\d.]+)°", ball))
     (spin,) = re.findall(r"(?m)^\| mindlin \| [^|]* \| ([\d.]+) ", ball)
-    said = re.search(
-        r"leaves at (\S+) degrees instead of (\S+), with (\d+) % of its spin",
-        " ".join(BODY.split()),
-    )
+    said = re.search(r"leaves at (\S+) degrees instead of (\S+), with (\d+) % of its spin", WORDS)
     assert said.groups() == (angles["mindlin"], angles["exact"], f"{100 * float(spin):.0f}")
     told = 0
     for place in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md")):  # the same words everywhere
         text = " ".join(place.read_text(encoding="utf-8").split())
-        for share in re.findall(
-            r"instead of 7\.3(?:°| degrees)?, with (.{,20}?) of (?:its|the)", text
-        ):
+        pattern = r"instead of 7\.3(?:°| degrees)?, with (.{,20}?) of (?:its|the)"
+        for share in re.findall(pattern, text):
             assert share == f"{100 * float(spin):.0f} %", place.name
             told += 1
     assert told >= 5
 
 
 def test_citation_file_has_the_version_of_the_package():
-    project = re.search(
-        r'(?m)^version = "(.*)"$', (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    )[1]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["version"]
     assert str(CITATION["version"]) == project == version("carom")
 
 

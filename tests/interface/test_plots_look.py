@@ -3,9 +3,12 @@
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib import pyplot
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 from matplotlib.text import Text
+from tests.checks import refused
 
 import carom
 from carom import plots
@@ -16,33 +19,15 @@ MM = 1.0 / 25.4
 
 
 @pytest.fixture(scope="module")
-def pair():
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    return carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-
-
-@pytest.fixture(scope="module")
-def hit(pair):
-    return carom.impact(pair, speed=2.0, angle="30 deg")
-
-
-@pytest.fixture(scope="module")
 def drawers(pair, hit):
     """Every public function that draws, with what it draws."""
     path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.2, -1.2])
     psi = [0.5, 1.0, 3.0]
     law = carom.dem.LinearSpring()
+    of_impacts = "impact forces radii patch profiles stress spectrum wear contact"
     given = {
-        "plot_impact": hit,
-        "plot_forces": hit,
-        "plot_radii": hit,
+        **{f"plot_{name}": hit for name in of_impacts.split()},
         "plot_cone": path,
-        "plot_patch": hit,
-        "plot_profiles": hit,
-        "plot_stress": hit,
-        "plot_spectrum": hit,
-        "plot_wear": hit,
-        "plot_contact": hit,
         "plot_strength": carom.bearable_speeds(pair, angle=["0 deg", "60 deg"]),
         "plot_curve": carom.curve(1.44, [0.0, 0.5, 1.0, 6.0]),
         "plot_regime_map": carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]),
@@ -65,13 +50,13 @@ def texts(figure):
 def test_every_figure_has_the_width_and_the_font_that_were_asked_for(drawers):
     """The larger font is that of labels; no text keeps the size of the usual one."""
     for name, given in drawers.items():
-        usual = getattr(plots, name)(given)
+        usual = {text.get_fontsize() for text in texts(getattr(plots, name)(given))}
         figure = getattr(plots, name)(given, width=150.0, font_size=9.5)
         assert figure.get_figwidth() == pytest.approx(150.0 * MM, rel=1e-12), name
         sizes = {round(text.get_fontsize(), 3) for text in texts(figure)}
         assert max(sizes) == pytest.approx(9.5), name
-        assert max(text.get_fontsize() for text in texts(usual)) == pytest.approx(7.5), name
-        assert min(sizes) > min(text.get_fontsize() for text in texts(usual)), name
+        assert max(usual) == pytest.approx(7.5), name
+        assert min(sizes) > min(usual), name
 
 
 def test_a_style_of_matplotlib_goes_on_top_and_stays_with_the_figure(hit):
@@ -98,10 +83,7 @@ def test_a_style_of_matplotlib_goes_on_top_and_stays_with_the_figure(hit):
     ],
 )
 def test_what_no_figure_can_look_like_is_refused_in_one_line(hit, look, said):
-    with pytest.raises(carom.InputError) as refused:
-        plots.plot_forces(hit, **look)
-    assert said in str(refused.value)
-    assert "\n" not in str(refused.value)
+    assert said in refused("", plots.plot_forces, hit, **look)
 
 
 def test_a_result_is_drawn_as_its_dataset_is(pair, hit):
@@ -138,10 +120,8 @@ def test_several_impacts_are_laid_over_each_other(pair, hit):
         assert one.get_ydata()[-1] == pytest.approx(each.dissipated_energy / energy, rel=1e-9)
     numbered = plots.plot_radii([hit.history(), steeper])
     assert [text.get_text() for text in numbered.legends[0].get_texts()] == ["1", "2"]
-    with pytest.raises(carom.InputError, match="there is nothing to draw"):
-        plots.plot_radii([])
-    with pytest.raises(carom.InputError, match="plot_radii draws"):
-        plots.plot_radii([hit, 3.0])
+    refused("there is nothing to draw", plots.plot_radii, [])
+    refused("plot_radii draws", plots.plot_radii, [hit, 3.0])
 
 
 def test_zero_is_white_where_a_quantity_has_a_sign():
@@ -195,13 +175,14 @@ def test_a_named_style_leaves_the_sizes_of_fonts_as_they_are_wanted(hit):
 
 
 def test_an_instant_is_refused_where_the_dataset_has_its_own(hit):
-    with pytest.raises(carom.InputError, match="at: this dataset has its instant; leave it out"):
-        plots.plot_patch(hit.fields("12 us"), at="20 us")
+    words = "at: this dataset has its instant; leave it out"
+    refused(words, plots.plot_patch, hit.fields("12 us"), at="20 us")
 
 
 def test_boundary_elements_are_drawn_along_the_line_between_their_rows(pair):
     """Half-way between two rows of elements the traction is the mean of both."""
-    full = carom.impact(pair, speed=2.0, angle="30 deg", method="halfspace")
+    coarse = carom.BoundaryElements(elements=16, steps=60)
+    full = carom.impact(pair, speed=2.0, angle="30 deg", method=coarse)
     fields = full.fields(0.3 * full.duration)
     line = plots.plot_profiles(full, at=0.3 * full.duration).axes[0].lines[1]
     rows = np.abs(fields.y.values).argsort()[:2]
@@ -211,3 +192,65 @@ def test_boundary_elements_are_drawn_along_the_line_between_their_rows(pair):
 
 def test_a_figure_is_a_picture_in_a_notebook(hit):
     assert plots.plot_forces(hit)._repr_png_().startswith(b"\x89PNG")
+
+
+SEVERAL = {"plot_impact", "plot_wear", "plot_contact", "plot_laws", "plot_score", "plot_strength"}
+
+
+def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers):
+    """As it is without; the rest of the figure, its size and a user's settings stay."""
+    for name, given in drawers.items():
+        if name in SEVERAL:
+            continue
+        figure, (left, right) = pyplot.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")
+        if name == "plot_profiles":
+            given = given.fields("21 us")
+        assert getattr(plots, name)(given, ax=right) is figure, name
+        alone = getattr(plots, name)(given).axes[0]
+        assert not left.has_data(), name
+        for kind in ("lines", "patches", "collections", "texts"):
+            kinds = [len(getattr(axis, kind)) for axis in (right, alone)]
+            assert kinds[0] == kinds[1] or (name, kind) in OTHER_SIZE, (name, kind)
+        assert right.get_ylabel() == alone.get_ylabel(), name
+        assert right.get_xlim() == pytest.approx(alone.get_xlim()), name
+        assert figure.get_size_inches() == pytest.approx([9.0, 4.0]), name
+        texts(figure)
+        pyplot.close(figure)
+
+
+OTHER_SIZE = {("plot_regime_map", "lines"), ("plot_regime_map", "texts")}  # labels find other room
+
+
+def test_several_panels_take_no_axes(drawers, hit):
+    axis = Figure().subplots()
+    several = [(getattr(plots, name), drawers[name]) for name in sorted(SEVERAL)]
+    for draw, given in [*several, (plots.plot_profiles, hit)]:
+        with pytest.raises(carom.InputError, match=r"^ax: this figure has several panels, and"):
+            draw(given, ax=axis)
+    assert not axis.has_data()
+    with pytest.raises(carom.InputError, match=r"^ax: 5 cannot be used; must be Axes"):
+        plots.plot_forces(hit, ax=5)
+    with pytest.raises(carom.InputError, match=r"^width: the figure that ax belongs to has its"):
+        plots.plot_forces(hit, ax=axis, width=100.0)
+
+
+def test_a_style_with_axes_is_that_of_what_is_drawn(hit):
+    """Without one the user's settings hold."""
+    with matplotlib.rc_context({"font.size": 13.0, "axes.labelsize": 13.0}):
+        sizes = []
+        for look in ({}, {"font_size": 9.5}):
+            axis = Figure().subplots()
+            plots.plot_forces(hit, ax=axis, **look)
+            sizes.append(axis.yaxis.label.get_fontsize())
+            sizes.append(axis.get_legend().get_texts()[0].get_fontsize())
+    assert sizes[1] == 13.0
+    assert sizes[3] == pytest.approx(9.0)
+
+
+def test_every_docstring_says_what_all_figures_take(drawers):
+    for name in (*drawers, "animate"):
+        text = getattr(plots, name).__doc__
+        parts = ["Parameters\n", "**look : width, font_size, style, ax\n", "Returns\n", "Raises\n"]
+        places = [text.index(part) for part in (*parts, "Examples\n")]
+        assert places == sorted(places), name
+        assert text.count("**look") == 1, name

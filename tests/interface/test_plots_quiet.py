@@ -8,6 +8,7 @@ import warnings
 
 import numpy as np
 import pytest
+from tests.checks import refused
 
 import carom
 from carom import plots
@@ -16,24 +17,11 @@ from carom.plots.style import save_figure
 WORDS = "\u92fc $\\frac{ \U0001f600"  # no font has them all, and they are no formula
 
 
-def impact():
-    ball, wall = carom.Sphere(radius=0.005, material="steel"), carom.HalfSpace(material="steel")
-    return carom.impact(carom.Pair(ball, wall, friction=0.2), speed=2.0, angle=0.5)
-
-
-HIT = impact()
-SIDE = np.linspace(-1.2, 1.2, 9) * HIT.max_radius
-CURVE = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.2, -0.8]}
-DATASETS = {
-    "history": (HIT.history(20), ("plot_impact", "plot_forces", "plot_radii", "plot_cone")),
-    "fields": (HIT.fields(1.5e-5, x=SIDE, y=SIDE), ("plot_patch",)),
-    "curve": (carom.curve([0.5, 1.44], np.linspace(0.0, 6.0, 9)), ("plot_curve",)),
-    "score": (
-        carom.verify.score(
-            {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.2, -0.8]}, chi=1.44
-        ).to_dataset(),
-        ("plot_score",),
-    ),
+DRAWN = {
+    "history": ("plot_impact", "plot_forces", "plot_radii", "plot_cone"),
+    "fields": ("plot_patch",),
+    "curve": ("plot_curve",),
+    "score": ("plot_score",),
 }
 CHANGES = {
     "NaN": lambda values: values * np.nan,
@@ -43,6 +31,18 @@ CHANGES = {
     "huge": lambda values: 1e305 * values,
     "tiny": lambda values: 1e-305 * values,
 }
+
+
+@pytest.fixture(scope="module")
+def datasets(hit):
+    side = np.linspace(-1.2, 1.2, 9) * hit.max_radius
+    results = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.2, -0.8]}
+    return {
+        "history": hit.history(20),
+        "fields": hit.fields(1.5e-5, x=side, y=side),
+        "curve": carom.curve([0.5, 1.44], np.linspace(0.0, 6.0, 9)),
+        "score": carom.verify.score(results, chi=1.44).to_dataset(),
+    }
 
 
 def changed(dataset, change):
@@ -55,15 +55,16 @@ def changed(dataset, change):
     return dataset
 
 
-CASES = [(kind, change) for kind in DATASETS for change in CHANGES]
+CASES = [(kind, change) for kind in DRAWN for change in CHANGES]
 CASES.remove(("fields", "huge"))  # at which matplotlib does not end
 
 
 @pytest.mark.parametrize(("kind", "change"), CASES)
-def test_odd_numbers_are_drawn_or_refused_in_silence(kind, change, tmp_path, capfd, caplog):
-    dataset, names = DATASETS[kind]
-    odd = changed(dataset, change)
-    for name in names:
+def test_odd_numbers_are_drawn_or_refused_in_silence(
+    kind, change, datasets, tmp_path, capfd, caplog
+):
+    odd = changed(datasets[kind], change)
+    for name in DRAWN[kind]:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             try:
@@ -90,44 +91,40 @@ def test_words_that_no_font_has_are_drawn_in_silence(tmp_path, capfd, caplog):
     assert caplog.records == []
 
 
-def test_words_for_phases_that_are_none_are_refused():
-    dataset = HIT.history(20)
+def test_words_for_phases_that_are_none_are_refused(hit):
+    dataset = hit.history(20)
     kinds = np.full(dataset.phase_kind.shape, WORDS)
-    with pytest.raises(carom.InputError, match=r"^plot_cone: this dataset cannot be drawn; "):
-        plots.plot_cone(dataset.assign(phase_kind=(dataset.phase_kind.dims, kinds)))
+    odd = dataset.assign(phase_kind=(dataset.phase_kind.dims, kinds))
+    refused(r"^plot_cone: this dataset cannot be drawn; ", plots.plot_cone, odd)
 
 
-def test_a_user_hears_matplotlib_again_afterwards():
+def test_a_user_hears_matplotlib_again_afterwards(datasets):
     """Its loggers and the filters of warnings are as they were."""
     logger = logging.getLogger("matplotlib")
     level, filters = logger.level, list(warnings.filters)
-    plots.plot_curve(DATASETS["curve"][0])
+    plots.plot_curve(datasets["curve"])
     assert logger.level == level
     assert warnings.filters == filters
 
 
-def run(*arguments, **environment):
-    program = "from carom.cli import run; run()"
-    command = [sys.executable, "-c", program, *arguments]
-    known = {**os.environ, **environment}
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120, env=known)
-    return done.returncode, done.stderr
-
-
 def test_commands_say_nothing_of_folders_that_matplotlib_lacks(tmp_path):
     path = str(tmp_path / "x.png")
-    arguments = ["curve", "--chi", "1", "--points", "5", "--plot", path]
-    nowhere = "/proc/none"
-    assert run(*arguments, MPLCONFIGDIR=nowhere, HOME=nowhere) == (0, f"Carom has stored {path}.\n")
+    words = ["curve", "--chi", "1", "--points", "5", "--plot", path]
+    line = [sys.executable, "-c", "from carom.cli import run; run()", *words]
+    nowhere = os.environ | {"MPLCONFIGDIR": "/proc/none", "HOME": "/proc/none"}
+    done = subprocess.run(line, capture_output=True, text=True, timeout=120, env=nowhere)
+    assert (done.returncode, done.stderr) == (0, f"Carom has stored {path}.\n")
 
 
-def test_commands_tell_warnings_of_this_package_in_one_line():
+@pytest.mark.parametrize(
+    ("words", "code", "begins"),
+    [
+        ("--chi 1e6 --points 3", 0, "2 of 3 impacts give NaN (first at index"),
+        ("--chi 1 --from -1e308 --to 1e308 --points 5", 2, "psi"),
+    ],
+)
+def test_commands_tell_warnings_of_this_package_in_one_line(words, code, begins, command, tmp_path):
     """Of impacts that could not be solved; NumPy's, of the numbers in between, are not shown."""
-    code, err = run("curve", "--chi", "1e6", "--points", "3")
-    assert code == 0
-    assert err.startswith("carom: 2 of 3 impacts give NaN (first at index")
-    assert err.count("\n") == 1
-    code, err = run("curve", "--chi", "1", "--from", "-1e308", "--to", "1e308", "--points", "5")
-    assert code == 2
-    assert err.startswith("carom: psi")
-    assert err.count("\n") == 1
+    ended, _, err = command(tmp_path, "curve", *words.split())
+    assert (ended, err.count("\n")) == (code, 1)
+    assert err.startswith(f"carom: {begins}")

@@ -13,7 +13,7 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore::DeprecationWarning:jupyter_client"),
 ]
 
-SOON = "import time, carom.io.progress\ncarom.io.progress.PATIENCE = 0.2"
+SOON = "import time, carom.io.progress\ncarom.io.progress.SECONDS_BEFORE_BAR = 0.2"
 WORK = """
 with carom.io.progress.advancing("impacts", 20, {progress}, unit="steps") as advance:
     for step in range(20):

@@ -7,29 +7,27 @@ import carom
 from carom.io.progress import Place
 from carom.plots import animate
 
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
+BODIES = carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel")
 MOTION = {"speed": 2.0, "angle": "30 deg"}
+HIT = carom.impact(carom.Pair(*BODIES, friction=0.2), **MOTION)
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": "2 m/s"}
+GRID = carom.Grid({"angle": [0.1, 0.2], "friction": [0.1, 0.2, 0.3]})
 LAWS = [carom.dem.LinearSpring(), carom.dem.WaltonBraunLaw()]
 
 
 def by_elements(folder, progress):
     coarse = carom.BoundaryElements(elements=8, steps=20)
-    carom.impact(PAIR, **MOTION, method=coarse, progress=progress)
+    carom.impact(HIT.pair, **MOTION, method=coarse, progress=progress)
 
 
 def swept(folder, progress):
-    carom.sweep(
-        CASE, carom.Grid({"angle": [0.1, 0.2], "friction": [0.1, 0.2, 0.3]}), progress=progress
-    )
+    carom.sweep(CASE, GRID, progress=progress)
 
 
 def stored(folder, progress):
     """A sweep that goes on counts what was done before."""
-    grid = carom.Grid({"angle": [0.1, 0.2], "friction": [0.1, 0.2, 0.3]})
-    carom.sweep(CASE, grid, store=folder / "sweep.zarr", progress=False)
-    carom.sweep(CASE, grid, store=folder / "sweep.zarr", resume=True, progress=progress)
+    carom.sweep(CASE, GRID, store=folder / "sweep.zarr", progress=False)
+    carom.sweep(CASE, GRID, store=folder / "sweep.zarr", resume=True, progress=progress)
 
 
 def posterior(folder, progress):
@@ -50,13 +48,12 @@ def mapped(folder, progress):
 
 
 def animated(folder, progress):
-    carom.impact(PAIR, **MOTION).animate(folder / "hit.gif", frames=3, progress=progress)
+    HIT.animate(folder / "hit.gif", frames=3, progress=progress)
 
 
 def drawn(folder, progress):
-    hit = carom.impact(PAIR, **MOTION)
-    frames = [hit.fields(part * hit.duration) for part in (0.2, 0.5)]
-    animate(hit.history(40), frames, folder / "hit.gif", progress=progress)
+    frames = [HIT.fields(part * HIT.duration) for part in (0.2, 0.5)]
+    animate(HIT.history(40), frames, folder / "hit.gif", progress=progress)
 
 
 LONG = [
@@ -73,7 +70,7 @@ LONG = [
 
 @pytest.fixture
 def _at_once(monkeypatch):
-    monkeypatch.setattr("carom.io.progress.PATIENCE", 0.0)
+    monkeypatch.setattr("carom.io.progress.SECONDS_BEFORE_BAR", 0.0)
 
 
 @pytest.mark.usefixtures("_at_once")

@@ -8,7 +8,10 @@ from importlib import import_module
 import pytest
 
 import carom
+from carom.quantities.shown import INNER
 
+BALL = carom.Sphere(radius="5 mm", material="steel")
+PAIR = carom.Pair(BALL, carom.HalfSpace("steel"), friction=0.2)
 BESIDE = {"carom": ["__version__"], "carom.plots": ["style"]}  # known to dir() alone
 STUBBED = (
     *("carom", "carom.plots", "carom.verify", "carom.dem"),
@@ -24,6 +27,24 @@ def test_dir_shows_the_public_names_and_nothing_else(package):
     assert all(getattr(module, name) is not None for name in dir(module))
 
 
+@pytest.mark.parametrize(
+    "thing",
+    [
+        carom.impact(PAIR, speed=2.0),
+        carom.load_path(PAIR, normal_force=1.0, tangential_force=0.0),
+        carom.KelvinVoigt(0.9),
+        carom.Grid({"angle": [0.1]}),
+        carom.dem.LinearSpring(),
+        carom.verify.Lammps(),
+    ],
+    ids=lambda thing: type(thing).__name__,
+)
+def test_completion_offers_what_users_call(thing):
+    names = [name for name in dir(thing) if not name.startswith("__")]
+    assert not [name for name in names if name.startswith("_") or name in INNER]
+    assert all(hasattr(thing, name) for name in names)
+
+
 @pytest.mark.parametrize("package", STUBBED)
 def test_editors_see_each_name_as_it_is_called(package):
     stub = import_module(package).__file__ + "i"
@@ -34,20 +55,27 @@ def test_editors_see_each_name_as_it_is_called(package):
     assert sorted(names) == sorted(dir(import_module(package)))
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "from carom.datasets import load; load('kharaz2001')",
-        "import carom.classical; carom.classical.Obliquity(0.1, 0.2)",
-        "from carom.verify import bench; assert callable(bench)",
-        "import carom.verify.benchmark; assert callable(carom.verify.bench)",
-        "from carom import plots; assert callable(plots.plot_curve)",
-        "import carom; carom.plots.style.style()",
-    ],
-)
-def test_names_are_where_users_import_them(line):
+LINES = [
+    "from carom.datasets import load; load('kharaz2001')",
+    "import carom.classical; carom.classical.Obliquity(0.1, 0.2)",
+    "from carom.verify import bench; assert callable(bench)",
+    "import carom.verify.benchmark; assert callable(carom.verify.bench)",
+    "from carom import plots; assert callable(plots.plot_curve)",
+    "import carom; carom.plots.style.style()",
+]
+FORKS = """
+import os, sys
+for line in sys.argv[1:]:
+    if os.fork() == 0:
+        exec(line)
+        break
+    assert os.wait()[1] == 0, line
+"""
+
+
+def test_names_are_where_users_import_them():
     """Each in a process of its own: what was imported before must not matter."""
-    subprocess.run([sys.executable, "-c", line], check=True)
+    subprocess.run([sys.executable, "-c", FORKS, *LINES], check=True)
 
 
 def test_a_name_that_is_none_is_refused():

@@ -4,16 +4,10 @@ import json
 
 import numpy as np
 import pytest
+from tests.checks import refused
 
 import carom
 from carom import plots
-
-
-@pytest.fixture(scope="module")
-def hit():
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    return carom.impact(pair, speed=2.0, angle="30 deg")
 
 
 def test_frequencies_are_those_asked_for(hit):
@@ -68,31 +62,22 @@ def test_corners_are_numbers_or_say_why_not(hit, law):
         ({"frequencies": [5.0, -1.0]}, "frequencies: -1.0 cannot be used; must be a list"),
         ({"frequencies": [float("nan")]}, "frequencies: nan cannot be used; must be a list"),
         ({"frequencies": [float("inf")]}, "frequencies: inf cannot be used; must be a list"),
-        (
-            {"frequencies": [1e9]},
-            "frequencies: 1000000000.0 cannot be used; spectra are known up to 32.3 MHz",
-        ),
-        ({"frequencies": []}, "frequencies: [] cannot be used"),
-        ({"frequencies": [[1.0, 2.0]]}, "frequencies: [[1.0, 2.0]] cannot be used"),
+        ({"frequencies": [1e9]}, "frequencies: 1000000000.0 .*spectra are known up to 32.3 MHz"),
+        ({"frequencies": []}, r"frequencies: \[\] cannot be used"),
+        ({"frequencies": [[1.0, 2.0]]}, r"frequencies: \[\[1.0, 2.0\]\] cannot be used"),
         ({"frequencies": "5 mm"}, "frequencies: '5 mm' cannot be used; that is not a value in Hz"),
         ({"frequencies": np.zeros(20_001)}, "frequencies: 20,001 are too many"),
         ({"frequencies": [1.0], "n": 5}, "frequencies: give them, or max_frequency and n"),
         ({"frequencies": [1.0], "max_frequency": 5.0}, "frequencies: give them, or max_frequency"),
         ({"max_frequency": 0.0}, "max_frequency: 0.0 cannot be used; must be positive"),
         ({"max_frequency": float("nan")}, "max_frequency: nan cannot be used; give a number in Hz"),
-        (
-            {"max_frequency": "1 GHz"},
-            "max_frequency: '1 GHz' cannot be used; spectra are known up to",
-        ),
+        ({"max_frequency": "1 GHz"}, "max_frequency: '1 GHz' .*spectra are known up to"),
         ({"n": 1}, "n: 1 cannot be used; must be a whole number of at least 2"),
         ({"n": 20_001}, "n: 20001 cannot be used; must be a whole number from 2 to 20000"),
     ],
 )
 def test_what_cannot_be_used_takes_one_line(hit, asked, said):
-    with pytest.raises(carom.InputError) as refused:
-        hit.spectrum(**asked)
-    assert str(refused.value).startswith(said)
-    assert "\n" not in str(refused.value)
+    refused(f"^{said}", hit.spectrum, **asked)
 
 
 def test_stored_spectra_come_back_and_are_drawn(hit, tmp_path):
@@ -128,5 +113,4 @@ def test_spectra_that_are_odd_are_drawn_or_refused(hit):
     without = carom.impact(smooth, speed=2.0, angle="30 deg")
     labels = [line.get_label() for line in plots.plot_spectrum(without.spectrum()).axes[0].lines]
     assert not any(label.startswith("tangential") for label in labels)
-    with pytest.raises(carom.InputError, match="two frequencies above zero"):
-        plots.plot_spectrum(hit.spectrum([0.0, 1e4]))
+    refused("two frequencies above zero", plots.plot_spectrum, hit.spectrum([0.0, 1e4]))

@@ -15,28 +15,32 @@ import pint
 import pytest
 import scipy.io
 import xarray as xr
+from tests.checks import refused
 
 import carom
-from carom import HalfSpace, InputError, Pair, Sphere, read, save
+from carom import read, save
 from carom.io.labels import flags, labelled_dataset
 
 AWKWARD = [0.1, -0.0, 5e-324, 1.7976931348623157e308, 1 / 3, 2.5e-7, np.nan, np.inf, -np.inf]
 OLD = Path(__file__).parent / "of_version_0_2"
 
 
+BALL = carom.Sphere(radius="5 mm", material="steel")
+
+
 def history():
     """Return a history with NaN (no tangential speed) and infinity (no friction) among it."""
-    pair = Pair(Sphere(radius="5 mm", material="steel"), HalfSpace(material="glass"), 0)
+    pair = carom.Pair(BALL, carom.HalfSpace(material="glass"), 0)
     return carom.impact(pair, normal_speed=2.0, spin=30.0).history(21)
 
 
 def slip():
-    pair = Pair(Sphere(radius="5 mm", material="steel"), Sphere(radius=1, material="ice"), 0.2)
+    pair = carom.Pair(BALL, carom.Sphere(radius=1, material="ice"), 0.2)
     return carom.impact(pair, speed=2.0, angle="30 deg", spin2=2.0)
 
 
 def slipping():
-    return slip().history(400)
+    return slip().to_dataset()
 
 
 def contact():
@@ -89,32 +93,13 @@ def numbers():
 MAKERS = (history, slipping, contact, curve, patch, points, numbers)
 
 ROW = ("row", [1.0, 2.0, 3.0])
-CF = {
-    "missing_value": 1.0,
-    "scale_factor": 2.0,
-    "add_offset": 1.0,
-    "_Unsigned": "true",
-    "valid_range": np.array([0.0, 1.0]),
-    "units": "days since 2000-01-01",
-    "grid_mapping": "speed",
-    "calendar": "noleap",
-}
-ATTRIBUTES = {
-    "empty": "",
-    "lines": 'two\n"lines", # of µ',
-    "count": 3,
-    "small": np.int8(-3),
-    "large": 2**63,
-    "single": np.float32(0.1),
-    "gap": np.nan,
-    "most": np.inf,
-    "none": [],
-    "range": (1, 2),
-    "limits": np.array([0.1, np.inf]),
-    "words": ["a", "bä"],
-    "text": np.str_("x"),
-    "matrix": np.eye(2),
-}
+CF = {"missing_value": 1.0, "scale_factor": 2.0, "add_offset": 1.0, "_Unsigned": "true"}
+CF |= {"valid_range": np.array([0.0, 1.0]), "units": "days since 2000-01-01"}
+CF |= {"grid_mapping": "speed", "calendar": "noleap"}
+ATTRIBUTES = {"empty": "", "lines": 'two\n"lines", # of µ', "count": 3, "small": np.int8(-3)}
+ATTRIBUTES |= {"large": 2**63, "single": np.float32(0.1), "gap": np.nan, "most": np.inf}
+ATTRIBUTES |= {"none": [], "range": (1, 2), "limits": np.array([0.1, np.inf])}
+ATTRIBUTES |= {"words": ["a", "bä"], "text": np.str_("x"), "matrix": np.eye(2)}
 NAMES = ["a b", "ä", "1", "a.b", "a,b", 'a"b', ".a", "..", "[a]", "a:b", "a#b", " a", "__init__"]
 KINDS = ["?", "i1", "u8", "f2", "f4", ">f8"]
 PLAIN = {
@@ -198,12 +183,8 @@ REFUSED = {
 
 @pytest.mark.parametrize("kind", REFUSED)
 def test_what_would_come_back_changed_is_refused(kind, tmp_path):
-    with pytest.raises(
-        InputError, match=r"it keeps numbers|cannot be used; (it needs|must)"
-    ) as told:
-        save(REFUSED[kind], tmp_path / "file.nc")
-    assert "\n" not in str(told.value)
-    assert len(str(told.value)) < 400
+    words = r"it keeps numbers|cannot be used; (it needs|must)"
+    assert len(refused(words, save, REFUSED[kind], tmp_path / "file.nc")) < 400
     assert list(tmp_path.iterdir()) == []
 
 
@@ -232,8 +213,7 @@ def test_random_datasets_come_back_or_are_refused(seed, tmp_path):
         {"title": text(), "n": float(rng.normal())},
     )
     if "\0" in repr(given.to_dict()).replace("\\x00", "\0") or "/" in "".join(given):
-        with pytest.raises(InputError, match="cannot hold it"):
-            save(given, tmp_path / "file.nc")
+        refused("cannot hold it", save, given, tmp_path / "file.nc")
     else:
         xr.testing.assert_identical(read(save(given, tmp_path / "file.nc")), given)
 
@@ -267,9 +247,7 @@ def test_a_table_is_read_by_others_and_refused_as_a_dataset(tmp_path):
     stored = save(history(), tmp_path / "hit.csv")
     assert stored.read_text().startswith("time [s],penetration [m],")
     for path in (stored, OLD / "curve.csv", tmp_path / "none.csv"):
-        with pytest.raises(InputError, match=r"CSV is an export; store a dataset as \.nc") as told:
-            read(path)
-        assert "\n" not in str(told.value)
+        refused(r"CSV is an export; store a dataset as \.nc", read, path)
     ball = carom.Table({"speed": [1.0, 2.0], "angle": [0.1, 0.2]})
     case = {"first": {"radius": "5 mm", "material": "steel"}, "friction": 0.1}
     swept = carom.sweep(case, ball, outputs=["rebound_angle"])
@@ -287,8 +265,8 @@ def test_what_version_0_2_stored_is_read(tmp_path):
     grid = carom.Grid({"angle": [0.1, 0.4, 0.7], "friction": [0.1, 0.2, 0.3, 0.4]})
     again = carom.sweep(case, grid, outputs=["psi_out", "rebound_angle"])
     assert read(tmp_path / "sweep.zarr").load().equals(again)
-    with pytest.raises(InputError, match=r"there by carom\.save\(carom\.read\('x\.csv'\), 'x\.nc'"):
-        read(OLD / "curve.csv")
+    words = r"there by carom\.save\(carom\.read\('x\.csv'\), 'x\.nc'"
+    refused(words, read, OLD / "curve.csv")
 
 
 def test_seconds_stay_numbers_for_every_reader(tmp_path):
@@ -312,8 +290,7 @@ def test_what_another_program_has_changed_is_refused_and_stored_again(tmp_path):
     path = save(curve(), tmp_path / "curve.nc")
     with h5py.File(path, "r+") as file:
         file.attrs["note"] = "mine"
-    with pytest.raises(InputError, match=r"xarray\.load_dataset\(path, engine='h5netcdf'\) reads"):
-        read(path)
+    refused(r"xarray\.load_dataset\(path, engine='h5netcdf'\) reads", read, path)
     again = read(save(xr.load_dataset(path, engine="h5netcdf"), path))
     assert again.attrs.pop("note") == "mine"
     assert again.equals(curve())
@@ -325,13 +302,11 @@ def foreign(folder):
     whole = save(slipping(), folder / "whole.nc").read_bytes()
     flipped = bytearray(whole)
     flipped[len(whole) // 2] ^= 1
+    cut = {"few": 20, "head": 100, "half": len(whole) // 2, "end": -200}
     for name, content in {
         "empty": b"",
         "text": b"no NetCDF at all",
-        "few": whole[:20],
-        "head": whole[:100],
-        "half": whole[: len(whole) // 2],
-        "end": whole[:-200],
+        **{name: whole[:end] for name, end in cut.items()},
         "flipped": bytes(flipped),
         "noise": rng.bytes(5000),
         "head and noise": whole[:8] + rng.bytes(5000),
@@ -373,8 +348,7 @@ def test_what_is_not_of_carom_is_refused_without_noise(tmp_path):
     assert done.stdout.split() == ["0"] * len(files)
     gc.collect()
     for path in files:
-        with pytest.raises(InputError, match="it is not as Carom stored it: damaged, changed sin"):
-            read(path)
+        refused("it is not as Carom stored it: damaged, changed sin", read, path)
 
 
 def test_what_is_no_file_is_refused(tmp_path):
@@ -384,8 +358,7 @@ def test_what_is_no_file_is_refused(tmp_path):
         "folder.nc": "there is no such file",
         "table.xls": r"must end in \.nc, or be the store of a sweep, \.zarr",
     }.items():
-        with pytest.raises(InputError, match=f"file: .*{name}.* cannot be used; {reason}"):
-            read(tmp_path / name)
+        refused(f"file: .*{name}.* cannot be used; {reason}", read, tmp_path / name)
 
 
 def test_netcdf_that_may_not_grow_leaves_the_process_and_the_older_file_alone(tmp_path):
@@ -396,8 +369,7 @@ def test_netcdf_that_may_not_grow_leaves_the_process_and_the_older_file_alone(tm
     for limit in (0, 100, 4096, 8000):
         resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
         try:
-            with pytest.raises(carom.InputError, match=r"cannot be written; File too large$"):
-                carom.save(carom.curve(1.44, [0.5, 2.0]), tmp_path / "curve.nc")
+            refused("cannot be written; File too large$", save, curve(), tmp_path / "curve.nc")
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, before)
         assert [path.name for path in tmp_path.iterdir()] == ["curve.nc"]

@@ -9,10 +9,10 @@ import carom
 from carom.dem import lattice
 from carom.dimensionless import rebound_tables
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.lossy.solving import solve_with_losses
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
+from carom.dimensionless.rebounds import lossy_rebounds
+from carom.dimensionless.solution import solve_lossy
 
 pytestmark = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 STEEL = carom.material("steel")
@@ -90,7 +90,7 @@ def marched(rng):
         parameter, extra = rng.uniform(low, 1.0, 6), rng.uniform(0.1, 4.0, 6)
         psi, chi = rng.uniform(-6.0, 6.0, 6), rng.uniform(0.3, 2.5, 6)
         lossy_rebounds(psi, chi, LossNumbers(loss, parameter, extra), 1)
-        solution = solve_with_losses(1.3, 1.44, LossNumbers(loss, parameter[0], extra[0]))
+        solution = solve_lossy(1.3, 1.44, LossNumbers(loss, parameter[0], extra[0]))
         solution.at(0.5 * solution.duration)
 
 

@@ -1,10 +1,5 @@
 """What every contact law keeps: symmetry, Coulomb's cone, impulse, energy, scaling, refusals."""
 
-import json
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
@@ -224,30 +219,3 @@ def test_laws_are_records_with_a_source(law):
     assert hash(law) == hash(type(law)(**vars(law)))
     with pytest.raises(AttributeError):
         law.name = "another"
-
-
-PROGRAM = """
-import json, carom
-from carom import dem
-laws = [dem.LinearSpring(0.5, 0.9, 0.4), dem.LammpsMindlin("mindlin_rescale/force"),
-        dem.LiggghtsHertz(0.7), dem.WaltonBraunLaw(restitution=0.8), dem.ThorntonLaw(),
-        dem.ExactContactLaw(16), dem.ExactContactLaw(16, restitution=0.8)]
-print(json.dumps([[law.rebound([0.7, 2.5], 1.4, steps=80).tolist() for law in laws],
-                  [law.rebound([0.7], 1.4).tolist() for law in (laws[2], laws[4])]]))
-"""
-
-
-def test_compiled_equals_uncompiled():
-    def computed(**environment):
-        done = subprocess.run(
-            [sys.executable, "-c", PROGRAM],
-            env=os.environ | environment,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        return json.loads(done.stdout)
-
-    compiled, plain = computed(), computed(CAROM_KERNELS="python")
-    for one, other in zip(compiled, plain, strict=True):
-        assert np.allclose(one, other, rtol=0.0, atol=1e-10)

@@ -22,7 +22,7 @@ NAMES = (
     "rebound_speed",
 )
 SIGMA = {"tangential_restitution": 0.01, "spin_out": 8.0, "rebound_angle": 0.005}
-SETS = 40
+SETS = 24
 
 
 def exact(spin=0.0, degrees=DEGREES):
@@ -47,7 +47,7 @@ def plain():
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say():
-    """40 sets, errors from the scatter: misses within what is likely for 95 %, 1 in 2000.
+    """24 sets, errors from the scatter: misses within what is likely for 95 %, 1 in 2000.
 
     And the intervals are no wider than the scatter of the values calls for: 1.96 standard
     deviations of them to either side, to a third.

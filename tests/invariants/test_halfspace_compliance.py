@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from carom.halfspace.compliance import Compliance, Materials
-from carom.halfspace.influence import influence
+from carom.halfspace.compliance import Compliance, Materials, influence
 from carom.halfspace.quasistatic import Patch
-from carom.halfspace.transforms import DENSE, NO_MIRRORS, Mirrors
+from carom.halfspace.transforms import DENSE_ELEMENTS, NO_MIRRORS, Mirrors
 
 SIZE, SPACING = 9, 0.23
 UNLIKE = Materials(kappa=0.81, beta=-0.34, friction=0.6)
@@ -175,7 +174,7 @@ def unfolded(field, mirrors, odd):
     return field
 
 
-@pytest.mark.parametrize("size", [8, 2 * DENSE + 4])  # as a product with a matrix, by FFT
+@pytest.mark.parametrize("size", [8, 2 * DENSE_ELEMENTS + 4])  # as a product with a matrix, by FFT
 @pytest.mark.parametrize("mirrors", [Mirrors(True, True), Mirrors(True, False), Mirrors(y=True)])
 def test_a_mirrored_grid_gives_way_as_the_whole(size, mirrors):
     """Every operator, and both rough inverses."""

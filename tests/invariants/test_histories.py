@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import cumulative_trapezoid
 
 import carom
-from carom import Cup, HalfSpace, InputError, Material, Pair, Sphere
+from carom import Cup, HalfSpace, Material, Pair, Sphere
 from carom.io.labels import flags, labelled_dataset
 
 ENERGIES = (
@@ -146,15 +146,28 @@ def test_a_history_begins_and_ends_as_the_impact(hit):
         assert float(h[name][-1]) == pytest.approx(last, rel=1e-10, abs=1e-12 * size), name
 
 
-def test_without_friction_nothing_tangential_changes():
-    ball = Sphere(radius="5 mm", material="steel")
-    hit = carom.impact(Pair(ball, ball, 0), normal_speed=1, tangential_speed=0.7, spin=11, spin2=4)
+def test_without_friction_nothing_tangential_changes(steel_ball):
+    smooth = Pair(steel_ball, steel_ball, 0)
+    hit = carom.impact(smooth, normal_speed=1, tangential_speed=0.7, spin=11, spin2=4)
     h = hit.history(5)
     assert np.all(h.spin == 11.0)
     assert np.all(h.spin2 == 4.0)
     assert np.all(h.tangential_speed == 0.7)
     assert np.all(h.frictional_work == 0.0)
     assert np.allclose(h.displacement, hit.contact_velocity * h.time, rtol=1e-15, atol=0.0)
+
+
+def test_a_history_has_a_row_for_each_instant(hit):
+    """All of it is along time, with the phase of the instant, also as a data frame."""
+    history = hit.history(40)
+    assert set(history.dims) == {"time"}
+    frame = history.to_dataframe()
+    assert len(frame) == 40
+    for time, row in frame.iterrows():
+        phase = [each for each in hit.phases if each.start <= time][-1]
+        shown = row[["phase_kind", "phase_sign", "phase_start", "phase_end"]].tolist()
+        assert shown == list(phase[:4])
+    assert set(hit.to_dataset().dims) == {"time", "phase"}
 
 
 def sample_history():
@@ -205,14 +218,3 @@ def test_labelled_datasets_take_what_is_natural():
     assert json.loads(grid.inputs) == {"friction": 0.2}
     with pytest.raises(KeyError, match="unheard"):
         labelled_dataset({"unheard": 1.0}, {}, {})
-
-
-@pytest.mark.parametrize("n", [1, 0, -3, 2.5, "many", None, True, np.float64(4)])
-def test_a_count_that_is_none_is_refused(n):
-    with pytest.raises(InputError, match=r"n: .* must be a whole number of at least 2"):
-        random_impact("cup", np.random.default_rng(1)).history(n)
-
-
-def test_counts_of_numpy_are_counts():
-    hit = random_impact("cup", np.random.default_rng(1))
-    assert hit.history(np.int64(3)).sizes["time"] == 3

@@ -1,9 +1,5 @@
 """Load paths: springs one by one, energy, symmetry, and that nothing depends on how it is asked."""
 
-import json
-import os
-import subprocess
-import sys
 from itertools import pairwise
 
 import numpy as np
@@ -296,30 +292,3 @@ def test_outside_coulombs_cone():
         load_path(PAIR, normal_force=load, tangential_force=[1.0, -6.0, -2.41])
     with pytest.raises(InputError, match=r"step 3: .* at most 0 N"):
         edge.then(penetration=-1e-6, tangential_force=0.1)
-
-
-PROGRAM = """
-import json, sys
-import numpy as np
-from carom.dimensionless.load_paths.paths import follow_path, slid
-d, u = np.array(json.loads(sys.argv[1]))
-path = follow_path(d, u, np.zeros(d.size, dtype=bool))
-by_force = (d > 0.05) & (path.results[:, 2] > 0.05) & (np.arange(d.size) % 2 == 0)
-mixed = follow_path(d, np.where(by_force, path.results[:, 1], u), by_force)
-print(json.dumps([path.results.tolist(), mixed.results.tolist(),
-                  slid(d, u, np.linspace(0.0, 0.8, 9)).tolist()]))
-"""
-
-
-def test_compiled_equals_uncompiled():
-    rng = np.random.default_rng(7)
-    walk = [rng.uniform(-0.1, 1.0, 60).tolist(), rng.normal(0.0, 0.3, 60).tolist()]
-    runs = []
-    for environment in ({}, {"CAROM_KERNELS": "python"}):
-        arguments = [sys.executable, "-c", PROGRAM, json.dumps(walk)]
-        done = subprocess.run(
-            arguments, env=os.environ | environment, capture_output=True, text=True, check=True
-        )
-        runs.append(json.loads(done.stdout))
-    for one, other in zip(*runs, strict=True):
-        np.testing.assert_allclose(one, other, rtol=0.0, atol=2e-13)

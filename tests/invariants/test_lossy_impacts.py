@@ -18,17 +18,27 @@ import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import NUMBERS, PSI_OUT
-from carom.dimensionless.lossy.panels.work import new_work
-from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds, outgoing
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.lossy.solving import solve_with_losses
-from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE, Solid, outgoing
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.dimensionless.lossy.viscoelastic.record import new_record
+from carom.dimensionless.lossy.viscoelastic.work import new_work
+from carom.dimensionless.rebounds import LossyRebounds, lossy_rebounds
+from carom.dimensionless.solution import solve_lossy
 
 Array = NDArray[np.float64]
 
 PROMISED = 1e-8  # of psi_2, in max(1, psi_1)
-LAW, LAWS = LossNumbers(Loss.VISCOUS, 0.3), tuple(Loss)
+LAWS = tuple(Loss)
+MANY = {
+    "viscous": LossNumbers(Loss.VISCOUS, 0.3),
+    "hardly viscous": LossNumbers(Loss.VISCOUS, 0.05),
+    "yields late": LossNumbers(Loss.PLASTIC, 0.8),
+    "yields early": LossNumbers(Loss.PLASTIC, 0.4),
+    "relaxes fast": LossNumbers(Loss.RELAXING, 0.1, 2.0),
+    "relaxes slowly": LossNumbers(Loss.RELAXING, 3.0, 0.7),
+}
+CLOSE = {Loss.VISCOUS: PROMISED, Loss.PLASTIC: 1e-5, Loss.RELAXING: 1e-6}
 
 
 def impacts(seed: int, count: int) -> tuple[Array, Array, Array]:
@@ -48,7 +58,7 @@ def solved(psi: Array, chi: Array, parameter: Array) -> LossyRebounds:
 
 def histories(seed: int, count: int) -> list[LossySolution]:
     return [
-        solve_with_losses(float(p), float(c), LossNumbers(Loss.VISCOUS, float(a)))
+        solve_lossy(float(p), float(c), LossNumbers(Loss.VISCOUS, float(a)))
         for p, c, a in zip(*impacts(seed, count), strict=True)
     ]
 
@@ -62,8 +72,8 @@ def test_without_losses_it_is_the_elastic_solver() -> None:
     work, record, numbers = new_work(), new_record(False), np.zeros(NUMBERS)
     found = np.empty(700)
     for i in range(700):  # lossy_rebounds would hand them to the elastic solver
-        given = psi[i], chi[i], 0.0, TOLERANCE, work, record, numbers
-        assert outgoing(*given)[0] == Status.SOLVED
+        solid = Solid(chi[i], 0.0, TOLERANCE)
+        assert outgoing(psi[i], solid, work, record, numbers)[0] == Status.SOLVED
         found[i] = numbers[PSI_OUT]
     error = np.abs(found - exact) / np.maximum(1.0, psi)
     assert np.max(error) < PROMISED
@@ -72,14 +82,64 @@ def test_without_losses_it_is_the_elastic_solver() -> None:
 
 def test_vanishing_losses_give_the_elastic_impact() -> None:
     """The difference is at most 6 alpha, in proportion to it, down to what is promised."""
-    psi, chi, _ = impacts(6, 300)
+    psi, chi, _ = impacts(6, 150)
     exact = carom.rebound(psi, chi)
     for alpha in (1e-4, 1e-6, 1e-8, 1e-11):
-        found = solved(psi, chi, np.full(300, alpha))
+        found = solved(psi, chi, np.full(150, alpha))
         error = np.abs(found.psi_out - exact) / np.maximum(1.0, psi)
         assert np.max(error) < 6.0 * alpha + PROMISED
         assert np.median(error) < 1.2 * alpha + 1e-11
         assert np.max(np.abs(1.0 - 1.891706 * alpha - found.restitution)) < 4.0 * alpha**2 + 1e-9
+
+
+LOSSES = (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999, 0.9999)
+
+
+def all_losses(count: int, seed: int) -> tuple[Array, Array, Array]:
+    """Return psi, chi from 0.1 to 5, alpha, of e from 0.05 to 0.9999."""
+    rng = np.random.default_rng(seed)
+    e = rng.choice(LOSSES, count)
+    alphas = {each: viscous_loss(each) for each in LOSSES}
+    chi = 0.1 * 50.0 ** rng.uniform(0.0, 1.0, count)
+    psi = rng.uniform(1e-3, 1.0, count) * (2.0 * chi * (1.0 + e) + 1.0)
+    return psi, chi, np.array([alphas[each] for each in e])
+
+
+def test_impacts_are_solved_to_what_is_promised() -> None:
+    """1e-8 max(1, psi_1): smaller panels change them by less; 5e-10 was the largest of 4000."""
+    psi, chi, alpha = all_losses(400, 1)
+    found, law = solved(psi, chi, alpha), LossNumbers(Loss.VISCOUS, alpha)
+    finer = lossy_rebounds(psi, chi, law, tolerance=1e-10)
+    assert np.all(finer.status == Status.SOLVED)
+    assert np.max(np.abs(found.psi_out - finer.psi_out) / np.maximum(1.0, psi)) < PROMISED
+
+
+@pytest.mark.parametrize(
+    ("psi", "chi"),
+    [(1.545093648994644, 1.146545076114865), (0.518235231650099, 1.1852816945556663)],
+)
+def test_panels_that_end_with_the_loading(psi: float, chi: float) -> None:
+    """To rounding, by chance."""
+    beside = psi * (1.0 + 1e-9 * np.arange(-1.0, 2.0))
+    found = solved(beside, np.full(3, chi), np.full(3, viscous_loss(0.3)))
+    assert np.ptp(found.psi_out) < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("psi", "chi", "e"),
+    [
+        (2.879973361496, 1.44, 0.9),  # slip stops just before the largest compression
+        (9.747349253848784, 5.0, 0.99),  # and here just before the bodies part
+        (9.747349253921556, 5.0, 0.99),
+        (2.60465849294749, 5.0, 0.99),
+        (1.0, 5.0, 0.05),  # where it neither begins nor does not, and losses are heavy
+    ],
+)
+def test_events_beside_the_end_of_something(psi: float, chi: float, e: float) -> None:
+    """Each once was missed, or told again and again; a smooth curve has no steps."""
+    beside = psi * (1.0 + np.array([-2e-9, -1e-9, -1e-12, 0.0, 1e-12, 1e-9, 2e-9]))
+    found = solved(beside, np.full(7, chi), np.full(7, viscous_loss(e)))
+    assert np.ptp(found.psi_out) < 1e-7
 
 
 @pytest.mark.parametrize("psi", [0.0, 5e-4, 0.01, 0.03, 0.1, 1.0])
@@ -94,44 +154,40 @@ def test_lawful_corners_are_solved(psi: float, chi: float) -> None:
     assert tiny.psi_out == pytest.approx(np.full(4, expected), abs=5e-8)
 
 
-def test_opposite_approach_rebounds_oppositely() -> None:
-    """To the last bit, and all else is the same."""
-    psi, chi, parameter = impacts(7, 60)
+@pytest.mark.parametrize("law", MANY)
+def test_opposite_approach_rebounds_oppositely(law: str) -> None:
+    """To the last bit, and all else is the same: phases at the same times, slip the other way."""
+    psi, chi, _ = impacts(7, 12)
     psi[:4] = 0.0, 1e-9, 1e-4, 1.0
-    forth, back = (solved(p, chi, parameter) for p in (psi, -psi))
+    forth, back = (lossy_rebounds(p, chi, MANY[law]) for p in (psi, -psi))
     assert np.array_equal(forth.psi_out, -back.psi_out)
     for one, other in zip(forth[1:], back[1:], strict=True):
         assert np.array_equal(one, other)
-    h, mirrored = (
-        solve_with_losses(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).history(50) for p in (2.0, -2.0)
-    )
-    for name in ("psi", "displacement", "force"):
-        assert np.array_equal(getattr(h, name), -getattr(mirrored, name))
-    assert np.array_equal(h.dissipated, mirrored.dissipated)
+    for start in (0.7, 2.0, 6.0):
+        one, other = (solve_lossy(p, 1.44, MANY[law]) for p in (start, -start))
+        assert {phase.sign for phase in one.phases} & {-1, 1}
+        assert [p._replace(sign=-p.sign) for p in one.phases] == list(other.phases)
+        h, mirrored = one.history(50), other.history(50)
+        for name in ("psi", "displacement", "force"):
+            assert np.array_equal(getattr(h, name), -getattr(mirrored, name))
+        assert np.array_equal(h.dissipated, mirrored.dissipated)
 
 
-@pytest.mark.parametrize("psi", [0.7, 2.0, 3.4, 6.0])
-def test_opposite_approach_slips_oppositely(psi: float) -> None:
-    """The same phases at the same times, every slip the other way."""
-    forth, back = (
-        solve_with_losses(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).phases for p in (psi, -psi)
-    )
-    assert {phase.sign for phase in forth} & {-1, 1}
-    assert [phase._replace(sign=-phase.sign) for phase in forth] == list(back)
-
-
-def test_impacts_come_no_further_apart() -> None:
+@pytest.mark.parametrize("law", MANY)
+def test_impacts_come_no_further_apart(law: str) -> None:
     """A jump in psi_1, wherever the structure changes, would break the contraction."""
-    for chi, parameter in ((1.44, 0.2), (0.5, 0.35), (2.8, 0.05)):
-        for start, step, count in ((0.0, 0.02, 401), (0.95, 4e-4, 251), (2.0, 1e-5, 201)):
+    losses, few = MANY[law], MANY[law].loss is not Loss.VISCOUS
+    for chi in (1.44,) if few else (1.44, 0.5, 2.8):
+        for start, step, count in ((0.0, 0.1, 51), (0.95, 8e-4, 30), (2.0, 1e-5, 20)):
             psi = start + step * np.arange(count)
-            row = np.ones(count)
-            found = solved(psi, chi * row, parameter * row).psi_out
-            assert np.max(np.abs(np.diff(found)) - step) < 2.0 * PROMISED * (1.0 + psi[-1])
+            found = lossy_rebounds(psi, np.full(count, chi), losses)
+            assert np.all(found.status == Status.SOLVED)
+            apart = np.max(np.abs(np.diff(found.psi_out)) - step)
+            assert apart < 2.0 * CLOSE[losses.loss] * (1.0 + psi[-1])
 
 
 def test_small_changes_of_chi_and_loss_change_little() -> None:
-    psi, chi, parameter = impacts(8, 400)
+    psi, chi, parameter = impacts(8, 150)
     base = solved(psi, chi, parameter).psi_out
     for more in ((chi + 1e-7, parameter), (chi, parameter * (1.0 + 1e-7))):
         moved = solved(psi, more[0], more[1]).psi_out
@@ -140,7 +196,7 @@ def test_small_changes_of_chi_and_loss_change_little() -> None:
 
 def test_friction_bounds_the_impulse_and_energy_is_lost() -> None:
     """|psi_1 - psi_2| <= 2 chi (1 + e), and |psi_2| <= |psi_1|."""
-    psi, chi, parameter = impacts(9, 800)
+    psi, chi, parameter = np.hstack((impacts(9, 200), all_losses(200, 3)))
     found = solved(psi, chi, parameter)
     assert np.all(np.abs(psi - found.psi_out) <= 2.0 * chi * (1.0 + found.restitution) + 1e-9)
     assert np.all(np.abs(found.psi_out) <= psi + 1e-9)
@@ -148,7 +204,7 @@ def test_friction_bounds_the_impulse_and_energy_is_lost() -> None:
 
 def test_ledgers_close_along_the_history() -> None:
     """v^2 + stored + lost = 1; no work is taken back; springs let go end with nothing stored."""
-    for s in histories(10, 20):
+    for s in histories(10, 8):
         h = s.history(800)
         assert np.max(np.abs(h.speed**2 + h.normal_stored + h.normal_lost - 1.0)) < 1e-8
         assert np.min(np.diff(h.normal_lost)) > -1e-9
@@ -169,10 +225,10 @@ def test_ledgers_of_hardly_oblique_impacts(decade: float) -> None:
     Chebyshev series of what friction took had wavered by up to 0.3 of it.
     """
     rng = np.random.default_rng(12)
-    for _ in range(25):
+    for _ in range(10):
         psi, chi = 10.0 ** (decade + rng.uniform()), 0.3 * 10.0 ** rng.uniform(0.0, 1.5)
         alpha = float(rng.uniform(0.005, 0.6))
-        s = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
+        s = solve_lossy(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
         h, close = s.history(150), 1e-4 * 0.5 * psi**2
         for taken in (h.dissipated, h.shear_lost):
             assert np.min(np.diff(taken)) > -close, (psi, chi, alpha)
@@ -204,7 +260,7 @@ def test_ledgers_where_rings_end(psi: float, chi: float, e: float) -> None:
 def test_whatever_is_faster_slides(law: Loss, psi: float) -> None:
     """f = mu p all the time, which takes psi_1 - psi_2 = 2 chi (1 + e), and friction the energy."""
     for chi in (0.3, 1.44, 1000.0):
-        s = solve_with_losses(psi, chi, LossNumbers(law, 0.3, 1.0))
+        s = solve_lossy(psi, chi, LossNumbers(law, 0.3, 1.0))
         h, mirror = s.history(2001), np.sign(psi)
         sliding = 2.0 / 3.0 * h.normal_force
         assert [(phase.kind, phase.sign) for phase in s.phases] == [("gross slip", mirror)]
@@ -222,7 +278,7 @@ def test_whatever_is_faster_slides(law: Loss, psi: float) -> None:
 
 def test_histories_agree_with_themselves() -> None:
     """|Q| <= (2/3) P, dU = psi dt, dd = v dt, both impulses; largest values are not exceeded."""
-    for s in histories(11, 8):
+    for s in histories(11, 4):
         h = s.history(3001)
         assert np.max(np.abs(h.force) - 2.0 / 3.0 * h.normal_force) < 1e-6
         assert np.all(h.stick_radius <= h.contact_radius)
@@ -244,16 +300,14 @@ def test_histories_agree_with_themselves() -> None:
             assert largest - 1e-9 <= told <= largest + 3e-6, name
 
 
-@pytest.mark.parametrize(
-    "impact", [(0.3, 2.0, 0.2), (1.5, 1.44, 0.2), (3.0, 1.44, 0.1), (5.0, 2.5, 0.45)]
-)
+@pytest.mark.parametrize("impact", [(0.3, 2.0, 0.2), (3.0, 1.44, 0.1)])
 def test_histories_are_those_of_the_marching_method(impact: tuple[float, float, float]) -> None:
     """psi, U, Q, the energy in the springs, what slip and what dashpots took, at all times.
 
     What is lost the marching method knows to first order only, the rest to second.
     """
     psi, chi, alpha = impact
-    s = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
+    s = solve_lossy(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
     ledger = np.zeros((4001, 7))
     march(psi, chi, alpha, 1000, ledger)
     ledger = ledger[20:-3:20]
@@ -291,15 +345,15 @@ def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
         slopes.append(psi)
     limit = (4.0 * slopes[1] - slopes[0]) / 3.0
     for psi in (1e-12, 1e-7, 5e-5):
-        found = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).psi_out / psi
+        found = solve_lossy(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).psi_out / psi
         assert found == pytest.approx(limit, abs=2e-4)
 
 
 def test_small_psi_where_twice_the_smallest_is_not_solved() -> None:
     """psi_2/psi_1 is then that of the smallest, which the history holds as well."""
     law = LossNumbers(Loss.VISCOUS, 0.10857)
-    assert solve_with_losses(2e-3, 42.604, law).status is Status.UNRESOLVED
-    s = solve_with_losses(1e-6, 42.604, law)
+    assert solve_lossy(2e-3, 42.604, law).status is Status.UNRESOLVED
+    s = solve_lossy(1e-6, 42.604, law)
     assert s.psi_out == pytest.approx(s.at(s.duration).psi[0], rel=1e-12)
 
 
@@ -312,7 +366,8 @@ def test_bad_input_is_told_and_takes_no_time() -> None:
     extreme = [(p, 1.44, 0.2) for p in (1e-300, 1e-12, 1e3, 1e6, 1e300)]
     extreme += [(1.5, c, 0.2) for c in (1e-300, 0.01, 60.0, 1e6, 1e300)]
     extreme += [(1.5, 1.44, a) for a in (np.nan, np.inf, -0.1, 1e-300, 90.0, 1e6)]
-    solved(np.ones(1), np.ones(1), np.full(1, 0.1))  # compiles
+    many = lossy_rebounds(np.ones(1), np.full(1, 1e4), LossNumbers(Loss.VISCOUS, 0.1))
+    assert many.status[0] == Status.TOO_MANY_PHASES
     for status, cases in [*wrong.items(), (None, extreme)]:
         for (psi, chi, parameter), law in product(cases, LAWS):
             begun = time.process_time()
@@ -325,9 +380,9 @@ def test_bad_input_is_told_and_takes_no_time() -> None:
 
 @pytest.mark.parametrize("chi", [0.01, 0.2, 8.0, 30.0, 60.0])
 def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
-    psi = np.append(np.linspace(0.01, 8.0, 30), [20.0, 100.0, 1000.0])
+    psi = np.append(np.linspace(0.01, 8.0, 9), [20.0, 100.0, 1000.0])
     for law in LAWS:
-        found = lossy_rebounds(psi, np.full(33, chi), LossNumbers(law, 0.2, 1.0))
+        found = lossy_rebounds(psi, np.full(12, chi), LossNumbers(law, 0.2, 1.0))
         assert np.all(found.status == Status.SOLVED)
         assert np.all(np.abs(found.psi_out) < psi)
 
@@ -336,7 +391,7 @@ def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
 def test_friction_takes_energy_however_slow_or_fast_the_slip(law: Loss) -> None:
     """psi_1 from 1e-30 to 1e6: what shear leaves of the tangential energy that is lost."""
     rng = np.random.default_rng(44)
-    count = {Loss.VISCOUS: 600, Loss.PLASTIC: 600, Loss.RELAXING: 60, Loss.PLATE: 60}[law]
+    count = {Loss.VISCOUS: 300, Loss.PLASTIC: 90, Loss.RELAXING: 30, Loss.PLATE: 30}[law]
     psi = 10.0 ** rng.uniform(-30.0, 6.0, count)
     psi[::3] = 10.0 ** rng.uniform(-5.0, -3.0, psi[::3].size)
     chi = rng.choice([0.3, 0.5, 1.44, 4.0, 7.0], count)

@@ -2,16 +2,14 @@
 
 import json
 import math
-import pickle
 from itertools import product
 
 import numpy as np
 import pytest
+from tests.invariants.test_sweep_points import solved_alone, whole
 
 import carom
 from carom import InputError
-from carom.bodies.cases import losses_of, motion_of, pair_of
-from carom.sweeps import sweep
 from carom.sweeps.designs import Grid, LatinHypercube
 from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import OUTPUTS, SweepProblem
@@ -38,22 +36,6 @@ SOLVER = 1e-8  # what an impact with losses is solved to
 ULP = 1e-10  # what the solver makes of a last bit, of powers of arrays and of numbers, at most
 
 
-def whole(design):
-    return tuple(slice(0, n) for n in design.shape)
-
-
-def solved_alone(case, point):
-    """Solve a case with the inputs of a point in their places, as one impact."""
-    full = json.loads(json.dumps(case))
-    for name, value in point.items():
-        *path, last = name.split(".")
-        table = full
-        for key in path:
-            table = table.setdefault(key, {})
-        table[last] = value
-    return carom.impact(pair_of(full), **motion_of(full), losses=losses_of(full))
-
-
 def require_same(problem, found, case, at, point):
     """Every output of a point is that of `impact`, against the largest of the block."""
     hit = solved_alone(case, point).scalars()
@@ -62,16 +44,6 @@ def require_same(problem, found, case, at, point):
         scale = np.nanmax(np.abs(found[name]))
         value, wanted = found[name].flat[at], hit[name]
         assert value == pytest.approx(wanted, rel=ULP, abs=ULP * scale, nan_ok=True), name
-
-
-def thornton(ratio):
-    """Return e for V_y/V_1 <= 1 (Thornton 1997, the closed form after (28))."""
-    slow = math.sqrt(1.2 - 0.2 * ratio**2)
-    return (
-        math.sqrt(1.2 * math.sqrt(3.0))
-        * math.sqrt(1.0 - ratio**2 / 6.0)
-        * (ratio / (ratio + 2.0 * slow)) ** 0.25
-    )
 
 
 @pytest.mark.parametrize(("loss", "kind"), list(zip(LOSSES, SECONDS, strict=True)))
@@ -105,52 +77,6 @@ def test_a_fixed_loss_holds_at_every_point(loss):
         require_same(problem, found, case, at, {key: float(v[at]) for key, v in given.items()})
     if name == "restitution":
         assert np.max(np.abs(found["normal_restitution"] - 0.8)) < SOLVER
-
-
-def test_restitution_of_yielding_bodies_is_thorntons():
-    """The closed form at each speed, 1 below the yield velocity; with and without friction."""
-    grid = Grid({"normal_speed": [0.05, 0.2, 1.0, 10.0], "friction": [0.0, 0.4]})
-    case = {"first": BALL["first"], "yield_velocity": "0.1 m/s"}
-    found = SweepProblem(case, grid, ["normal_restitution"]).block(whole(grid))[
-        "normal_restitution"
-    ]
-    for row, speed in zip(found, (0.05, 0.2, 1.0, 10.0), strict=True):
-        assert row == pytest.approx(thornton(min(1.0, 0.1 / speed)), rel=SOLVER)
-
-
-def test_energy_that_is_missing_was_lost():
-    """Kinetic energy before less after is what friction took, and viscosity either way."""
-    names = ["rebound_speed", "spin_out", "dissipated_energy", "normal_mass"]
-    names += ["lost_energy", "shear_lost_energy"]
-    for loss, ends in LOSSES.items():
-        cube = LatinHypercube({**RANGES, loss: ends}, samples=40, seed=1)
-        found = SweepProblem(BALL, cube, names).block(whole(cube))
-        given = cube.inputs(whole(cube))
-        inertia = 0.4 * 0.005**2 * found["normal_mass"]
-        before = found["normal_mass"] * given["speed"] ** 2 + inertia * given["spin"] ** 2
-        after = (
-            found["normal_mass"] * found["rebound_speed"] ** 2 + inertia * found["spin_out"] ** 2
-        )
-        lost = 2.0 * (found["dissipated_energy"] + found["lost_energy"])
-        lost += 2.0 * found["shear_lost_energy"]
-        assert np.max(np.abs((before - after - lost) / before)) < 1e-13
-        assert np.all(found["lost_energy"] >= -SOLVER * before)
-        assert found["lost_energy"].max() > 1e-3 * before.max()
-        assert np.all(found["dissipated_energy"] >= -SOLVER * before)
-        assert np.all(found["shear_lost_energy"] >= 0.0)
-
-
-def test_losses_that_are_none_give_the_elastic_sweep():
-    """e = 1, no loss time, a yield velocity never reached: against the elastic solver."""
-    cube = LatinHypercube(RANGES, samples=30, seed=7)
-    elastic = SweepProblem(BALL, cube).block(whole(cube))
-    for loss in ({"restitution": 1}, {"loss_time": 0}, {"yield_velocity": "1 km/s"}):
-        problem = SweepProblem(BALL | loss, cube)
-        found = problem.block(whole(cube))
-        for name in OUTPUTS[:3] + OUTPUTS[-4:]:
-            wanted = elastic.get(name)
-            assert np.all(np.abs(found[name] - wanted) <= SOLVER * np.abs(wanted).max()), name
-        assert np.all(np.abs(found["normal_restitution"] - 1.0) < SOLVER)
 
 
 BAD = {
@@ -203,49 +129,6 @@ def test_the_yield_velocity_of_the_materials():
         one = SweepProblem(case, grid)
         point = {"first.material": soft | {"poisson": poisson}}
         require_same(one, one.block((slice(0, 2),)), case, at, point)
-
-
-def test_blocks_do_not_depend_on_how_they_are_cut():
-    """Any box and any number of threads give the same bits, from a record that was pickled."""
-    rng = np.random.default_rng(6)
-    for loss, ends in LOSSES.items():
-        cube = LatinHypercube(RANGES | {loss: ends}, samples=70)
-        problem = SweepProblem(BALL, cube)
-        together, problem = problem.block(whole(cube)), pickle.loads(pickle.dumps(problem))
-        for _ in range(3):
-            start, stop = sorted(rng.choice(71, 2, replace=False).tolist())
-            for name, values in problem.block((slice(start, stop),), threads=2).items():
-                assert values.tobytes() == together[name][start:stop].tobytes(), name
-
-
-def test_stopped_and_resumed_a_store_ends_in_the_same_bits(tmp_path, monkeypatch):
-    """Blocks are small, as points cost more; a store of another loss is refused."""
-    grid = Grid({"angle": np.linspace(0.0, 1.0, 24), "restitution": np.linspace(0.5, 1.0, 6)})
-    truth, path = sweep(BALL, grid), tmp_path / "sweep.zarr"
-    from carom.sweeps.stores import StoreRecord
-
-    write, written = StoreRecord.write, []
-
-    class WithoutStatus(dict):
-        def __getitem__(self, name):
-            if name == "status":
-                raise KeyboardInterrupt
-            return super().__getitem__(name)
-
-    def until_the_third(record, box, values):
-        written.append(box)
-        write(record, box, WithoutStatus(values) if len(written) > 2 else values)
-
-    with monkeypatch.context() as interrupted:
-        interrupted.setattr(StoreRecord, "write", until_the_third)
-        with pytest.raises(KeyboardInterrupt, match="2 of 3 blocks are safe"):
-            sweep(BALL, grid, store=path)
-    with pytest.raises(InputError, match=r"it holds another sweep: .*restitution"):
-        sweep(BALL, Grid({"angle": grid.inputs(whole(grid))["angle"]}), store=path, resume=True)
-    result = sweep(BALL, grid, store=path, resume=True)
-    assert truth.title == result.title == "sweep of oblique impacts of spheres with losses"
-    for name in truth.variables:
-        assert truth[name].values.tobytes() == result[name].values.tobytes(), name
 
 
 def test_descriptions_tell_losses_apart_and_leave_elastic_sweeps_as_they_were():

@@ -3,25 +3,19 @@
 import numpy as np
 import pytest
 from scipy.integrate import cumulative_simpson
+from tests.invariants.test_lossy_impacts import MANY
 
 import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import borne
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.marched_solution import solve_by_marching
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.lossy.solving import solve_with_losses
+from carom.dimensionless.lossy.springs.solution import solve_by_marching
+from carom.dimensionless.rebounds import lossy_rebounds
+from carom.dimensionless.solution import solve_lossy
 
-LAWS = {
-    "yields late": LossNumbers(Loss.PLASTIC, 0.8),
-    "yields early": LossNumbers(Loss.PLASTIC, 0.4),
-    "relaxes fast": LossNumbers(Loss.RELAXING, 0.1, 2.0),
-    "relaxes slowly": LossNumbers(Loss.RELAXING, 3.0, 0.7),
-}
-PROMISED = {Loss.PLASTIC: 1e-5, Loss.RELAXING: 1e-6}  # of psi_2, in max(1, psi_1)
-
-laws = pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
+MARCHED = [law for law in MANY.values() if law.loss is not Loss.VISCOUS]
+laws = pytest.mark.parametrize("law", MARCHED, ids=str)
 
 
 def impacts(seed, count):
@@ -36,7 +30,7 @@ def test_friction_bounds_the_impulse_and_energy_is_lost(law):
     In a yielding sphere the pressure jumps at the turning point, up at the centre, where springs
     stick until they have caught up: a thousandth of the impulse at most.
     """
-    psi, chi = impacts(9, 60)
+    psi, chi = impacts(9, 40)
     found = lossy_rebounds(psi, chi, law)
     most = 2.0 * chi * (1.0 + found.restitution)
     assert np.all(found.status == Status.SOLVED)
@@ -49,30 +43,10 @@ def test_friction_bounds_the_impulse_and_energy_is_lost(law):
 
 
 @laws
-def test_opposite_approach_rebounds_oppositely(law):
-    """To the last bit, and slips the other way at the same times."""
-    psi, chi = impacts(7, 12)
-    forth, back = (lossy_rebounds(p, chi, law) for p in (psi, -psi))
-    assert np.array_equal(forth.psi_out, -back.psi_out)
-    h, mirrored = (solve_with_losses(p, 1.44, law) for p in (2.0, -2.0))
-    assert [p._replace(sign=-p.sign) for p in h.phases] == list(mirrored.phases)
-    assert np.array_equal(h.history(50).force, -mirrored.history(50).force)
-
-
-@laws
-def test_impacts_come_no_further_apart(law):
-    """Springs that a limit cuts are a sweeping process (Moreau 1977): no jumps in psi_1."""
-    for start, step, count in ((0.0, 0.05, 101), (0.95, 4e-4, 60)):
-        psi = start + step * np.arange(count)
-        found = lossy_rebounds(psi, np.full(count, 1.44), law).psi_out
-        assert np.max(np.abs(np.diff(found)) - step) < 2.0 * PROMISED[law.loss] * (1.0 + psi[-1])
-
-
-@laws
-@pytest.mark.parametrize("psi", [0.3, 1.5, 4.0, 8.0])
+@pytest.mark.parametrize("psi", [0.3, 1.5, 8.0])
 def test_ledgers_close_along_the_history(law, psi):
     """v^2 + stored + lost = 1; no work is taken back; springs let go end with nothing stored."""
-    s = solve_with_losses(psi, 1.44, law)
+    s = solve_lossy(psi, 1.44, law)
     h, scale = s.history(800), 1e-4 * (1.0 + psi**2)
     assert np.max(np.abs(h.speed**2 + h.normal_stored + h.normal_lost - 1.0)) < 1e-4
     assert np.min(np.diff(h.normal_lost)) > -1e-5
@@ -90,8 +64,8 @@ def test_ledgers_close_along_the_history(law, psi):
 @laws
 def test_histories_agree_with_themselves(law):
     """dU = psi dt, dd = v dt; what ends a history is what an impact comes to."""
-    for psi, chi in zip(*impacts(11, 4), strict=True):
-        s = solve_with_losses(psi, chi, law)
+    for psi, chi in zip(*impacts(11, 2), strict=True):
+        s = solve_lossy(psi, chi, law)
         h = s.history(3001)
         assert np.max(np.abs(h.force) - 2.0 / 3.0 * h.normal_force) < 2e-5
         assert np.all(h.stick_radius <= h.contact_radius + 1e-12)
@@ -107,14 +81,14 @@ def test_histories_agree_with_themselves(law):
 @laws
 def test_phases_are_told(law):
     """Stick from the touch below psi_1 = 1, slip to the end beyond what slides throughout."""
-    kinds = {psi: [p.kind for p in solve_with_losses(psi, 1.44, law).phases] for psi in (0.5, 9.0)}
+    kinds = {psi: [p.kind for p in solve_lossy(psi, 1.44, law).phases] for psi in (0.5, 9.0)}
     assert kinds[0.5][0] == "stick"
     assert kinds[0.5][-1] == "gross slip"
     assert set(kinds[9.0]) == {"gross slip"} or law.loss is Loss.PLASTIC
     assert kinds[9.0][0] == kinds[9.0][-1] == "gross slip"
 
 
-@pytest.mark.parametrize("psi", [0.3, 1.5, 6.0])
+@pytest.mark.parametrize("psi", [0.3, 1.5])
 @pytest.mark.parametrize(
     "law",
     [LossNumbers(Loss.PLATE, 0.0), LossNumbers(Loss.RELAXING, 1e6, 1e-9)],
@@ -144,7 +118,7 @@ def test_fields_are_the_elastic_ones_where_nothing_is_lost(law, psi):
 def test_fields_obey_coulombs_law_and_bear_the_load(law):
     """In the springs; over the contact pressure and traction make the forces of the history."""
     for psi, share in ((0.4, 0.3), (1.5, 0.7), (4.0, 0.5)):
-        s = solve_with_losses(psi, 1.44, law)
+        s = solve_lossy(psi, 1.44, law)
         time = share * s.duration
         now, state = s.at(time), s.contact_at(time)
         edge, profile = state.radius, state.profile
@@ -161,12 +135,11 @@ def test_fields_obey_coulombs_law_and_bear_the_load(law):
         assert np.all(pressure >= 0.0)
 
 
-@laws
-@pytest.mark.parametrize("psi", [0.4, 2.0])
+@pytest.mark.parametrize(("psi", "law"), list(zip((0.4, 2.0, 0.4, 2.0), MARCHED, strict=True)))
 def test_work_of_friction_is_what_the_ledger_says(law, psi):
     """Summed over the contact, from slip and traction; the ledger is that of energies."""
-    s = solve_with_losses(psi, 1.44, law)
-    radii = np.linspace(0.0, s.max_radius, 801)
+    s = solve_lossy(psi, 1.44, law)
+    radii = np.linspace(0.0, s.max_radius, 401)
     work = s.friction_work(radii)[:, 0]
     total = np.trapezoid(work * radii, radii) * 5.625 * s.chi * (2.0 / 3.0) * 2.0
     lost = s.history(400).dissipated[-1]
@@ -181,10 +154,10 @@ def test_figures_and_wear_of_marched_impacts():
     elastic = carom.impact(pair, **given)
     like = carom.impact(pair, **given, losses=carom.StandardLinearSolid(1.0001, "20 us"))
     half = 0.5 * elastic.duration
+    exact, nearly, above = (each.stress(half) for each in (elastic, like, hit))
     for name in ("max_von_mises", "max_tension"):
-        wanted = float(elastic.stress(half)[name])
-        assert float(like.stress(half)[name]) == pytest.approx(wanted, rel=5e-3)
-    assert float(hit.stress(half).max_von_mises) > 1.01 * float(elastic.stress(half).max_von_mises)
+        assert float(nearly[name]) == pytest.approx(float(exact[name]), rel=5e-3)
+    assert float(above.max_von_mises) > 1.01 * float(exact.max_von_mises)
     assert float(like.wear().max_friction_work) == pytest.approx(
         float(elastic.wear().max_friction_work), rel=3e-3
     )
@@ -195,9 +168,7 @@ def test_figures_and_wear_of_marched_impacts():
     assert np.all(np.abs(along.memory_q) <= along.memory_limit + rounding)
 
 
-def test_the_stress_below_a_yielded_contact_is_refused():
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+def test_the_stress_below_a_yielded_contact_is_refused(pair):
     hit = carom.impact(pair, normal_speed=1.0, losses=carom.ElasticPlastic("0.1 m/s"))
     assert float(hit.fields(0.5 * hit.duration).pressure.max()) > 0.0
     for call in (lambda: hit.stress(0.5 * hit.duration), hit.peaks):

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.fields import flaws, peaks as instant
-from carom.dimensionless.fields.extremes import principal_stresses, von_mises
+from carom.dimensionless.fields import peaks as instant
+from carom.dimensionless.fields.peaks import principal_stresses, von_mises
 from carom.dimensionless.fields.subsurface import load_of, stresses
+from carom.dimensionless.strength import cracking
 from carom.dimensionless.strength.cracking import cracking_width, intensity
-from carom.dimensionless.strength.peaks import peaks
-from carom.dimensionless.strength.searching import Contacts
+from carom.dimensionless.strength.peaks import Contacts, peaks
 
 ERROR = 1e-4  # that is promised of the search, as a share of the value
 PROMISED = {"peak_von_mises": "von_mises", "peak_shear": "max_shear", "peak_tension": "principal_1"}
@@ -59,22 +59,22 @@ def found_and_told(seed, case, shares):
     return scanned(solution, friction, poisson, instants), np.array(told)
 
 
-@pytest.mark.parametrize("case", range(8))
+@pytest.mark.parametrize("case", range(2))
 def test_no_dense_scan_finds_more(case):
     """The promise of the docstring: dense scans find nothing that is larger by 1e-4."""
-    found, told = found_and_told(27, case, lambda rng: rng.uniform(0.02, 0.98, 40))
+    found, told = found_and_told(27, case, lambda rng: rng.uniform(0.02, 0.98, 16))
     assert np.all(found <= (1.0 + ERROR) * told)
     assert np.all(found >= 0.95 * told)  # the scan is no empty one
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", range(24))
+@pytest.mark.parametrize("case", range(16))
 def test_no_dense_scan_of_many_impacts_finds_more(case):
-    found, told = found_and_told(28, case, lambda _: np.linspace(0.01, 0.99, 60))
+    found, told = found_and_told(28, case, lambda _: np.linspace(0.01, 0.99, 40))
     assert np.all(found <= (1.0 + ERROR) * told)
 
 
-@pytest.mark.parametrize("restitution", [None, 0.9, 0.6])
+@pytest.mark.parametrize("restitution", [None, 0.6])
 @pytest.mark.parametrize(("friction", "poisson"), [(0.05, 0.3), (0.2, 0.4), (0.5, 0.3)])
 def test_no_dense_scan_below_a_depth_finds_more(friction, poisson, restitution):
     """What pulls at a depth may lie far behind the contact: the scan goes to 4 contact radii."""
@@ -118,11 +118,10 @@ def test_each_peak_is_the_stress_there_and_then(hit, body):
         assert float(there[measure][0]) == pytest.approx(float(found[name]), rel=2e-6)
 
 
-def test_the_first_body_is_dragged_the_other_way():
+def test_the_first_body_is_dragged_the_other_way(hit):
     """Of like bodies the peaks are the same, mirrored."""
-    ball = carom.Sphere(radius="5 mm", material="bearing steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.3)
-    found = carom.impact(pair, speed=1.0, angle="25 deg").peaks()
+    steel = carom.Pair(hit.pair.first, carom.HalfSpace(material="bearing steel"), friction=0.3)
+    found = carom.impact(steel, speed=1.0, angle="25 deg").peaks()
     first, second = found.sel(body="first"), found.sel(body="second")
     for name in PROMISED:
         assert float(first[name]) == float(second[name])
@@ -156,18 +155,18 @@ def test_no_flaw_is_pulled_at_harder(flaw):
     """
     solution, friction, poisson = carom.solve(0.8, 1.44), 0.2, 0.23
     told = intensity(Contacts(solution, friction), poisson, flaw)
-    nodes, weights = np.polynomial.legendre.leggauss(40)
+    nodes, weights = np.polynomial.legendre.leggauss(24)
     w = 0.5 + 0.5 * nodes
     u = np.sin(0.5 * np.pi * w**2)
     shares = weights * w * (1.3 - 0.3 * u**1.25)
-    depths = np.minimum(flaw, np.geomspace(1e-7, 0.25, 40))
+    depths = np.minimum(flaw, np.geomspace(1e-7, 0.25, 20))
     best = 0.0
-    for time in np.linspace(0.1, 0.9, 17) * solution.duration:
+    for time in np.linspace(0.1, 0.9, 9) * solution.duration:
         profile = solution.memory(time).profile()
         size = profile.edges[-1]
         for radius in np.array([0.97, 1.0, 1.02, 1.05, 1.1, 1.2]) * size:
             for depth in np.unique(np.minimum(depths, 0.25 * size)):
-                places = np.column_stack((np.full(40, radius), np.zeros(40), depth * u))
+                places = np.column_stack((np.full(24, radius), np.zeros(24), depth * u))
                 for side in (-1.0, 1.0):
                     at = places * [side, 1.0, 1.0]
                     sigma = stresses(at, profile, friction=friction, poisson=poisson)[:, 0]
@@ -177,8 +176,8 @@ def test_no_flaw_is_pulled_at_harder(flaw):
     assert told.z <= flaw
 
 
-@pytest.mark.parametrize("wanted", [1e3, 30.0, 1.0, 0.1])
-@pytest.mark.parametrize("psi", [0.0, 0.7, 9.0])
+@pytest.mark.parametrize("wanted", [1e3, 1.0, 0.1])
+@pytest.mark.parametrize("psi", [0.0, 0.7])
 def test_the_width_that_cracks_has_the_intensity_wanted(psi, wanted):
     contacts = Contacts(carom.solve(psi, 1.44), 0.25)
     width = cracking_width(contacts, 0.23, flaw=1.0, wanted=wanted)
@@ -192,23 +191,24 @@ def test_kernels_are_their_python():
     """What is compiled gives what the plain Python gives."""
     load = load_of(carom.solve(1.5, 1.44).memory(1.3).profile(), 0.3)
     places = np.array([[0.0, 0.4], [0.6, 0.0], [1.0, 0.0], [0.8, 0.2]])
-    plain, compiled = np.zeros((2, instant.FOUND))
+    plain, compiled = np.zeros((2, instant.PEAK_COLUMNS))
     for measure in instant.MEASURES:
         instant.scan(measure, places, 0.4, load, compiled)
         instant.scan.py_func(measure, places, 0.4, load, plain)
         assert compiled == pytest.approx(plain, rel=1e-13)
-        climb = measure, 0.4, load, 0.0, np.inf, 0.1, 2e-3
+        climb = measure, 0.4, load, 0.0, np.inf, 0.1, 2e-2
         instant.climb(*climb, compiled)
         instant.climb.py_func(*climb, plain)
         assert compiled == pytest.approx(plain, rel=1e-12)
-    one, other = np.zeros((2, flaws.RADII.size, 2, flaws.TERMS))
-    flaws.tensions(flaws.RADII, 0.4, load, one)
-    flaws.tensions.py_func(flaws.RADII, 0.4, load, other)
+    few = cracking.RADII[::8]
+    one, other = np.zeros((2, few.size, 2, cracking.TERMS))
+    cracking.tensions(few, 0.4, load, one)
+    cracking.tensions.py_func(few, 0.4, load, other)
     assert one == pytest.approx(other, rel=1e-12, abs=1e-15)
-    flaws.hardest_among(flaws.RADII, one, 0.05, compiled)
-    flaws.hardest_among.py_func(flaws.RADII, one, 0.05, plain)
+    cracking.hardest_among(few, one, 0.05, compiled)
+    cracking.hardest_among.py_func(few, one, 0.05, plain)
     assert compiled == pytest.approx(plain, rel=1e-12)
-    climb = 0.1, 2e-3, 0.05, 0.4, load, one[0]
-    flaws.climb_flaws(*climb, compiled)
-    flaws.climb_flaws.py_func(*climb, plain)
+    climb = 0.1, 2e-2, 0.05, 0.4, load, one[0]
+    cracking.climb_flaws(*climb, compiled)
+    cracking.climb_flaws.py_func(*climb, plain)
     assert compiled == pytest.approx(plain, rel=1e-12)

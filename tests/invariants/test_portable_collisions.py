@@ -176,7 +176,7 @@ def test_single_precision_stays_single(library):
     assert max(errors(*parts)) < 1e-5
 
 
-@pytest.mark.parametrize("slow", [1e-12, 1e-24, 1e-30])
+@pytest.mark.parametrize("slow", [1e-12, 1e-30])
 def test_slow_motion_in_single_precision(library, slow):
     """Collisions know no scale of speed, though the squares of such speeds vanish in float32."""
     pair = against_sphere()

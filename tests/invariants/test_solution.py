@@ -81,15 +81,6 @@ def test_mirror_image(psi, chi):
                 assert here.g(inside)[0] == annulus.sign
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
-@given(psi=st.floats(0.0, 8.0), chi=st.floats(0.05, 10.0))
-def test_psi_2_is_continuous_and_not_steep(psi, chi):
-    """One impact a little harder leaves a little differently."""
-    step = 1e-7
-    change = carom.rebound(psi + step, chi) - carom.rebound(psi, chi)
-    assert abs(change) <= 20.0 * step + 1e-11
-
-
 def test_history_satisfies_the_equations_of_motion():
     """dU/dt = psi and d(psi)/dt = -(15/4) chi Q, by differences of the dense solution."""
     for psi, chi in ((0.5, 1.44), (1.5, 1.44), (0.3, 1.75), (0.5, 8.0), (3.0, 6.0)):

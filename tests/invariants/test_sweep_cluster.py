@@ -14,7 +14,7 @@ from carom.sweeps import schedulers, sweep
 from carom.sweeps.designs import Grid
 
 distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
-pytestmark = pytest.mark.cluster
+pytestmark = [pytest.mark.cluster, pytest.mark.slow]
 
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": "2 m/s"}
 GRID = Grid({"angle": np.linspace(0.0, 1.2, 100), "friction": np.linspace(0.05, 0.6, 400)})

@@ -9,7 +9,7 @@ import pytest
 
 import carom
 from carom import InputError
-from carom.bodies.cases import motion_of, pair_of
+from carom.bodies.cases import losses_of, motion_of, pair_of
 from carom.io.labels import labelled_dataset
 from carom.sweeps.designs import Grid, LatinHypercube
 from carom.sweeps.points import PointStatus
@@ -53,15 +53,14 @@ def whole(design):
 
 def solved_alone(case, point):
     """Solve a case with the inputs of a point in their places, as one impact."""
-    full = {key: dict(value) if isinstance(value, dict) else value for key, value in case.items()}
+    full = json.loads(json.dumps(case))
     for name, value in point.items():
         *path, last = name.split(".")
         table = full
         for key in path:
-            table[key] = dict(table.get(key, {}))
-            table = table[key]
+            table = table.setdefault(key, {})
         table[last] = value
-    return carom.impact(pair_of(full), **motion_of(full))
+    return carom.impact(pair_of(full), **motion_of(full), losses=losses_of(full))
 
 
 def designs(names, rng):
@@ -200,13 +199,14 @@ def test_blocks_do_not_depend_on_how_they_are_cut():
     rng = np.random.default_rng(6)
     names = (*ALWAYS, "first.inner_radius", "spin2")
     grid = Grid({name: rng.uniform(*RANGES[name], 2 + i % 2) for i, name in enumerate(names)})
-    cube = LatinHypercube({name: RANGES[name] for name in names}, samples=601)
+    cube = LatinHypercube({name: RANGES[name] for name in names}, samples=101)
     case = {"first": {"material": dict(STUFF)}, "second": {"kind": "sphere"}}
-    for design in (grid, cube):
-        problem = SweepProblem(case, design)
+    losses = ({}, {"restitution": 0.8}, {"loss_time": 1e-6}, {"yield_velocity": 0.1})
+    for design, loss in ((grid, {}), *((cube, loss) for loss in losses)):
+        problem = SweepProblem(case | loss, design)
         together = problem.block(whole(design))
         problem = pickle.loads(pickle.dumps(problem))
-        for _ in range(12):
+        for _ in range(5):
             ends = [sorted(rng.choice(n + 1, 2, replace=False)) for n in design.shape]
             box = tuple(slice(int(a), int(b)) for a, b in ends)
             for name, values in problem.block(box, threads=2).items():

@@ -13,8 +13,6 @@ from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import flat, stacked
 from carom.dimensionless.fields.subsurface import stresses
 
-STEEL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(STEEL, carom.HalfSpace(material="steel"), friction=0.2)
 INSIDE = np.append(np.linspace(0.0, 0.999, 200), 1.0 - 10.0 ** -np.arange(4.0, 6.5, 0.5))
 
 
@@ -67,10 +65,10 @@ def test_tractions_add_up_to_the_forces():
             assert 2.0 * pulled == pytest.approx(now.force[0], abs=2e-6)
 
 
-def test_slip_is_what_slip_velocity_makes():
+def test_slip_is_what_slip_velocity_makes(pair):
     """At four points, from after the touch of the outermost on until contact there ends."""
     law = carom.KelvinVoigt(restitution=0.6)
-    hit = carom.impact(PAIR, speed=2.0, angle="14 deg", losses=law)
+    hit = carom.impact(pair, speed=2.0, angle="14 deg", losses=law)
     points = np.array([[0.3, 0.2], [0.6, 0.1], [0.2, 0.7], [0.05, 0.0]]) * hit.max_radius
     times = np.linspace(0.3, 0.6, 121) * hit.duration
     patches = [hit.fields(time, points=points) for time in times]
@@ -115,17 +113,17 @@ def test_stress_of_a_density_that_ends_with_a_jump():
         assert found[0, 2] == pytest.approx(-1.5 * jump * z**3 * ring[0], rel=1e-6)
 
 
-def test_bodies_without_friction_have_no_traction_at_an_infinite_pressure():
-    pair = carom.Pair(STEEL, carom.HalfSpace(material="steel"), friction=0.0)
-    hit = carom.impact(pair, speed=2.0, angle=0.5, losses=carom.KelvinVoigt(restitution=0.7))
+def test_bodies_without_friction_have_no_traction_at_an_infinite_pressure(pair):
+    smooth = carom.Pair(pair.first, pair.second, friction=0.0)
+    hit = carom.impact(smooth, speed=2.0, angle=0.5, losses=carom.KelvinVoigt(restitution=0.7))
     line = hit.radial(0.2 * hit.duration, 11)
     assert line.pressure[-1] == np.inf
     assert not line.friction_limit.values.any()
     assert not line.traction_x.values.any()
 
 
-def test_stress_while_the_load_grows_is_told_from_a_depth_on():
-    hit = carom.impact(PAIR, speed=2.0, angle="30 deg", losses=carom.KelvinVoigt(restitution=0.7))
+def test_stress_while_the_load_grows_is_told_from_a_depth_on(pair):
+    hit = carom.impact(pair, speed=2.0, angle="30 deg", losses=carom.KelvinVoigt(restitution=0.7))
     for part, grows in ((0.2, True), (0.7, False)):
         below = hit.stress(part * hit.duration)
         assert (float(below.z[0]) > 0.0) == grows

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.checks import refused
 
 import carom
 from carom.adapters import building, liggghts
 from carom.cli import main
-from carom.quantities.refusals import InputError
 from carom.verify.engines.liggghts import INPUT
 
 CPP = Path(__file__).parents[1] / "cpp"
@@ -96,8 +96,8 @@ def sources(tmp_path):
     (src / "dump_mesh_vtk.cpp").write_text("#include <vtk.h>\n")
     (src / "lammps.cpp").write_text(
         '#include "carom/contact.hpp"\n#include "utils.h"\n'
-        f'int main() {{ return text(1) != "1"; }}  // {liggghts.MARK.decode()}\n'
-        f'extern const char *said; const char *said = "{liggghts.MARK.decode()}";\n'
+        f'int main() {{ return text(1) != "1"; }}  // {liggghts.MODEL_MARK.decode()}\n'
+        f'extern const char *said; const char *said = "{liggghts.MODEL_MARK.decode()}";\n'
     )
     (src / "Makefile").write_text(
         "stubs:\n\t@true\n"
@@ -157,45 +157,45 @@ def test_refusals(sources, tmp_path, monkeypatch, capsys):
         assert line.count("\n") == 1
         assert "must be the folder or the tarball of LIGGGHTS-PUBLIC 3.8.0" in line
     (sources / "src" / "lammps.cpp").write_text("int main() { return nothing; }\n")
-    with pytest.raises(InputError, match=r"the compiler failed: .*nothing"):
-        liggghts.build(sources, tmp_path / "out")
+    refused(r"the compiler failed: .*nothing", liggghts.build, sources, tmp_path / "out")
     assert not (tmp_path / "out").exists()
     for folder in (cut, cut / "new"):
-        with pytest.raises(InputError, match=r"cannot be written: .*; give another with --folder"):
-            liggghts.build(tmp_path / "none", folder)
+        refused(
+            r"cannot be written: .*; give another with --folder",
+            liggghts.build,
+            tmp_path / "none",
+            folder,
+        )
     monkeypatch.setattr(liggghts.shutil, "which", lambda name: "c++" if name != "make" else None)
-    with pytest.raises(InputError, match="there is no make"):
-        liggghts.build(sources, tmp_path / "out")
+    refused("there is no make", liggghts.build, sources, tmp_path / "out")
     monkeypatch.setattr(building, "COMPILERS", ())
-    with pytest.raises(InputError, match="no C\\+\\+ compiler"):
-        liggghts.build(sources, tmp_path / "out")
+    refused("no C\\+\\+ compiler", liggghts.build, sources, tmp_path / "out")
 
 
 def test_the_first_error_of_a_compiler_is_told():
     """Not the names of files that are compiled: LIGGGHTS has an error.cpp."""
     said = 50 * "g++ -c ../error.cpp\n" + "a.cpp:1:2: error: no such thing\n"
     command = [sys.executable, "-c", f"print({said!r}); raise SystemExit(1)"]
-    with pytest.raises(InputError, match=r"the compiler failed: a\.cpp:1:2: error: no such thing"):
-        building.carry_out("build", command)
+    refused(
+        r"the compiler failed: a\.cpp:1:2: error: no such thing",
+        building.carry_out,
+        "build",
+        command,
+    )
 
 
 def test_nothing_half_written_is_left(tmp_path):
     (tmp_path / "made").write_text("new")
     (tmp_path / "there" / "program").mkdir(parents=True)
-    with pytest.raises(InputError, match="cannot be written"):
-        building.place(tmp_path / "made", tmp_path / "there" / "program")
+    refused("cannot be written", building.place, tmp_path / "made", tmp_path / "there" / "program")
     assert [path.name for path in (tmp_path / "there").iterdir()] == ["program"]
 
 
 @pytest.mark.parametrize("pair", [WALL, SPHERES], ids=["wall", "spheres"])
 def test_inputs_with_the_law(pair):
-    experiment = carom.verify.Experiment(
-        pair=pair,
-        law=carom.dem.ExactContactLaw(64),
-        normal_speed=1e-4,
-        tangential_speed=(1e-4,),
-        steps=100,
-    )
+    motion = {"normal_speed": 1e-4, "tangential_speed": (1e-4,), "steps": 100}
+    law = carom.dem.ExactContactLaw(64)
+    experiment = carom.verify.Experiment(pair=pair, law=law, **motion)
     text = carom.verify.Liggghts().files(experiment)[INPUT]
     assert text.count("hertz tangential carom") == (2 if pair is WALL else 1)
     assert "pair_style      gran model hertz tangential carom springs 64\n" in text

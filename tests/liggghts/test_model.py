@@ -28,9 +28,8 @@ PAIRS = {
 def test_is_the_law_of_carom(name, springs):
     """Step for step, but for R - d/2 and single precision; Hertz-Mindlin would be off by 0.5."""
     law = carom.dem.ExactContactLaw(springs)
-    (found,) = carom.verify.bench(
-        carom.verify.Liggghts(), law, pair=PAIRS[name], steps=100
-    ).measured
+    engine = carom.verify.Liggghts()
+    (found,) = carom.verify.bench(engine, law, pair=PAIRS[name], steps=100).measured
     assert found.failure is None
     assert found.law_error < (4e-6 if "wall" in name else 2e-5)
     assert found.max_error < 0.1 / springs
@@ -77,16 +76,9 @@ thermo_modify lost error norm no
 {run}
 write_dump all custom end id vx vy vz omegax omegay omegaz modify sort id format "%d {numbers}"
 """
-GIVEN = {
-    "x": 0.04,
-    "other": 0.05,
-    "slide": 0.2,
-    "back": 0.6,
-    "restitution": 1.0,
-    "model": "hertz tangential carom",
-    "run": "run 1000",
-    "numbers": " ".join(["%.17g"] * 6),
-}
+GIVEN = {"x": 0.04, "other": 0.05, "slide": 0.2, "back": 0.6, "restitution": 1.0}
+GIVEN |= {"model": "hertz tangential carom", "run": "run 1000"}
+GIVEN["numbers"] = " ".join(["%.17g"] * 6)
 
 
 @pytest.fixture
@@ -132,18 +124,15 @@ def test_only_asking_for_forces_moves_no_spring(run):
     np.testing.assert_allclose(parts, whole, rtol=1e-9, atol=1e-9)
 
 
+ELASTIC = "the normal force must be that of elastic spheres"
+
+
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"restitution": 0.9}, "the normal force must be that of elastic spheres"),
-        (
-            {"model": "hooke/stiffness tangential carom"},
-            "the normal force must be that of elastic spheres",
-        ),
-        (
-            {"model": "hertz tangential carom cohesion sjkr"},
-            "the normal force must be that of elastic spheres",
-        ),
+        ({"restitution": 0.9}, ELASTIC),
+        ({"model": "hooke/stiffness tangential carom"}, ELASTIC),
+        ({"model": "hertz tangential carom cohesion sjkr"}, ELASTIC),
         ({"model": "hertz tangential carom springs 20"}, "springs must be 16, 32 or 64"),
         ({"run": "neigh_modify one 5000\nrun 1"}, "neigh_modify one 200"),
     ],

@@ -28,10 +28,9 @@ SLIP = 2.0 * 0.0022  # of the shift: twice what CONTACT's shift is off
 
 
 def table(name):
-    """Return the columns of a table by name; numbers where they are numbers."""
+    """Return the rows of a table."""
     lines = (DATA / name).read_text(encoding="utf-8").splitlines()
-    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-    return {key: [row[key] for row in rows] for key in rows[0]}
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
 def pushed(shear, poisson, radius, friction, force, part):
@@ -47,8 +46,8 @@ def pushed(shear, poisson, radius, friction, force, part):
 @pytest.fixture(scope="module")
 def contact():
     """CONTACT's elements, as arrays in mm, N/mm2 and degrees."""
-    columns = table("contact_cattaneo_tractions.csv")
-    return {name: np.array(values, dtype=float) for name, values in columns.items()}
+    rows = table("contact_cattaneo_tractions.csv")
+    return {name: np.array([row[name] for row in rows], dtype=float) for name in rows[0]}
 
 
 @pytest.fixture(scope="module")
@@ -130,8 +129,7 @@ def test_summary(case):
 
     The friction work is what little of the work of F_x is not stored: within 0.1 % of that work.
     """
-    rows = table("contact_cattaneo_summary.csv")
-    row = {name: values[rows["case"].index(case)] for name, values in rows.items()}
+    row = next(row for row in table("contact_cattaneo_summary.csv") if row["case"] == case)
     numbers = {name: float(value) for name, value in row.items() if name != "case"}
     path = pushed(*CASES[case])
     fields = path.fields(points=[(0.0, 0.0)])

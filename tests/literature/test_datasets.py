@@ -10,8 +10,8 @@ import carom
 from carom import datasets
 from carom.bodies.cases import pair_of
 from carom.datasets.observables import BEFORE, OBSERVABLES, convert_observables
-from carom.io.columns import in_units, others, with_errors
 from carom.io.tables import read_table
+from carom.io.user_table import in_units, others, with_errors
 
 KHARAZ = ("kharaz2001", "kharaz2001_kratos", "kharaz2001_mfix")
 TOLD = ("title", "references", "doi", "digitised", "bodies", "case", "definitions", "signs")
@@ -174,11 +174,13 @@ def test_digitisations_of_one_figure_agree_within_their_errors(observable):
 @pytest.mark.parametrize("name", KHARAZ)
 def test_the_exact_impact_passes_through_the_scatter(name):
     """With the constants of the literature: rms 0.02 in v_t'/v_t, 25 rad/s in spin."""
-    for observable, scatter in (("tangential_restitution", 0.02), ("spin_out", 25.0)):
+    scatters = (("tangential_restitution", 0.02, 0.03), ("spin_out", 25.0, 40.0))
+    for observable, scatter, most in scatters:
         angle, values, *_ = points(name, observable)
         found = [carom.impact(pair(name), speed=3.9, angle=float(a)) for a in angle]
         off = values - np.array([getattr(hit, observable) for hit in found])
         assert math.sqrt(np.mean(off**2)) < scatter
+        assert name != "kharaz2001" or np.abs(off).max() < most
 
 
 @pytest.mark.parametrize("name", KHARAZ)

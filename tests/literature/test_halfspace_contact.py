@@ -6,27 +6,19 @@ tractions on squares and displacements at their centres, so that nothing is left
 that CONTACT prints (3 or 4).
 """
 
-import csv
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from tests.literature.test_cattaneo_contact import table
 
 from carom.halfspace.compliance import Compliance, Materials
 from carom.halfspace.quasistatic import ContactStep, Patch
 
-DATA = Path(__file__).parent / "data"
 RADII = {"cattaneo": 50.0, "catt_to_cart_case1": 168.75}  # R* in mm
 SIZES = {"cattaneo": 19, "catt_to_cart_case1": 33}  # of the grid, an element in the middle
 OFF = {"cattaneo": 3.5e-5, "catt_to_cart_case1": 0.0}  # mm, the middle of the grid
-
-
-def table(name):
-    """Return the rows of a table."""
-    lines = (DATA / name).read_text(encoding="utf-8").splitlines()
-    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
 def last_digit(text):

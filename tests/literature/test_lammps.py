@@ -17,10 +17,12 @@ import pytest
 import carom
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import INPUT, Lammps
-from carom.verify.engines.lammps_unittest import unit_test_yaml
 from carom.verify.engines.running import run
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "examples/lammps/verification"))
+ROOT = Path(__file__).parents[2]
+sys.path[:0] = str(ROOT / "examples/lammps/verification"), str(ROOT / "studies")
+
+from lammps_unittest import unit_test_yaml  # noqa: E402
 
 PSI = (0.1, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6)
 SHARES = (0.5, 0.0, 1.0, 1.5)  # of the contact velocity that is spin, also against drift

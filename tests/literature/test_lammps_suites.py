@@ -51,6 +51,7 @@ def changed(page, name, factor):
     return page | {"variables": text}
 
 
+@pytest.mark.slow
 def test_files_are_as_they_are_written(texts):
     assert len(texts) == 33
     assert study.stale(texts) == []
@@ -124,6 +125,7 @@ def test_sticking_case_of_lammps_as_recorded():
 
 
 @engine
+@pytest.mark.slow
 def test_lammps_passes(texts):
     """All thirty, the first set with room to spare."""
     for name, page in pages(texts, "unittest").items():
@@ -132,6 +134,7 @@ def test_lammps_passes(texts):
 
 
 @engine
+@pytest.mark.slow
 def test_tolerance_against_the_exact_rebound_is_no_larger_than_need_be(texts):
     """A third less fails: errors are relative to velocities that differ by that much."""
     for bodies in study.BODIES:
@@ -142,6 +145,7 @@ def test_tolerance_against_the_exact_rebound_is_no_larger_than_need_be(texts):
 
 
 @engine
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "factor"), [("kt", 1.05), ("kt", 0.95), ("kt", 1 + 1e-5), ("mu", 1.05), ("mu", 0.95)]
 )
@@ -152,6 +156,7 @@ def test_wrong_coefficients_fail(texts, name, factor):
 
 
 @engine
+@pytest.mark.slow
 def test_other_laws_fail(texts):
     """Each law fails the test of every other one."""
     models = {law: re.sub(r"\W|_", "", law) for law in study.LAWS if "mindlin" in law}
@@ -165,6 +170,7 @@ def test_other_laws_fail(texts):
 
 
 @engine
+@pytest.mark.slow
 @pytest.mark.parametrize("mistake", [name for name in study.broken() if name != "none"])
 def test_mistakes_fail(mistake):
     """References with a mistake, signs and torques among them, are not what LAMMPS computes."""
@@ -175,6 +181,7 @@ def test_mistakes_fail(mistake):
 
 
 @engine
+@pytest.mark.slow
 @pytest.mark.parametrize("bodies", study.BODIES)
 def test_inputs_print_the_rebound(bodies, tmp_path):
     """Of each law, to the digits that are shown, the exact one beside it; the log has the same."""
@@ -210,6 +217,7 @@ def test_the_script_tells_what_fails(texts, tmp_path):
 
 
 @engine
+@pytest.mark.slow
 def test_page_shows_what_is_measured(texts):
     """Tables as they would be written; of the errors that rounding makes the order, at most."""
     found = study.tables(texts)

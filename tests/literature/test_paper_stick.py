@@ -182,18 +182,18 @@ def test_stick_after_gross_slip_follows_from_the_equations_of_motion(psi, chi):
 def test_stick_ends_before_maximum_penetration():
     """Section 6: 2 chi > 1 ends stick at V_z > 0, by unbounded g; random psi_1 and chi."""
     draw = np.random.default_rng(30468)
-    for _ in range(40):
+    for _ in range(15):
         chi = draw.uniform(0.55, 30.0)
         assert 0.0 < Stick.from_touch(draw.uniform(0.05, 1.0), chi).end < 1.0
         slid = Stick.after_gross_slip(1 + draw.uniform(0.01, 0.99) * (2 * chi - 1), chi)
         assert 0.0 < slid.end < slid.start
 
 
-@pytest.mark.parametrize("n", range(6))
+@pytest.mark.parametrize("n", range(4))
 def test_exceptions_where_f_is_a_polynomial(n):
     """chi_n = ((11 + 20 n)^2 - 1)/240: stick to the turning point for |psi_1| <= 1/max|F|."""
     chi = CHI_N[n]
-    v = np.sin(np.linspace(1e-3, np.pi / 2, 4001))
+    v = np.sin(np.linspace(1e-3, np.pi / 2, 2001))
     v[0] = 1e-9
     largest = np.abs(Stick.from_touch(1.0, chi).g(v)).max()
     if n < 3:

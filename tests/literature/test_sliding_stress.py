@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from tests.oracles.point_forces import hamilton
 
-from carom.dimensionless.fields.extremes import largest
-from carom.dimensionless.fields.peaks import SHEAR, TENSION, VON_MISES
+from carom.dimensionless.fields.peaks import SHEAR, TENSION, VON_MISES, largest
 from carom.dimensionless.fields.profile import flat, stacked
 from carom.dimensionless.fields.subsurface import stresses
 
@@ -56,29 +56,6 @@ def test_tension_behind_a_sliding_contact(friction, poisson):
     expected = (1.0 - 2.0 * poisson) / 3.0 + np.pi * friction * (4.0 + poisson) / 8.0
     assert found.value == pytest.approx(expected, abs=1e-12)
     assert found[1:] == (-1.0, 0.0, 0.0)
-
-
-def hamilton(at, nu):
-    """Return the stress below a pressure sqrt(1 - r^2) by Hamilton's (1983) explicit equations."""
-    x, y, z = at.T
-    r2 = x * x + y * y
-    a = r2 + z * z - 1.0
-    s = np.sqrt(a * a + 4.0 * z * z)
-    m = np.where(a > 0.0, np.sqrt(0.5 * (s + np.abs(a))), 0.0)
-    n = np.where(a > 0.0, z / np.where(a > 0.0, m, 1.0), np.sqrt(0.5 * (s + np.abs(a))))
-    m = np.where(a > 0.0, m, z / n)
-    g, h = m * m - n * n + z * m - n, 2.0 * m * n + m + z * n
-    turned = (1 - nu) * n * z * z - (1 - 2 * nu) / 3 * (n * s + 2 * a * n + 1) - nu * m * z
-    mean = (1 + nu) * z * np.arctan(1.0 / m)
-
-    def normal(u, v):
-        rest = -n * (u * u + 2 * nu * v * v) - m * u * u * z / s
-        return mean + ((v * v - u * u) / r2 * turned + rest) / r2
-
-    soft = -n * r2 + 2 / 3 * n * (s + 2 * a) - z * (z * n + m) + 2 / 3
-    xy = x * y / r2**2 * ((1 - 2 * nu) * soft + z * (-m * r2 / s - z * n + m))
-    shear = -z * (n / s - z * h / (g * g + h * h))
-    return np.stack([normal(x, y), normal(y, x), -n + z * m / s, xy, x * shear, y * shear], axis=-1)
 
 
 @RATIOS

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.rebounds import lossy_rebounds
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ def test_closed_form_is_one_at_yield() -> None:
 
 def test_restitution_is_the_closed_form() -> None:
     """From 3e4 times the yield velocity down to it."""
-    ratio = np.concatenate([10.0 ** np.linspace(-4.5, -0.01, 200), 1.0 - np.logspace(-2, -4, 40)])
+    ratio = np.concatenate([10.0 ** np.linspace(-4.5, -0.01, 60), 1.0 - np.logspace(-2, -4, 20)])
     assert np.max(np.abs(found(ratio) - closed_form(ratio))) < 1e-10
 
 
@@ -41,11 +41,11 @@ def test_restitution_just_above_yield() -> None:
     assert np.max(values) <= 1.0 + 3e-10
 
 
-@pytest.mark.parametrize("psi", [0.0, 1e-3, 0.4, 3.0, 9.0])
+@pytest.mark.parametrize("psi", [0.0, 0.4, 9.0])
 def test_restitution_does_not_depend_on_the_tangential_motion(psi: float) -> None:
-    ratio = 10.0 ** np.linspace(-3.5, -0.001, 60)
+    ratio = 10.0 ** np.linspace(-3.5, -0.001, 20)
     losses = LossNumbers(Loss.PLASTIC, ratio**0.4)
-    impacts = lossy_rebounds(np.full(60, psi), np.full(60, 1.44), losses)
+    impacts = lossy_rebounds(np.full(20, psi), np.full(20, 1.44), losses)
     assert np.max(np.abs(impacts.restitution - closed_form(ratio))) < 1e-10
 
 
@@ -79,13 +79,8 @@ def test_below_yield_bodies_are_elastic() -> None:
         assert impacts.restitution == pytest.approx(np.ones(40), abs=1e-9)
 
 
-def test_impacts_with_units() -> None:
+def test_impacts_with_units(pair: carom.Pair) -> None:
     """The yield velocity is where e leaves 1, and e depends on V_y/V_1 alone."""
-    pair = carom.Pair(
-        carom.Sphere(radius="5 mm", material="steel"),
-        carom.HalfSpace(material="steel"),
-        friction=0.2,
-    )
     law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
     for speed in (0.05, 0.2, 1.0, 8.0):
         hit = carom.impact(pair, normal_speed=speed, tangential_speed=0.3 * speed, losses=law)
@@ -93,10 +88,8 @@ def test_impacts_with_units() -> None:
         assert hit.normal_restitution == pytest.approx(wanted, abs=1e-9)
 
 
-def test_largest_pressure_is_on_the_true_radius() -> None:
+def test_largest_pressure_is_on_the_true_radius(pair: carom.Pair) -> None:
     """(3/2) P/(pi a^2) at the turning point, a^2 = R* d, below Hertz's of that load."""
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
     hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.3, losses=law)
     square = pair.effective_radius * hit.max_penetration

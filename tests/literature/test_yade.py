@@ -1,42 +1,27 @@
-"""YADE itself as the truth: our records of its laws rebound as its impacts do.
-
-Impacts at 0.1 mm/s: the contact point of YADE lies below R by up to d, which costs a few d/R. All
-are computed in one process, a folder an experiment.
-"""
+"""YADE itself as the truth: our records of its laws rebound as its impacts do."""
 
 import os
-import subprocess
 from dataclasses import dataclass
 
-import numpy as np
 import pytest
+from tests.literature.engines import (
+    PAIRS,
+    SPEED,
+    Case,
+    Results,
+    assert_absent,
+    assert_same_alone,
+    deviation,
+    experiment,
+    run_all,
+)
 
-import carom
 from carom.dem import LammpsMindlin, LinearSpring, YadeMindlin
-from carom.dem.base import ContactLaw
 from carom.dem.damping import thornton_damping
 from carom.quantities.refusals import InputError
-from carom.verify.engines.experiments import Experiment, Outcomes, psi_out
+from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.running import run
 from carom.verify.engines.yade import MINDLIN, RESULT, SCRIPT, Yade
-
-INCIDENCES = np.array([0.1, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6])
-SPEED = 1e-4
-STEEL = carom.material("steel")
-GLASSY = carom.Material(young="70 GPa", poisson=0.1, density=2500)
-POLYMER = carom.Material(young="5 GPa", poisson=0.45, density=1200)
-BALL = carom.Sphere(radius="5 mm", material=STEEL)
-PAIRS = {
-    "wall": carom.Pair(BALL, carom.HalfSpace(material=STEEL), friction=0.2),
-    "unlike": carom.Pair(
-        carom.Sphere(radius="3 mm", material=GLASSY),
-        carom.HalfSpace(material=POLYMER),
-        friction=0.4,
-    ),
-    "equal spheres": carom.Pair(BALL, BALL, friction=0.2),
-    "unequal spheres": carom.Pair(BALL, carom.Sphere(radius="9 mm", material=GLASSY), friction=0.2),
-}
-Case = tuple[str, ContactLaw, int, str]  # name of the pair, law, steps, functor of YADE
 
 FORCE = LammpsMindlin("mindlin/force")
 FINE: Case = ("wall", FORCE, 40_000, MINDLIN)
@@ -70,55 +55,26 @@ class Otherwise(Yade):
         return {SCRIPT: text.replace(f"[{MINDLIN}]", f"[{self.functor}]")}
 
 
-def experiment(name: str, law: ContactLaw, steps: int) -> Experiment:
-    """Return the impacts at all incidences: first without spin, then by spin alone."""
-    pair = PAIRS[name]
-    velocity = INCIDENCES * pair.scales(SPEED).tangential_speed
-    rest = np.zeros_like(velocity)
-    return Experiment(
-        pair=pair,
-        law=law,
-        normal_speed=SPEED,
-        tangential_speed=tuple(np.append(velocity, rest)),
-        spin=tuple(np.append(rest, velocity / pair.first.radius)),
-        steps=steps,
-    )
-
-
-Found = dict[Case, tuple[Experiment, Outcomes]]
-
-
 @pytest.fixture(scope="module")
-def found(tmp_path_factory: pytest.TempPathFactory) -> Found:
+def found(tmp_path_factory: pytest.TempPathFactory) -> Results:
     """Return all experiments with their outcomes."""
-    folder = tmp_path_factory.mktemp("yade")
-    cases = [FINE, *ELASTIC, SPRINGS, *DAMPED, LINEAR_SHEAR, DERESIEWITZ]
-    lines, wanted = ["import os"], []
-    for number, (name, law, steps, functor) in enumerate(cases):
-        place, impacts = folder / str(number), experiment(name, law, steps)
-        place.mkdir()
-        (place / SCRIPT).write_text(Otherwise(functor=functor).files(impacts)[SCRIPT])
-        lines += [f"os.chdir({str(place)!r})", "O.reset()", f"exec(open({SCRIPT!r}).read())"]
-        wanted.append(impacts)
-    (folder / SCRIPT).write_text("\n".join(lines) + "\n")
-    command = Yade().command(folder)
-    alone = os.environ | {"OMP_NUM_THREADS": "1"}
-    subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=120, env=alone)
-    outcomes = [Yade().outcomes(folder / str(i), impacts) for i, impacts in enumerate(wanted)]
-    return dict(zip(cases, zip(wanted, outcomes, strict=True), strict=True))
-
-
-def deviation(found: Found, case: Case, *, steps: int | None) -> float:
-    """Return how far psi_2 of YADE is from that of the record."""
-    impacts, outcomes = found[case]
-    pair = impacts.pair
-    expected = impacts.law.rebound(impacts.psi_in, pair.chi, kappa=pair.kappa, steps=steps)
-    return float(np.abs(psi_out(impacts, outcomes) - expected).max())
+    return run_all(
+        Yade(),
+        tmp_path_factory.mktemp("yade"),
+        [FINE, *ELASTIC, SPRINGS, *DAMPED, LINEAR_SHEAR, DERESIEWITZ],
+        lambda case, impacts: Otherwise(functor=case[-1]).files(impacts),
+        SCRIPT,
+        lambda place: [
+            f"import os; os.chdir({str(place)!r})",
+            f"O.reset(); exec(open({SCRIPT!r}).read())",
+        ],
+        env=os.environ | {"OMP_NUM_THREADS": "1"},
+    )
 
 
 @engine
 @present
-def test_mindlin_on_a_wall(found: Found) -> None:
+def test_mindlin_on_a_wall(found: Results) -> None:
     """LammpsMindlin("mindlin/force") is YADE's Mindlin to 1e-4 at a step that is fine enough."""
     assert PAIRS["wall"].chi == pytest.approx(1.4412, abs=1e-4)
     assert deviation(found, FINE, steps=None) < 1e-4
@@ -127,7 +83,7 @@ def test_mindlin_on_a_wall(found: Found) -> None:
 @engine
 @present
 @pytest.mark.parametrize("case", ELASTIC, ids=str)
-def test_mindlin_step_for_step(found: Found, case: Case) -> None:
+def test_mindlin_step_for_step(found: Results, case: Case) -> None:
     """Step for step the record agrees for unlike materials and for unlike spheres."""
     assert deviation(found, case, steps=2000) < 5e-5
 
@@ -135,7 +91,7 @@ def test_mindlin_step_for_step(found: Found, case: Case) -> None:
 @engine
 @present
 @pytest.mark.parametrize("case", DAMPED, ids=str)
-def test_damped_mindlin_step_for_step(found: Found, case: Case) -> None:
+def test_damped_mindlin_step_for_step(found: Results, case: Case) -> None:
     """YadeMindlin is YADE's Mindlin with e_n = e_s = e, and e is what it leaves."""
     name, law, _, _ = case
     assert deviation(found, case, steps=2000) < (5e-5 if name == "unequal spheres" else 1e-5)
@@ -152,21 +108,21 @@ def test_damping_of_thornton() -> None:
 
 @engine
 @present
-def test_linear_springs(found: Found) -> None:
+def test_linear_springs(found: Results) -> None:
     """LinearSpring is YADE's CundallStrack with k_n and k_s given, here of equal spheres."""
     assert deviation(found, SPRINGS, steps=2000) < 5e-5
 
 
 @engine
 @present
-def test_hertz_with_linear_shear(found: Found) -> None:
+def test_hertz_with_linear_shear(found: Results) -> None:
     """HertzWithLinearShear is the same law as Mindlin if nonLin is 1."""
     assert deviation(found, LINEAR_SHEAR, steps=1000) < 5e-5
 
 
 @engine
 @present
-def test_known_defect_of_mindlin_deresiewitz(found: Found) -> None:
+def test_known_defect_of_mindlin_deresiewitz(found: Results) -> None:
     """MindlinDeresiewitz of YADE sets no shear force: no impact changes psi."""
     impacts, outcomes = found[DERESIEWITZ]
     assert psi_out(impacts, outcomes) == pytest.approx(impacts.psi_in, abs=1e-12)
@@ -174,13 +130,8 @@ def test_known_defect_of_mindlin_deresiewitz(found: Found) -> None:
 
 @engine
 @present
-def test_one_run_alone(found: Found) -> None:
-    """An experiment that is run alone comes out the same to the last digit."""
-    impacts, expected = found[DAMPED[1]]
-    alone = run(Yade(), impacts)
-    assert alone.version == "2023.02a"
-    for mine, theirs in zip(alone.outcomes, expected, strict=True):
-        assert np.array_equal(mine, theirs)
+def test_one_run_alone(found: Results) -> None:
+    assert_same_alone(Yade(), found, DAMPED[1], "2023.02a")
 
 
 def test_what_it_has() -> None:
@@ -199,9 +150,7 @@ def test_what_it_has() -> None:
 
 
 def test_absent_program() -> None:
-    """A program that is not there is said to be missing, with its path."""
-    with pytest.raises(InputError, match="YADE: '/nowhere/yade' is not an executable"):
-        run(Yade("/nowhere/yade"), experiment("wall", FORCE, 100))
+    assert_absent(Yade("/nowhere/yade"), "YADE", FORCE)
 
 
 def test_script_is_python_that_has_every_impact() -> None:

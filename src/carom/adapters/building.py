@@ -18,7 +18,7 @@ COMPILERS = ("c++", "g++", "clang++")
 MATHS = ("-fno-math-errno", "-fno-trapping-math")  # without them roots are not vectors
 OWN = ("-march=native",)  # it is built where it runs
 FAILURE = re.compile(r"error:|undefined reference|\*\*\*", re.IGNORECASE)
-CHARACTERS = 400  # of what a compiler that failed has said
+LONGEST_COMPLAINT = 400  # characters
 
 
 class Built(NamedTuple):
@@ -36,27 +36,26 @@ def home(program: str) -> Path:
 
 def compiler(command: str) -> str:
     """Return where a C++ compiler is, or raise InputError for the command that asks."""
-    found = next((found for name in COMPILERS if (found := shutil.which(name))), None)
-    if found is None:
-        raise InputError(f"{command}: there is no C++ compiler; install g++ or clang++")
-    return found
+    for path in filter(None, map(shutil.which, COMPILERS)):
+        return path
+    raise InputError(f"{command}: there is no C++ compiler; install g++ or clang++")
 
 
 def carry_out(
     command: str, words: Sequence[str], tell: Callable[[str], object] = lambda line: None
 ) -> None:
     """Run what compiles, telling each line of it, or raise InputError with its complaint."""
-    said: list[str] = []
+    output: list[str] = []
     with subprocess.Popen(
         words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
     ) as running:
         assert running.stdout is not None
         for line in running.stdout:
-            said.append(line)
+            output.append(line)
             tell(line)
     if running.returncode:
-        first = next((i for i, line in enumerate(said) if FAILURE.search(line)), 0)
-        complaint = "".join(said[first:]).strip()[:CHARACTERS]
+        first = next((i for i, line in enumerate(output) if FAILURE.search(line)), 0)
+        complaint = "".join(output[first:]).strip()[:LONGEST_COMPLAINT]
         raise InputError(f"{command}: the compiler failed: {complaint}")
 
 

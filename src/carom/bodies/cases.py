@@ -14,8 +14,16 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_dataset, read_text
 from carom.io.paths import checked_path
-from carom.quantities.faults import TOLD, Faults
-from carom.quantities.refusals import InputError, checked_type, clipped, hint, one_of, refusal
+from carom.quantities.refusals import (
+    MOST_LISTED,
+    Faults,
+    InputError,
+    checked_type,
+    clipped,
+    hint,
+    one_of,
+    refusal,
+)
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
@@ -90,9 +98,9 @@ def check_case(
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
         unknown = [key for key in table if key not in allowed]
-        for key in unknown[:TOLD]:
+        for key in unknown[:MOST_LISTED]:
             faults.add(f"{clipped(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}")
-        for key in unknown[TOLD:]:  # which are counted, not told
+        for key in unknown[MOST_LISTED:]:  # which are counted, not told
             faults.add(f"{key}: unknown key")
 
     checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")
@@ -157,14 +165,14 @@ def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
 
 def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
     """Return the law by which the normal motion of a case loses energy, or None."""
-    given = [name for name in LOSSES if case.get(name) is not None]
-    if len(given) > 1:
-        raise InputError(f"{given[1]}: give it or {given[0]}, not both; {ONE_LOSS}")
-    refuse_half({*given, *([RATIO] if case.get(RATIO) is not None else [])})
-    if not given:
+    names = [name for name in LOSSES if case.get(name) is not None]
+    if len(names) > 1:
+        raise InputError(f"{names[1]}: give it or {names[0]}, not both; {ONE_LOSS}")
+    refuse_half({*names, *([RATIO] if case.get(RATIO) is not None else [])})
+    if not names:
         return None
     ratio = case.get(RATIO, 1.0)
-    return law_of(given[0], read_loss(given[0], case[given[0]]), ratio)
+    return law_of(names[0], read_loss(names[0], case[names[0]]), ratio)
 
 
 def law_of(name: str, value: Any, ratio: Any = 1.0) -> "LossLaw":
@@ -178,10 +186,10 @@ def law_of(name: str, value: Any, ratio: Any = 1.0) -> "LossLaw":
     return losses.KelvinVoigt(**{name: value})
 
 
-def refuse_half(given: Container[str]) -> None:
+def refuse_half(names: Container[str]) -> None:
     """Raise InputError if a relaxation time comes without the ratio of moduli, or this alone."""
-    if ("relaxation_time" in given) != (RATIO in given):
-        missing, there = ("relaxation_time", RATIO)[:: 1 if RATIO in given else -1]
+    if ("relaxation_time" in names) != (RATIO in names):
+        missing, there = ("relaxation_time", RATIO)[:: 1 if RATIO in names else -1]
         raise InputError(f"{missing}: missing; give it together with {there}")
 
 
@@ -255,10 +263,10 @@ def material_values(value: Any) -> dict[str, float]:
         with suppress(InputError):  # the name may be one's own, for what the case leaves out
             table = material(**table)
     if isinstance(table, Mapping):
-        known = Material(**{"young": 1.0, "poisson": 0.0, **table})
-        return {name: getattr(known, name) for name in VALUES if table.get(name) is not None}
-    known = as_material(table)
-    return {name: getattr(known, name) for name in VALUES if getattr(known, name) is not None}
+        stuff = Material(**{"young": 1.0, "poisson": 0.0, **table})
+        return {name: getattr(stuff, name) for name in VALUES if table.get(name) is not None}
+    stuff = as_material(table)
+    return {name: getattr(stuff, name) for name in VALUES if getattr(stuff, name) is not None}
 
 
 def _as_table(value: Any) -> Any:
@@ -268,8 +276,8 @@ def _as_table(value: Any) -> Any:
         value = dict(entries)
         for key, count in Counter(name for name, _ in entries).items():
             if count > 1:
-                given = (text for name, text in entries if name == key)
-                raise refusal(key, " and ".join(given), TWICE)
+                texts = (text for name, text in entries if name == key)
+                raise refusal(key, " and ".join(texts), TWICE)
     if isinstance(value, Mapping):
         for key in value:
             if key not in MATERIAL:

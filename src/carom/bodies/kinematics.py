@@ -100,11 +100,13 @@ class Kinematics(ABC):
 
     pair: Pair
     normal_speed: float
+    tangential_speed: float
+    spin: float
+    spin2: float
 
     @property
-    @abstractmethod
     def _before(self) -> Tangential:
-        """The motion before."""
+        return Tangential(self.tangential_speed, self.spin, self.spin2)
 
     @property
     @abstractmethod
@@ -169,7 +171,7 @@ class Kinematics(ABC):
     @property
     def tangential_restitution(self) -> float:
         """Tangential velocity of the centres after over before, v_t'/v_t; NaN if v_t is zero."""
-        return _ratio(self.tangential_speed_out, self._before.tangential_speed)
+        return _ratio(self.tangential_speed_out, self.tangential_speed)
 
     @property
     def contact_restitution(self) -> float:
@@ -182,13 +184,11 @@ class Rebound(Kinematics):
     """An impact of which the motion before, e and the tangential impulse against +x are known."""
 
     normal_speed: Any
-    before: Tangential
+    tangential_speed: Any
+    spin: Any
+    spin2: Any
     restitution: Any
     impulse: Any
-
-    @property
-    def _before(self) -> Tangential:
-        return self.before
 
     @property
     def tangential_impulse(self) -> Any:
@@ -204,21 +204,6 @@ class Rebound(Kinematics):
     def contact_velocity_out(self) -> Any:
         """Tangential velocity of the contact point after, V_x' in m/s."""
         return self.contact_velocity - self.impulse / self.pair.tangential_mass
-
-    @property
-    def tangential_speed(self) -> Any:
-        """Tangential speed of the centre before, v_t in m/s."""
-        return self.before.tangential_speed
-
-    @property
-    def spin(self) -> Any:
-        """Spin of the first body before, in rad/s."""
-        return self.before.spin
-
-    @property
-    def spin2(self) -> Any:
-        """Spin of the second body before, in rad/s."""
-        return self.before.spin2
 
     @property
     def speed(self) -> Any:

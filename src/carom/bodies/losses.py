@@ -8,31 +8,39 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.bodies.pairs import Pair
+from carom.bodies.materials import set_fields
+from carom.bodies.pairs import Pair, Scales
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.stages import viscous_loss
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.io.citations import VISCOUS
 from carom.quantities.arrays import numbers
 from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, refusal
+from carom.quantities.shown import Shown
 from carom.quantities.units import Value, not_negative, positive, within
 
 SMALLEST_RESTITUTION = 1e-3
 STIFFEST = 1000.0  # modulus at once over the relaxed one
-RESTITUTION = partial(within, least=SMALLEST_RESTITUTION, most=1.0)
-MODULUS_RATIO = partial(within, least=1.0, most=STIFFEST)
+READERS: dict[str, Callable[[str, Any], float]] = {
+    "restitution": partial(within, least=SMALLEST_RESTITUTION, most=1.0),
+    "loss_time": not_negative,
+    "yield_velocity": positive,
+    "modulus_ratio": partial(within, least=1.0, most=STIFFEST),
+    "relaxation_time": not_negative,
+}
 LIMIT_PRESSURE = 1.6  # in yield strengths: where a sphere first yields (Johnson 1985, 6.1)
 
 _viscous_loss: Callable[[float], float] = lru_cache(maxsize=4096)(viscous_loss)
 
 
-class LossLaw:
+@dataclass(frozen=True)
+class LossLaw(Shown):
     """A law of losses: which loss it is, what it depends on, and what to cite."""
 
     source: ClassVar[str]  # the key in data/citations.bib
 
-    def loss(self, pair: Pair, normal_speed: Any) -> LossNumbers:
+    def loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return which loss it is, and its dimensionless parameters, numbers or arrays."""
         raise NotImplementedError
 
@@ -42,7 +50,15 @@ class LossLaw:
 
     def describe(self) -> dict[str, Any]:
         """Return the law as plain numbers and words: what was given."""
-        return {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
+        return {each.name: getattr(self, each.name) for each in fields(self)}
+
+    def _keep(self, **values: Any) -> None:
+        """Keep each value as one number that is checked, or an array, checked point by point."""
+        for name, value in values.items():
+            array = numbers(
+                name, value, "must be a number or text with a unit, or an array of them"
+            )
+            set_fields(self, **{name: array if array.ndim else READERS[name](name, value)})
 
 
 @dataclass(frozen=True)
@@ -95,18 +111,15 @@ class KelvinVoigt(LossLaw):
     def __init__(self, restitution: Any = None, loss_time: Value | None = None) -> None:
         if (restitution is None) == (loss_time is None):
             raise InputError("restitution: give either restitution or loss_time")
-        if restitution is not None:
-            e = _one_or_many("restitution", restitution, RESTITUTION)
-            object.__setattr__(self, "restitution", e)
-        if loss_time is not None:
-            time = _one_or_many("loss_time", loss_time, not_negative)
-            object.__setattr__(self, "loss_time", time)
+        self._keep(
+            **{"loss_time": loss_time} if restitution is None else {"restitution": restitution}
+        )
 
-    def loss(self, pair: Pair, normal_speed: Any) -> LossNumbers:
+    def loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss and alpha = tau V_1/d_max."""
         if self.restitution is not None:
             return LossNumbers(Loss.VISCOUS, _alphas(self.restitution))
-        return LossNumbers(Loss.VISCOUS, self.loss_time / pair.scales(normal_speed).time)
+        return LossNumbers(Loss.VISCOUS, self.loss_time / scales.time)
 
     def scale_free(self) -> LossNumbers:
         """Return the kind of loss and alpha; one restitution must have been given."""
@@ -167,14 +180,13 @@ class ElasticPlastic(LossLaw):
     @known_keywords
     def __init__(self, yield_velocity: Value | None = None) -> None:
         if yield_velocity is not None:
-            velocity = _one_or_many("yield_velocity", yield_velocity, positive)
-            object.__setattr__(self, "yield_velocity", velocity)
+            self._keep(yield_velocity=yield_velocity)
 
-    def loss(self, pair: Pair, normal_speed: Any) -> LossNumbers:
+    def loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss and the radius of the contact at yield, (V_y/V_1)^(2/5)."""
         own = self.yield_velocity
         velocity = yield_velocity(pair) if own is None else own
-        return LossNumbers(Loss.PLASTIC, (velocity / normal_speed) ** 0.4)
+        return LossNumbers(Loss.PLASTIC, (velocity / scales.speed) ** 0.4)
 
 
 @dataclass(frozen=True)
@@ -225,17 +237,14 @@ class StandardLinearSolid(LossLaw):
 
     @known_keywords
     def __init__(self, modulus_ratio: Any, relaxation_time: Value) -> None:
-        ratio = _one_or_many("modulus_ratio", modulus_ratio, MODULUS_RATIO)
-        time = _one_or_many("relaxation_time", relaxation_time, not_negative)
-        object.__setattr__(self, "modulus_ratio", ratio)
-        object.__setattr__(self, "relaxation_time", time)
+        self._keep(modulus_ratio=modulus_ratio, relaxation_time=relaxation_time)
 
-    def loss(self, pair: Pair, normal_speed: Any) -> LossNumbers:
+    def loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss, tau V_1/d_max and E_0/E - 1."""
         ratio = self.modulus_ratio
         if np.ndim(ratio):
             ratio = np.where((ratio >= 1.0) & (ratio <= STIFFEST), ratio, np.nan)
-        time = self.relaxation_time / pair.scales(normal_speed).time
+        time = self.relaxation_time / scales.time
         return LossNumbers(Loss.RELAXING, time, ratio - 1.0)
 
 
@@ -262,11 +271,5 @@ def _alphas(restitution: Any) -> Any:
         return _viscous_loss(float(restitution))
     unique, places = np.unique(restitution, return_inverse=True)
     good = (unique >= SMALLEST_RESTITUTION) & (unique <= 1.0)
-    found = [_viscous_loss(float(e)) if ok else np.nan for e, ok in zip(unique, good, strict=True)]
-    return np.array(found)[places].reshape(np.shape(restitution))
-
-
-def _one_or_many(name: str, value: Any, one: Callable[[str, Any], float]) -> Any:
-    """Return one number that is checked, or an array, which is checked point by point elsewhere."""
-    values = numbers(name, value, "must be a number or text with a unit, or an array of them")
-    return values if values.ndim else one(name, value)
+    alphas = [_viscous_loss(float(e)) if ok else np.nan for e, ok in zip(unique, good, strict=True)]
+    return np.array(alphas)[places].reshape(np.shape(restitution))

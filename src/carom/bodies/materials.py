@@ -93,8 +93,8 @@ class Material:
         if not -1.0 < ratio <= 0.5:
             raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
         set_fields(self, young=_stiffness(young), poisson=ratio)
-        given = (density, yield_strength, tensile_strength, fracture_toughness, flaw_size)
-        for key, value in zip(VALUES[2:], given, strict=True):
+        others = (density, yield_strength, tensile_strength, fracture_toughness, flaw_size)
+        for key, value in zip(VALUES[2:], others, strict=True):
             set_fields(self, **{key: None if value is None else positive(key, value)})
         if name is not None:
             checked_type("name", name, str, "must be a text")
@@ -197,8 +197,8 @@ def material(name: str, **values: Value) -> Material:
             stored: dict[str, Any] = {k: entry.get(k) for k in VALUES}
             return Material(**stored | values, name=key)
     entries = _catalogue().items()
-    known = [alias for key, entry in entries for alias in (key, *entry.get("aliases", ()))]
-    near = nearest(wanted, [*known, "rigid"]) or "'carom materials' lists them all"
+    names = [alias for key, entry in entries for alias in (key, *entry.get("aliases", ()))]
+    near = nearest(wanted, [*names, "rigid"]) or "'carom materials' lists them all"
     raise refusal("material", name, f"there is no material of that name; {near}")
 
 

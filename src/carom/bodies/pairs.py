@@ -1,5 +1,6 @@
 """A pair of bodies: its effective constants, and the scales that make an impact dimensionless."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from math import pi
@@ -7,11 +8,12 @@ from operator import and_
 from typing import Any
 
 from carom.bodies.materials import Material
-from carom.bodies.shapes import Cup, HalfSpace, Sphere
+from carom.bodies.shapes import Cup, HalfSpace, Sphere, named
 from carom.quantities.elementwise import quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, checked_type, refusal
+from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
@@ -37,6 +39,7 @@ class ContactScales:
 class Scales(ContactScales):
     """The scales of an impact in SI units."""
 
+    speed: float
     time: float
     energy: float
     tangential_speed: float
@@ -50,21 +53,19 @@ def _holds(value: float) -> bool:
     return (value >= LEAST) & (value <= MOST)
 
 
-def representable(
-    pair: "Pair", normal_speed: float, contact_velocity: float = 0.0, *parts: float
-) -> bool:
+def scales_fit(pair: "Pair", scales: Scales, contact_velocity: float = 0.0, *parts: float) -> bool:
     """Return whether floating point holds what an impact is calculated from, and its products.
 
     `parts` are those of the tangential velocity of the contact point, which may be tiny.
     """
-    scales = vars(pair.scales(normal_speed))
-    of_friction = [pair.friction, *(scales.pop(name) for name in OF_FRICTION)]
-    sizes = [_holds(size) for size in (*pair.constants, normal_speed, *scales.values())]
+    units = dict(vars(scales))
+    of_friction = [pair.friction, *(units.pop(name) for name in OF_FRICTION)]
+    sizes = [_holds(size) for size in (*pair.constants, *units.values())]
     sizes += [_holds(size) | (size == 0.0) for size in of_friction]
     sizes += [abs(part) <= MOST for part in (contact_velocity, *parts)]
     impulse = pair.tangential_mass * contact_velocity
     turning = (impulse * body.radius for body in pair.moving)
-    for tiny in (pair.psi(contact_velocity, normal_speed), contact_velocity, impulse, *turning):
+    for tiny in (pair.psi(contact_velocity, scales.speed), contact_velocity, impulse, *turning):
         sizes.append((abs(tiny) >= TINIEST) | (contact_velocity == 0.0))
     return reduce(and_, sizes)
 
@@ -73,19 +74,17 @@ def checked_scales(
     pair: "Pair", normal_speed: float, contact_velocity: float = 0.0, *parts: float
 ) -> Scales:
     """Return the scales of an impact, or raise InputError if floating point cannot hold them."""
-    try:
-        fits = representable(pair, normal_speed, contact_velocity, *parts)
-    except (OverflowError, ZeroDivisionError):
-        fits = False
-    if not fits:
-        sliding = contact_velocity or any(parts)
-        along = f", {text(contact_velocity, 'm/s')} along the surface" if sliding else ""
-        raise InputError(
-            f"speed: {text(normal_speed, 'm/s')} at a radius of {text(pair.first.radius, 'm')}, a "
-            f"friction of {pair.friction:g}{along} gives numbers that floating point cannot hold; "
-            "check the units"
-        )
-    return pair.scales(normal_speed)
+    with suppress(OverflowError, ZeroDivisionError):
+        scales = pair.scales(normal_speed)
+        if scales_fit(pair, scales, contact_velocity, *parts):
+            return scales
+    sliding = contact_velocity or any(parts)
+    along = f", {text(contact_velocity, 'm/s')} along the surface" if sliding else ""
+    raise InputError(
+        f"speed: {text(normal_speed, 'm/s')} at a radius of {text(pair.first.radius, 'm')}, a "
+        f"friction of {pair.friction:g}{along} gives numbers that floating point cannot hold; "
+        "check the units"
+    )
 
 
 def checked_pair(pair: Any) -> "Pair":
@@ -113,16 +112,15 @@ def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
     return all(abs(a - b) <= SAME * abs(b) for a, b in values)
 
 
-def _representable(pair: "Pair") -> bool:
+def pair_fits(pair: "Pair") -> bool:
     """Return whether floating point holds masses and stiffnesses of two bodies together."""
-    try:
+    with suppress(OverflowError, ZeroDivisionError):
         return all(map(_holds, pair.constants))
-    except (OverflowError, ZeroDivisionError):
-        return False
+    return False
 
 
 @dataclass(frozen=True, init=False)
-class Pair:
+class Pair(Printed):
     """A sphere, the sphere, half-space or cup that it strikes, and the friction between them.
 
         1/E* = sum (1 - nu^2)/E, 1/G* = sum (2 - nu)/(4 G), 1/R* = sum 1/R
@@ -154,8 +152,8 @@ class Pair:
     >>> steel = carom.material("steel")
     >>> ball = carom.Sphere(radius="5 mm", material=steel)
     >>> pair = carom.Pair(ball, carom.HalfSpace(material=steel), friction=0.2)
-    >>> round(pair.chi, 4), round(pair.kappa, 4)
-    (1.4412, 0.8235)
+    >>> print(pair)
+    sphere (steel, R = 5 mm) on half-space (steel): friction 0.2, chi 1.441, kappa 0.8235
     """
 
     first: Sphere
@@ -177,7 +175,7 @@ class Pair:
         object.__setattr__(self, "first", first)
         object.__setattr__(self, "second", second)
         object.__setattr__(self, "friction", not_negative("friction", friction))
-        if not _representable(self):
+        if not pair_fits(self):
             raise InputError(
                 "pair: sizes, densities and stiffnesses of the bodies give numbers that floating "
                 "point cannot hold; check the units"
@@ -264,9 +262,6 @@ class Pair:
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> round(pair.contact_scales(2e-6).radius * 1e6, 6)  # of the contact, in um
         100.0
         """
@@ -291,14 +286,11 @@ class Pair:
         Returns
         -------
         Scales
-            Those of `contact_scales` at the largest penetration d_max, and `time` d_max/V_1 in s,
-            `energy` m_n V_1^2/2 in J, `tangential_speed` mu V_1/kappa in m/s.
+            Those of `contact_scales` at the largest penetration d_max, the `speed` V_1, `time`
+            d_max/V_1 in s, `energy` m_n V_1^2/2 in J, `tangential_speed` mu V_1/kappa in m/s.
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> round(pair.scales(1.0).length * 1e6, 2)  # d_max in um
         11.74
         """
@@ -306,6 +298,7 @@ class Pair:
         length = (15.0 * self.normal_mass * normal_speed**2 / (16.0 * stiffness)) ** 0.4
         return Scales(
             **vars(self.contact_scales(length)),
+            speed=normal_speed,
             time=length / normal_speed,
             energy=0.5 * self.normal_mass * normal_speed**2,
             tangential_speed=self.friction * normal_speed / self.kappa,
@@ -328,9 +321,6 @@ class Pair:
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> round(pair.psi(0.5, 1.0), 4)
         2.0588
         """
@@ -340,3 +330,7 @@ class Pair:
     @property
     def _materials(self) -> tuple[Material, Material]:
         return self.first.material, self.second.material
+
+    def __str__(self) -> str:
+        bodies = f"{named(self.first)} on {named(self.second)}"
+        return f"{bodies}: friction {self.friction:g}, chi {self.chi:.4g}, kappa {self.kappa:.4g}"

@@ -41,28 +41,35 @@ LIKELY = {
 
 def doubts(pair: Pair) -> tuple[Finding, ...]:
     """Return findings on implausible values of a pair of bodies; usually there are none."""
-    given: list[tuple[str, float | None]] = [("friction", pair.friction)]
+    values: list[tuple[str, float | None]] = [("friction", pair.friction)]
     for body in (pair.first, pair.second):
-        given += [(name, getattr(body, name, None)) for name in SIZES]
-        given += [(name, getattr(body.material, name)) for name in VALUES]
-    return tuple(dict.fromkeys(found for name, value in given if (found := _doubt(name, value))))
+        values += [(name, getattr(body, name, None)) for name in SIZES]
+        values += [(name, getattr(body.material, name)) for name in VALUES]
+    return _doubts(values)
 
 
 def doubts_of_case(case: Mapping[str, Any]) -> tuple[str, ...]:
     """Return sentences on implausible values of a case; values that cannot be read are left out."""
-    found = [_doubt(name, value) for name, value in _values(case)]
-    return tuple(dict.fromkeys(each.verdict for each in found if each))
+    return _verdicts(_values(case))
 
 
-def doubts_of_values(given: Iterable[tuple[str, ArrayLike]]) -> tuple[str, ...]:
+def doubts_of_values(arrays: Iterable[tuple[str, ArrayLike]]) -> tuple[str, ...]:
     """Return sentences on implausible numbers in SI units; of each array the ends are checked."""
-    found = []
-    for name, values in given:
+    ends: list[tuple[str, float]] = []
+    for name, values in arrays:
         numbers = np.ravel(values)
         usable = numbers[(numbers > 0.0) & (numbers < np.inf)]
-        ends = (usable.min(), usable.max()) if usable.size else ()
-        found += [_doubt(name, float(end)) for end in ends]
-    return tuple(dict.fromkeys(each.verdict for each in found if each))
+        ends += [(name, float(end)) for end in (usable.min(), usable.max())] if usable.size else []
+    return _verdicts(ends)
+
+
+def _doubts(values: Iterable[tuple[str, float | None]]) -> tuple[Finding, ...]:
+    findings = (_doubt(name, value) for name, value in values)
+    return tuple(dict.fromkeys(finding for finding in findings if finding))
+
+
+def _verdicts(values: Iterable[tuple[str, float]]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(finding.verdict for finding in _doubts(values)))
 
 
 def _values(case: Mapping[str, Any]) -> Iterator[tuple[str, float]]:

@@ -1,12 +1,14 @@
 """Shapes of bodies: a sphere, a half-space, a cup."""
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
 from carom.bodies.materials import VALUES, Material, as_material, set_fields
 from carom.quantities.keywords import known_keywords
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import Value, not_negative, positive
 
@@ -16,6 +18,8 @@ class Sphere:
     """A sphere, solid or hollow, or with a given radius of gyration.
 
         M = (4/3) pi rho (R^3 - R_i^3), K^2 = (2/5) (R^5 - R_i^5)/(R^3 - R_i^3)
+
+    All is given by name, as a bare length could be a radius or a diameter.
 
     Parameters
     ----------
@@ -65,7 +69,7 @@ class Sphere:
             raise refusal("inner_radius", inner_radius, f"must be below the radius, {radius!r}")
         if self.material.density is None:
             raise refusal("density", None, "a sphere that moves needs a material with a density")
-        if not _representable(self):
+        if not sphere_fits(self):
             allowed = "floating point cannot hold its mass or inertia; check the units"
             raise refusal("radius", radius, allowed)
 
@@ -106,14 +110,14 @@ class HalfSpace:
     Examples
     --------
     >>> import carom
-    >>> carom.HalfSpace(material="rigid").material.is_rigid
+    >>> carom.HalfSpace("rigid").material.is_rigid
     True
     """
 
     material: Material
 
     @known_keywords
-    def __init__(self, *, material: Material | str) -> None:
+    def __init__(self, material: Material | str) -> None:
         set_fields(self, material=as_material(material))
 
     @property
@@ -160,13 +164,12 @@ class Cup:
         return -1.0 / self.radius
 
 
-def _representable(ball: Sphere) -> bool:
+def sphere_fits(ball: Sphere) -> bool:
     """Return whether mass and inertia of a sphere are positive numbers."""
-    try:
+    with suppress(OverflowError, ZeroDivisionError):
         inertia = ball.mass * ball.gyration_ratio * ball.radius**2
         return all(0.0 < value < math.inf for value in (ball.mass, ball.gyration_ratio, inertia))
-    except (OverflowError, ZeroDivisionError):
-        return False
+    return False
 
 
 def describe(body: Sphere | HalfSpace | Cup) -> dict[str, Any]:
@@ -183,3 +186,14 @@ def describe(body: Sphere | HalfSpace | Cup) -> dict[str, Any]:
         if getattr(stuff, name) is not None and getattr(stuff, name) != math.inf
     }
     return entries
+
+
+def named(body: Sphere | HalfSpace | Cup) -> str:
+    """Return a body in a few words: its kind, material and sizes."""
+    stuff = body.material
+    words = [stuff.name or f"E = {text(stuff.young, 'Pa')}"]
+    sizes = {"R": "radius", "R_i": "inner_radius", "K": "gyration_radius"}
+    lengths = {symbol: getattr(body, name, None) for symbol, name in sizes.items()}
+    words += [f"{symbol} = {text(size, 'm')}" for symbol, size in lengths.items() if size]
+    kind = "half-space" if isinstance(body, HalfSpace) else type(body).__name__.lower()
+    return f"{kind} ({', '.join(words)})"

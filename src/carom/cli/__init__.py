@@ -33,23 +33,23 @@ def main(arguments: list[str] | None = None) -> int:
         sys.stdout.flush()
         return code
     except KeyboardInterrupt as error:
-        return _told(str(error) or "the command was interrupted", INTERRUPTED)
+        return _say(str(error) or "the command was interrupted", INTERRUPTED)
     except Exception as error:  # the last resort: a line instead of a traceback
         return _failed(error)
 
 
 def _failed(error: Exception) -> int:
     if _heard:  # C code makes other errors of what ends a process
-        return _told("the command was interrupted", 128 + _heard[0])
+        return _say("the command was interrupted", 128 + _heard[0])
     from carom.quantities.refusals import InputError
 
     if isinstance(error, InputError):
-        return _told(str(error), REFUSED)
+        return _say(str(error), REFUSED)
     if isinstance(error, BrokenPipeError):  # whoever has read the output has gone
         return FAILED
     if isinstance(error, OSError) and error.errno in UNWRITTEN:
-        return _told(f"the output cannot be written; {error.strerror}", FAILED)
-    return _told(f"the command failed, {type(error).__name__}: {error}", FAILED)
+        return _say(f"the output cannot be written; {error.strerror}", FAILED)
+    return _say(f"the command failed, {type(error).__name__}: {error}", FAILED)
 
 
 def run() -> None:
@@ -57,7 +57,7 @@ def run() -> None:
     try:
         code = _run()
     except KeyboardInterrupt:
-        code = _told("the command was interrupted", INTERRUPTED)
+        code = _say("the command was interrupted", INTERRUPTED)
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # once more ends it without a word
     if code == FAILED:  # what stdout did not take is dropped
         with suppress(OSError):
@@ -108,7 +108,7 @@ def _open_all() -> None:
     sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
 
 
-def _told(message: str, code: int) -> int:
+def _say(message: str, code: int) -> int:
     with suppress(OSError):  # stderr is full, too
         print(f"carom: {' '.join(message.split())}", file=sys.stderr, flush=True)
     return code

@@ -74,7 +74,7 @@ def tell_sweep(case: "Case") -> None:
         tell(["the table [sweep] is ignored here; carom sweep computes what it describes"])
 
 
-def told_case(path: str, *, losses: bool = False, swept: bool = False) -> "Case":
+def read_case_file(path: str, *, losses: bool = False, swept: bool = False) -> "Case":
     """Return the content of a case file; what is hardly meant, or left out, is told on stderr."""
     from carom.bodies.cases import read_case
     from carom.bodies.plausibility import doubts_of_case

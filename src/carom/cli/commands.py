@@ -71,8 +71,8 @@ def _option_meant(error: typer.TyperException) -> str:
     if not word or context is None:
         return ""
     options = [name for each in context.command.params for name in each.opts]
-    known = {name.strip("-").replace("-", "_"): name for name in options}
-    name = meant(word, known)
+    names = {name.strip("-").replace("-", "_"): name for name in options}
+    name = meant(word, names)
     if name:
-        return f"write {known[name]}{remark(word, name).removeprefix(name)}"
+        return f"write {names[name]}{remark(word, name).removeprefix(name)}"
     return nearest(word.replace("_", "-"), [option.strip("-") for option in options])

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from carom.bodies.losses import KelvinVoigt
 
-ROWS = 17  # of the printed table
-MOST = 100_000  # points
+PRINTED_ROWS = 17
+MOST_POINTS = 100_000
 HEADERS = (".h",)
 COLUMNS = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
 
@@ -75,15 +75,15 @@ def curve_command(
     last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")
     if not first < last:
         raise refusal("to", last, f"must be above --from, {first:g}")
-    psi = np.linspace(first, last, whole("points", points, 2, MOST))
+    psi = np.linspace(first, last, whole("points", points, 2, MOST_POINTS))
     dataset = carom.curve(values, psi, losses=_losses(restitution))
     if output is not None:
         stored(carom.save(dataset, output))
     if plot is not None:
         stored(carom.plots.save_figure(carom.plots.plot_curve(dataset), plot))
     typer.echo(json.dumps(_record(dataset), indent=2) if as_json else _table(dataset))
-    found = dataset["contact_restitution"]
-    require_some(int(found.count()), found.size)
+    restitutions = dataset["contact_restitution"]
+    require_some(int(restitutions.count()), restitutions.size)
 
 
 def _losses(restitution: str | None) -> "KelvinVoigt | None":
@@ -102,7 +102,7 @@ def _export(
 
     if language != "c":
         raise refusal("export", language, "must be c, a header for C and C++")
-    unused = next((name for name, given in others.items() if given), None)
+    unused = next((name for name, value in others.items() if value), None)
     if unused is not None:
         raise InputError(f"{unused}: has no effect with --export; leave one of them out")
     target = None if output is None else checked_output(output, HEADERS)
@@ -131,7 +131,7 @@ def _borders(part: "xr.Dataset") -> list[tuple[str, float]]:
 
 def _table(dataset: "xr.Dataset") -> str:
     lines = []
-    step = max(1, (dataset.sizes["psi_in"] - 1) // (ROWS - 1))
+    step = max(1, (dataset.sizes["psi_in"] - 1) // (PRINTED_ROWS - 1))
     for index, chi in enumerate(dataset["chi"].values):
         part = dataset.isel(chi=index)
         lines.append(f"chi = {chi:g}")

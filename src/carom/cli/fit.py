@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import typer
 
 import carom
-from carom.cli.cases import check_outputs, named_values, store, stored, told_case
+from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
 from carom.cli.options import described, file_argument, file_option, whole_option
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import whole
@@ -97,7 +97,7 @@ def fit_command(
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
     outputs = {"plot": plot, "output": output, "posterior": posterior}
     check_outputs(outputs, data=source, case=case)
-    found = carom.fit(
+    fit = carom.fit(
         source,
         pair=_pair(case),
         vary=None if vary is None else [name.strip() for name in vary.split(",")],
@@ -106,15 +106,15 @@ def fit_command(
         confidence=confidence,
         columns=named_values("column", column, "omega=spin_out"),
     )
-    advised = None if count is None else found.advice(count, about)
-    store(found, output, plot)
+    advised = None if count is None else fit.advice(count, about)
+    store(fit, output, plot)
     if posterior is not None:
-        stored(_sampled(found, posterior, *sampling))
+        stored(_sampled(fit, posterior, *sampling))
     if as_json:
         extra = {} if advised is None else {"advice": advised.to_dict()}
-        typer.echo(json.dumps(found.to_dict() | extra, indent=2))
+        typer.echo(json.dumps(fit.to_dict() | extra, indent=2))
     else:
-        typer.echo("\n".join(str(part) for part in (found, advised) if part is not None))
+        typer.echo("\n".join(str(part) for part in (fit, advised) if part is not None))
 
 
 def _tell_template(source: str | None, as_json: bool) -> None:
@@ -127,8 +127,8 @@ def _tell_template(source: str | None, as_json: bool) -> None:
 
 def _source(data: str | None, dataset: str | None) -> str | Path:
     if (data is None) == (dataset is None):
-        known = ", ".join(carom.datasets.names())
-        raise InputError(f"data: give a CSV file, or --dataset with one of {known}")
+        names = ", ".join(carom.datasets.names())
+        raise InputError(f"data: give a CSV file, or --dataset with one of {names}")
     return data if data is not None else carom.datasets.path(str(dataset))
 
 
@@ -139,7 +139,7 @@ def _pair(case: str | None) -> "Pair | None":
 
     if case is None:
         return None
-    content = told_case(case, losses=True)
+    content = read_case_file(case, losses=True)
     for name in (*LOSSES, RATIO):
         if name in content:
             hint = "a fit finds the restitution; if you know it, leave it out of the case and give"
@@ -147,10 +147,10 @@ def _pair(case: str | None) -> "Pair | None":
     return pair_of({"friction": START, **content})
 
 
-def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:
+def _sampled(fit: "Fit", target: str, steps: int, seed: int) -> Path:
     from carom.io.files import FIGURES
 
-    samples = found.posterior(steps, seed)
+    samples = fit.posterior(steps, seed)
     if not samples.attrs["converged"]:
         time = samples.attrs["autocorrelation_time"]
         typer.echo(

@@ -17,7 +17,6 @@ from carom.quantities.units import whole
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.impacts.boundary_elements import BoundaryElements
     from carom.impacts.result import ImpactResult
 
 
@@ -29,8 +28,8 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 
 Text = str | None
 METHODS = ("exact", "halfspace")
-FRAMES = 60  # of an animation
-PLACES = {  # of what options give, in a case file, where they have other names there
+ANIMATION_FRAMES = 60  # of an animation
+CASE_KEYS = {  # of what options give, in a case file, where they have other names there
     "radius": "first.radius",
     "material": "first.material",
     "gyration_radius": "first.gyration_radius",
@@ -151,8 +150,8 @@ def impact_command(
     """
     from carom.bodies.cases import LOSSES, MOTION, RATIO, losses_of, motion_of, pair_of, read_case
 
-    named = (*PLACES, "friction", *MOTION, *LOSSES, RATIO)
-    flags = {PLACES.get(name, name): context.params[name] for name in named}
+    named = (*CASE_KEYS, "friction", *MOTION, *LOSSES, RATIO)
+    flags = {CASE_KEYS.get(name, name): context.params[name] for name in named}
     content = merged(read_case(case, losses=True) if case is not None else {}, flags)
     tell_sweep(content)
     files = outputs(content)
@@ -160,12 +159,12 @@ def impact_command(
     check_outputs({"plot": files.plot, "output": files.data, "spectrum": files.spectrum})
     if files.animation is not None:
         carom.plots.checked_animation(files.animation)
-    solver = _method(method, elements, steps)
+    solver: Any = _method(method, elements, steps)
     motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
     hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
-    found = _peaks(hit) if peaks else None
+    largest = _peaks(hit) if peaks else None
     paths = list(_store(hit, files))
-    typer.echo(_told(hit, found, as_json))
+    typer.echo(_shown(hit, largest, as_json))
     for path in paths:
         stored(path)
 
@@ -178,7 +177,7 @@ def _peaks(hit: "ImpactResult") -> "xr.Dataset":
     return hit.peaks()
 
 
-def _told(hit: "ImpactResult", peaks: "xr.Dataset | None", as_json: bool) -> str:
+def _shown(hit: "ImpactResult", peaks: "xr.Dataset | None", as_json: bool) -> str:
     from carom.impacts.peaks import peaks_record, peaks_text
 
     if as_json:
@@ -187,15 +186,16 @@ def _told(hit: "ImpactResult", peaks: "xr.Dataset | None", as_json: bool) -> str
     return str(hit) if peaks is None else f"{hit}\n{peaks_text(peaks)}"
 
 
-def _method(name: str, elements: str | None, steps: str | None) -> "str | BoundaryElements":
+def _method(name: str, elements: Text, steps: Text) -> Any:
     one_of("method", name, METHODS)
-    asked = {"elements": elements, "steps": steps}
-    given = {key: value for key, value in asked.items() if value is not None}
-    if not given:
+    texts = {"elements": elements, "steps": steps}
+    if elements is None and steps is None:
         return name
     from carom.impacts.boundary_elements import RANGES
 
-    counts = {key: whole(key, value, *RANGES[key]) for key, value in given.items()}
+    counts = {
+        key: whole(key, text, *RANGES[key]) for key, text in texts.items() if text is not None
+    }
     if name != "halfspace":
         key, value = next(iter(counts.items()))
         raise refusal(key, value, "it is an option of boundary elements; add --method halfspace")
@@ -211,5 +211,5 @@ def _store(hit: "ImpactResult", files: Output) -> Iterator[Path]:
         hit.plot(files.plot)
         yield Path(files.plot)
     if files.animation is not None:
-        hit.animate(files.animation, FRAMES)
+        hit.animate(files.animation, ANIMATION_FRAMES)
         yield Path(files.animation)

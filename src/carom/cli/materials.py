@@ -35,8 +35,10 @@ def materials_command(name: str | None = None, pairs: bool = False, as_json: boo
     if pairs and name is not None:
         raise refusal("--pairs", name, "it lists all pairs; leave the name out")
     if pairs:
-        found = _pairs()
-        typer.echo(json.dumps(found, indent=2, ensure_ascii=False) if as_json else _told(found))
+        listed = _pairs()
+        typer.echo(
+            json.dumps(listed, indent=2, ensure_ascii=False) if as_json else _table_of_pairs(listed)
+        )
         return
     names = list(carom.materials()) if name is None else [str(carom.material(name).name)]
     records = {key: _record(key) for key in names}
@@ -50,16 +52,16 @@ def materials_command(name: str | None = None, pairs: bool = False, as_json: boo
 
 def _pairs() -> list[dict[str, Any]]:
     """Return the published pairs as plain numbers and texts; what is not told is None."""
-    found = carom.datasets.parameters()
-    columns = {str(name): found[name].values.tolist() for name in found.variables}
+    dataset = carom.datasets.parameters()
+    columns = {str(name): dataset[name].values.tolist() for name in dataset.variables}
     rows = zip(*columns.values(), strict=True)
     return [
-        {name: or_none(cell) if isinstance(cell, float) else cell for name, cell in known.items()}
-        for known in (dict(zip(columns, row, strict=True)) for row in rows)
+        {name: or_none(cell) if isinstance(cell, float) else cell for name, cell in pair.items()}
+        for pair in (dict(zip(columns, row, strict=True)) for row in rows)
     ]
 
 
-def _told(pairs: list[dict[str, Any]]) -> str:
+def _table_of_pairs(pairs: list[dict[str, Any]]) -> str:
     head = f"{'sphere':19s}{'on':19s}{'2R (mm)':>8s} {'e':>14s} {'mu':>14s} {'beta_0':>14s}"
     references = list(dict.fromkeys(each["reference"] for each in pairs))
     lines = []

@@ -55,10 +55,10 @@ def lammps_command(
     from carom.adapters import lammps as adapter
     from carom.io.progress import advancing
 
-    found = adapter.from_sources(tuple(include), sizes) if include else adapter.installed()
-    target = adapter.folder(found.version) if folder is None else folder
+    program = adapter.from_sources(tuple(include), sizes) if include else adapter.installed()
+    target = adapter.folder(program.version) if folder is None else folder
     with advancing("compiling the plugin", None):
-        built = adapter.build(found, target)
+        built = adapter.build(program, target)
     flags = " ".join(word for word in built.command if word.startswith(("-O", "-m", "-f", "-D")))
     lines = [
         f"Carom has built the plugin for LAMMPS {built.version}: {built.path}",

@@ -14,10 +14,10 @@ from carom.cli.cases import (
     check_outputs,
     named_values,
     outputs,
+    read_case_file,
     require_some,
     stored,
     tell,
-    told_case,
 )
 from carom.cli.options import described, file_argument, whole_option
 from carom.quantities.glossary import GLOSSARY
@@ -74,7 +74,7 @@ def sweep_command(
     from carom.sweeps.records import summary
     from carom.sweeps.tables import plan
 
-    content = told_case(case, losses=True, swept=True)
+    content = read_case_file(case, losses=True, swept=True)
     file = _file(content) if output is None else output
     check_outputs({"output": file})
     design, chosen = plan(content, Path(case), named_values("column", column, "omega=spin"))

@@ -61,15 +61,15 @@ class CollisionInputs(TypedDict, total=False):
 
 @overload
 def collide(
-    pair: Pair, *, judge: Literal[False] = False, **given: Unpack[CollisionInputs]
+    pair: Pair, *, judge: Literal[False] = False, **inputs: Unpack[CollisionInputs]
 ) -> Collisions: ...
 @overload
 def collide(
-    pair: Pair, *, judge: Literal[True], **given: Unpack[CollisionInputs]
+    pair: Pair, *, judge: Literal[True], **inputs: Unpack[CollisionInputs]
 ) -> JudgedCollisions: ...
 @overload
 def collide(
-    pair: Pair, *, judge: bool, **given: Unpack[CollisionInputs]
+    pair: Pair, *, judge: bool, **inputs: Unpack[CollisionInputs]
 ) -> Collisions | JudgedCollisions: ...
 @known_keywords
 def collide(
@@ -144,30 +144,35 @@ def collide(
     checked_pair(pair)
     check_second_spin(pair, spin2, spins=spin2 is not None)
     threads, inplace = threads_or_none(threads), flag("inplace", inplace)
-    rule = _rule(law, pair)
-    given = (velocity1, spin1, velocity2, spin2, normal)
-    along_the_same(**dict(zip(records.NAMES, given, strict=True)))
-    met = _incidence(pair, given, law) if flag("judge", judge) else None
-    if any(map(is_foreign, given)):
-        if inplace:
-            allowed = "only NumPy arrays can be written in place; leave it out"
-            raise refusal("inplace", inplace, allowed)
-        found = collide_arrays(given, records.inertia_of(pair), rule)
+    rule, inertia = _rule(law, pair), records.inertia_of(pair)
+    inputs = (velocity1, spin1, velocity2, spin2, normal)
+    along_the_same(**dict(zip(records.NAMES, inputs, strict=True)))
+    before = _incidence(pair, inputs, law) if flag("judge", judge) else None
+    if not any(map(is_foreign, inputs)):
+        after = _collide_numpy(inputs, inertia, rule, inplace, threads)
+    elif inplace:
+        raise refusal("inplace", inplace, "only NumPy arrays can be written in place; leave it out")
     else:
-        found = _collide_numpy(given, records.inertia_of(pair), rule, inplace, threads)
-    records.warn_of_unusable(found.status)
-    return found if met is None else records.judged(pair, met, found)
+        after = collide_arrays(inputs, inertia, rule)
+    records.warn_of_unusable(after.status)
+    return after if before is None else records.judged(pair, before, after)
 
 
-def _incidence(pair: Pair, given: tuple[Any, ...], law: CollisionLaw | None) -> Incidence:
+def _incidence(pair: Pair, inputs: tuple[Any, ...], law: CollisionLaw | None) -> Incidence:
     """Return how bodies meet, before they may be written over."""
     if law is not None:
         raise refusal("law", law, "judge=True judges the exact law; leave law or judge out")
-    if any(map(is_foreign, given)):
+    if any(map(is_foreign, inputs)):
         raise refusal("judge", True, "it needs NumPy arrays; convert yours, or leave judge out")
-    arrays = [vectors(name, values) for name, values in zip(records.NAMES, given, strict=True)]
+    return records.incidence(pair, _vectors(inputs, np.dtype(float)))
+
+
+def _vectors(inputs: tuple[Any, ...], kind: np.dtype[Any]) -> list[NDArray[np.floating]]:
+    """Return vectors of one shape and type, zeros for those left out; copies only where needed."""
+    arrays = [vectors(name, values) for name, values in zip(records.NAMES, inputs, strict=True)]
     shape = records.common_shape(arrays)
-    return records.incidence(pair, tuple(_whole(each, shape, np.dtype(float)) for each in arrays))
+    whole = (np.zeros(()) if each is None else each for each in arrays)
+    return [_whole(each, shape, kind) for each in whole]
 
 
 def _rule(law: CollisionLaw | None, pair: Pair) -> Rule:
@@ -178,29 +183,26 @@ def _rule(law: CollisionLaw | None, pair: Pair) -> Rule:
 
 
 def _collide_numpy(
-    given: tuple[Any, ...], inertia: Inertia, rule: Rule, inplace: bool, threads: int | None
+    inputs: tuple[Any, ...], inertia: Inertia, rule: Rule, inplace: bool, threads: int | None
 ) -> Collisions:
-    arrays = [vectors(name, values) for name, values in zip(records.NAMES, given, strict=True)]
-    shape = records.common_shape(arrays)
-    kind = _kind(given)
-    *before, axis = (_whole(each, shape, kind) for each in arrays)
+    *before, axis = whole = _vectors(inputs, _kind(inputs))
     moving = 4 if inertia.factors[2] > 0.0 else 2
     if inplace:
-        _check_writable(given, [*before, axis], moving)
+        _check_writable(inputs, whole, moving)
         after = [*before[:moving], *map(_writable, before[moving:])]
     else:
         after = [np.empty_like(each) for each in before[:moving]]
         after += [each.copy() for each in before[moving:]]
-    status = np.empty(shape[:-1], dtype=np.int8)
+    status = np.empty(axis.shape[:-1], dtype=np.int8)
     old, normal = Motions(*(_read_only(each) for each in before)), _read_only(axis)
     new = Motions(*(each.reshape(-1) for each in after))
     collide_all(old, normal, inertia, rule, new, status.reshape(-1), threads)
     return Collisions._make((*after, status))
 
 
-def _kind(given: tuple[Any, ...]) -> np.dtype[Any]:
+def _kind(inputs: tuple[Any, ...]) -> np.dtype[Any]:
     """Return the type of the arrays that were given; lists take it."""
-    types = [each.dtype for each in given if isinstance(each, np.ndarray)]
+    types = [each.dtype for each in inputs if isinstance(each, np.ndarray)]
     single = bool(types) and all(each == np.float32 for each in types)
     return np.dtype(np.float32 if single else np.float64)
 
@@ -218,19 +220,17 @@ def _writable(array: NDArray[np.floating]) -> NDArray[np.floating]:
 
 
 def _whole(
-    array: NDArray[np.floating] | None, shape: tuple[int, ...], kind: np.dtype[Any]
+    array: NDArray[np.floating], shape: tuple[int, ...], kind: np.dtype[Any]
 ) -> NDArray[np.floating]:
-    if array is None:
-        return np.zeros(shape, dtype=kind)
     whole = array if array.shape == shape else np.broadcast_to(array, shape)
     return np.ascontiguousarray(whole, dtype=kind)
 
 
 def _check_writable(
-    given: tuple[Any, ...], used: Sequence[NDArray[np.floating]], moving: int
+    inputs: tuple[Any, ...], used: Sequence[NDArray[np.floating]], moving: int
 ) -> None:
     """Refuse to write into what had to be copied to be used, or lies in the same memory."""
-    for name, values, whole in zip(records.NAMES[:moving], given, used, strict=False):
+    for name, values, whole in zip(records.NAMES[:moving], inputs, used, strict=False):
         if values is None:
             continue
         kind = whole.shape, whole.dtype

@@ -8,7 +8,7 @@ from typing import Annotated, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.collisions.records import SKEW, CollisionStatus, Inertia
+from carom.collisions.records import LARGEST_SKEW, CollisionStatus, Inertia
 from carom.dimensionless.numerics.arrays import ArrayType, Codes, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import available_cores
@@ -88,7 +88,7 @@ def contact_velocity(
         root = root if held else root / ENLARGED
         scratch.slope[i] = min(scale * root / closing, LARGEST)
         code = 0 if closing > 0.0 else CollisionStatus.SEPARATING.value
-        code = code if abs(skew) <= SKEW else CollisionStatus.NORMAL_NOT_UNIT.value
+        code = code if abs(skew) <= LARGEST_SKEW else CollisionStatus.NORMAL_NOT_UNIT.value
         finite = abs(closing) + square + abs(skew) < np.inf
         status[i] = code if finite else CollisionStatus.NOT_FINITE.value
 

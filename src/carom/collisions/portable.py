@@ -10,6 +10,7 @@ import array_api_compat
 import numpy as np
 
 from carom.collisions import records
+from carom.collisions.records import CollisionStatus
 from carom.laws.portable import constants, floating, is_foreign, part_lost
 from carom.laws.rules import Rule
 from carom.quantities.refusals import InputError, refusal
@@ -26,13 +27,13 @@ class Approach(NamedTuple):
 
 
 def collide_arrays(
-    given: tuple[Any, ...], inertia: records.Inertia, rule: Rule
+    inputs: tuple[Any, ...], inertia: records.Inertia, rule: Rule
 ) -> records.Collisions:
     """Return velocities and spins after collisions, as `compiled.collide_all` does.
 
     Arrays must be of one library; lists and NumPy arrays among them take its type and device.
     """
-    arrays, xp = _alike(given)
+    arrays, xp = _alike(inputs)
     shape = records.common_shape(arrays)
     kind = next(each for each in arrays if each is not None)
     whole = [
@@ -40,7 +41,7 @@ def collide_arrays(
         for each in arrays
     ]
     status = _status(_approach(whole, inertia, xp), xp)
-    hit = xp.expand_dims(status == records.CollisionStatus.COLLIDED.value, axis=-1)
+    hit = xp.expand_dims(status == CollisionStatus.COLLIDED.value, axis=-1)
     # rows that are left alone must have finite gradients, too: those of a head-on collision
     along = constants([0.0, 0.0, 1.0], kind, xp)
     harmless = (along, 0.0 * along, 0.0 * along, 0.0 * along, along)
@@ -55,9 +56,9 @@ def collide_arrays(
     return records.Collisions(velocity1, spin1, velocity2, spin2, status)
 
 
-def _alike(given: tuple[Any, ...]) -> tuple[list[Any], Any]:
-    """Return what is given as arrays of one library and type, and that library."""
-    named = dict(zip(records.NAMES, given, strict=True))
+def _alike(inputs: tuple[Any, ...]) -> tuple[list[Any], Any]:
+    """Return arrays of one library and type, and that library."""
+    named = dict(zip(records.NAMES, inputs, strict=True))
     foreign = {name: each for name, each in named.items() if is_foreign(each)}
     try:
         xp = array_api_compat.array_namespace(*foreign.values())
@@ -68,7 +69,7 @@ def _alike(given: tuple[Any, ...]) -> tuple[list[Any], Any]:
         ) from None
     for name, array in foreign.items():
         if tuple(array.shape[-1:]) != (3,):
-            raise refusal(name, array, records.ALLOWED)
+            raise refusal(name, array, records.VECTORS)
         foreign[name] = floating(name, array)[0]
     kind = reduce(xp.result_type, (each.dtype for each in foreign.values()))
     alike = {name: xp.astype(each, kind, copy=False) for name, each in foreign.items()}
@@ -94,17 +95,15 @@ def _approach(motions: list[Any], inertia: records.Inertia, xp: Any) -> Approach
 def _status(approach: Approach, xp: Any) -> Any:
     skew, closing = xp.abs(approach.skew), approach.closing
 
-    def code(status: records.CollisionStatus) -> Any:
+    def code(status: CollisionStatus) -> Any:
         return xp.full_like(closing, status.value, dtype=xp.int8)
 
     status = xp.where(
-        closing > 0.0,
-        code(records.CollisionStatus.COLLIDED),
-        code(records.CollisionStatus.SEPARATING),
+        closing > 0.0, code(CollisionStatus.COLLIDED), code(CollisionStatus.SEPARATING)
     )
-    status = xp.where(skew <= records.SKEW, status, code(records.CollisionStatus.NORMAL_NOT_UNIT))
+    status = xp.where(skew <= records.LARGEST_SKEW, status, code(CollisionStatus.NORMAL_NOT_UNIT))
     finite = xp.isfinite(xp.abs(closing) + approach.square + skew)
-    return xp.where(finite, status, code(records.CollisionStatus.NOT_FINITE))[..., 0]
+    return xp.where(finite, status, code(CollisionStatus.NOT_FINITE))[..., 0]
 
 
 def _impulses(approach: Approach, inertia: records.Inertia, rule: Rule, xp: Any) -> tuple[Any, Any]:

@@ -1,9 +1,10 @@
 """What collisions take, read from users, and give: motions, a status, bounds of their error."""
 
 import warnings
+from collections import namedtuple
 from collections.abc import Sequence
 from math import prod
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import array_api_compat
 import numpy as np
@@ -18,14 +19,12 @@ from carom.quantities.arrays import numbers
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.statuses import WordedStatus
 
-Tuple = TypeVar("Tuple", bound=tuple[Any, ...])
-
-NO_VALUES = (TypeError, RuntimeError)  # what jax and torch raise while they trace or map
-SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and made up for
+TRACED = (TypeError, RuntimeError)  # what jax and torch raise of arrays without values
+LARGEST_SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and made up for
 UNITS = {"velocity1": "m/s", "spin1": "rad/s", "velocity2": "m/s", "spin2": "rad/s", "normal": "1"}
 NAMES = tuple(UNITS)
-MOST = 200_000_000  # pairs at once
-ALLOWED = "must be an array of real numbers of shape (..., 3)"
+MOST_PAIRS = 200_000_000  # at once
+VECTORS = "must be an array of real numbers of shape (..., 3)"
 
 
 class CollisionStatus(WordedStatus):
@@ -50,23 +49,23 @@ ADVICE = {
 }
 
 
-def by_numbers(kind: type[Tuple]) -> type[Tuple]:
-    """Let tuples of arrays be equal where all numbers are, and have no hash: arrays change."""
+class EqualByNumbers(tuple[Any, ...]):
+    """Arrays that are equal where all numbers are, and have no hash, as they change."""
 
-    def equal(self: Any, other: object) -> bool:
-        return isinstance(other, kind) and all(map(same_numbers, self, other))
+    __slots__ = ()
+    __hash__ = None  # type: ignore[assignment]
 
-    def unhashable(self: Any) -> int:
-        raise TypeError(f"unhashable type: {type(self).__name__!r}")
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, type(self)) and all(map(same_numbers, self, other))
 
-    own = {"__eq__": equal, "__ne__": lambda a, b: not equal(a, b), "__hash__": unhashable}
-    for name, method in own.items():
-        setattr(kind, name, method)
-    return kind
+    def __ne__(self, other: object) -> bool:
+        return not self == other
 
 
-@by_numbers
-class Collisions(NamedTuple):
+After = namedtuple("After", "velocity1 spin1 velocity2 spin2 status")
+
+
+class Collisions(EqualByNumbers, After):
     """Velocities and spins after collisions, as arrays like those before; SI units.
 
     `status`, one for each pair, holds values of `CollisionStatus`: 0 where the bodies collided.
@@ -83,11 +82,7 @@ class Collisions(NamedTuple):
     (array([[1., 0., 2.]]), array([0], dtype=int8))
     """
 
-    velocity1: Any
-    spin1: Any
-    velocity2: Any
-    spin2: Any
-    status: Any
+    __slots__ = ()
 
     def __repr__(self) -> str:
         """Return in a few lines how many pairs there are, and what became of them."""
@@ -108,8 +103,8 @@ def status_counts(status: Any) -> dict[CollisionStatus, int] | None:
     try:
         xp = array_api_compat.array_namespace(status)
         where = {each: xp.astype(status == each.value, xp.int32) for each in CollisionStatus}
-        counts = {each: int(xp.sum(found)) for each, found in where.items()}
-    except NO_VALUES:
+        counts = {each: int(xp.sum(places)) for each, places in where.items()}
+    except TRACED:
         return None
     return {each: count for each, count in counts.items() if count}
 
@@ -120,20 +115,20 @@ def warn_of_unusable(status: Any) -> None:
         xp = array_api_compat.array_namespace(status)
         if not prod(status.shape) or int(xp.max(status)) < min(ADVICE):
             return
-    except NO_VALUES:
+    except TRACED:
         return
     counts = status_counts(status) or {}
-    found = [f"{counts[each]:,} {words}" for each, words in ADVICE.items() if each in counts]
+    faults = [f"{counts[each]:,} {words}" for each, words in ADVICE.items() if each in counts]
     warnings.warn(
-        f"of {_counted(prod(status.shape), 'pair')} these were left alone: {'; '.join(found)}; "
+        f"of {_counted(prod(status.shape), 'pair')} these were left alone: {'; '.join(faults)}; "
         "`status` says which",
         UserWarning,
         stacklevel=4,
     )
 
 
-def _title(found: Collisions) -> str:
-    shape, kind = tuple(found.velocity1.shape), found.velocity1.dtype
+def _title(collisions: Collisions) -> str:
+    shape, kind = tuple(collisions.velocity1.shape), collisions.velocity1.dtype
     number = _counted(prod(shape[:-1]), "collision")
     return f"{number}; velocities and spins of shape {shape}, {kind}"
 
@@ -188,19 +183,16 @@ def vectors(name: str, values: ArrayLike | None) -> NDArray[np.floating] | None:
     if values is None:
         return None
     plain = is_floats(values)  # may be written in place: no copy
-    array = np.asarray(values) if plain else numbers(name, values, ALLOWED, UNITS[name])
+    array = np.asarray(values) if plain else numbers(name, values, VECTORS, UNITS[name])
     if array.shape[-1:] != (3,):
-        raise refusal(name, values, ALLOWED)
+        raise refusal(name, values, VECTORS)
     return array
 
 
 def common_shape(arrays: Sequence[Any]) -> tuple[int, ...]:
     """Return the shape to which the arrays broadcast, None left out, or raise InputError."""
-    shapes = {
-        name: tuple(each.shape)
-        for name, each in zip(NAMES, arrays, strict=True)
-        if each is not None
-    }
+    given = ((name, each) for name, each in zip(NAMES, arrays, strict=True) if each is not None)
+    shapes = {name: tuple(each.shape) for name, each in given}
     for name in ("velocity1", "normal"):
         if name not in shapes:
             raise InputError(f"{name}: missing; give an array of shape (..., 3)")
@@ -209,7 +201,7 @@ def common_shape(arrays: Sequence[Any]) -> tuple[int, ...]:
     except ValueError:
         words = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise InputError(f"shapes: {words} do not broadcast; give (N, 3) or (3,) each") from None
-    if prod(shape) > 3 * MOST:
+    if prod(shape) > 3 * MOST_PAIRS:
         raise InputError(f"shapes: {prod(shape) // 3:,} pairs are too many at once; split them")
     return shape
 
@@ -229,8 +221,10 @@ class Judgement(WordedStatus):
     NOT_COLLIDED = 2, "not judged: the bodies did not collide"
 
 
-@by_numbers
-class JudgedCollisions(NamedTuple):
+Judged = namedtuple("Judged", "velocity1 spin1 velocity2 spin2 status psi_out_error judgement")
+
+
+class JudgedCollisions(EqualByNumbers, Judged):
     """What `collide` returns with `judge=True`: `Collisions`, and bounds of the error in psi_2.
 
     psi_out_error, shape (...), bounds the error in psi_2 from spin about the normal, slip across
@@ -243,21 +237,15 @@ class JudgedCollisions(NamedTuple):
     >>> import carom
     >>> ball = carom.Sphere(radius="28.6 mm", material="steel")
     >>> pair = carom.Pair(ball, ball, friction=0.2)
-    >>> found = carom.collide(
+    >>> after = carom.collide(
     ...     pair, velocity1=[1.0, 1.0, 0.0], normal=[1.0, 0.0, 0.0], spin1=[20.0, 0.0, 0.0],
     ...     judge=True,
     ... )
-    >>> float(found.psi_out_error) < 0.5, int(found.judgement)
+    >>> float(after.psi_out_error) < 0.5, int(after.judgement)
     (True, 0)
     """
 
-    velocity1: Any
-    spin1: Any
-    velocity2: Any
-    spin2: Any
-    status: Any
-    psi_out_error: NDArray[np.float64]
-    judgement: NDArray[np.int8]
+    __slots__ = ()
 
     def __repr__(self) -> str:
         """Return in a few lines how many pairs there are, what became of them, what is known."""
@@ -281,7 +269,7 @@ class Incidence(NamedTuple):
     reach: NDArray[np.float64]
 
 
-def incidence(pair: Pair, before: tuple[NDArray[np.floating], ...]) -> Incidence:
+def incidence(pair: Pair, before: Sequence[NDArray[np.floating]]) -> Incidence:
     """Return how bodies meet: velocity1, spin1, velocity2, spin2 and normals, shape (..., 3)."""
     velocity1, spin1, velocity2, spin2, normal = (each.astype(float) for each in before)
     other = pair.second.radius if isinstance(pair.second, Sphere) else 0.0
@@ -297,20 +285,20 @@ def incidence(pair: Pair, before: tuple[NDArray[np.floating], ...]) -> Incidence
         return Incidence(psi, turning * radius / unit, radius / pair.effective_radius)
 
 
-def judged(pair: Pair, met: Incidence, found: Collisions) -> JudgedCollisions:
+def judged(pair: Pair, before: Incidence, after: Collisions) -> JudgedCollisions:
     """Return collisions with how far their psi_2 may be off."""
-    collided = found.status == CollisionStatus.COLLIDED
+    collided = after.status == CollisionStatus.COLLIDED
     numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
-    outside = (met.spin > neglected.SPIN.most) | (met.reach > neglected.SMALL_CONTACT)
+    outside = (before.spin > neglected.SPIN.most) | (before.reach > neglected.SMALL_CONTACT)
     outside |= bool(neglected.not_studied(*numbers))
-    held = np.isfinite(met.psi)  # by friction: without it nothing is left out
+    held = np.isfinite(before.psi)  # by friction: without it nothing is left out
     kinds, values = [~collided, outside & held], [Judgement.NOT_COLLIDED, Judgement.NOT_STUDIED]
     judgement = np.select(kinds, values, Judgement.BOUNDED).astype(np.int8)
     error = np.zeros(judgement.shape)
     if pair.friction > 0.0:
         with np.errstate(all="ignore"):
-            bound = neglected.rebound_error(*numbers, met.psi)
-            bound = bound + neglected.spin_error(pair.chi, met.psi, met.spin)
+            bound = neglected.rebound_error(*numbers, before.psi)
+            bound = bound + neglected.spin_error(pair.chi, before.psi, before.spin)
         error = np.where(held, bound, error)
     error = np.where(judgement == Judgement.BOUNDED, error, np.nan)
-    return JudgedCollisions(*found, error, judgement)
+    return JudgedCollisions._make((*after, error, judgement))

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.pairs import ContactScales, Pair
+from carom.bodies.pairs import ContactScales, Pair, Scales
 from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import now_at
 from carom.quantities.arrays import Array
 
-ROUNDING = 8.0 * np.finfo(np.float64).eps  # of a time that has passed through seconds
+TIME_ROUNDING = 8.0 * np.finfo(np.float64).eps  # of a time that has passed through seconds
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,14 +65,13 @@ class Contact:
 
 def contact_in_impact(
     pair: Pair,
-    normal_speed: float,
+    scales: Scales,
     drift: float,
     solution: Solution | LossySolution,
     time: float,
     attributes: Mapping[str, Any],
 ) -> Contact:
     """Return the contact at a time in s of an impact; `drift` is V_x where no friction acts."""
-    scales = pair.scales(normal_speed)
     instant = _at_change(time / scales.time, solution)
     phase = solution.phase_at(instant)
     kind, sign = ("gross slip", int(np.sign(drift))) if drift else (phase.kind, phase.sign)
@@ -118,6 +117,6 @@ def contact_in_impact(
 def _at_change(instant: float, solution: Solution | LossySolution) -> float:
     """Return the instant, or that of a change of phase that differs only by rounding."""
     for change in (*(phase.start for phase in solution.phases), solution.duration):
-        if abs(instant - change) <= ROUNDING * change:
+        if abs(instant - change) <= TIME_ROUNDING * change:
             return change
     return instant

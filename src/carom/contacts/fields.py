@@ -8,8 +8,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.contacts.contact import Contact
 from carom.dimensionless.fields import surface
-from carom.dimensionless.fields.extremes import Largest, largest, principal_stresses, von_mises
-from carom.dimensionless.fields.peaks import TENSION, VON_MISES
+from carom.dimensionless.fields.peaks import (
+    TENSION,
+    VON_MISES,
+    Largest,
+    largest,
+    principal_stresses,
+    von_mises,
+)
 from carom.dimensionless.fields.profile import borne
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 from carom.dimensionless.numerics.chebyshev import evaluate
@@ -22,33 +28,28 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-GRID = 101  # points along x and y where none are asked for
-REACH = 1.5  # of that grid, in contact radii
-FAR = 1e50  # dimensionless; nothing changes beyond
-ROUNDING = 8.0 * np.finfo(np.float64).eps
+GRID_POINTS, GRID_REACH = 101, 1.5  # along x and y where none are asked for; in contact radii
+STRESS_POINTS, STRESS_REACH = (101, 61), 2.0  # the same along x and z
+FARTHEST, DEEPEST = 1e50, 1e300  # dimensionless; nothing changes beyond
+RADIUS_ROUNDING = 8.0 * np.finfo(np.float64).eps
 OUTSIDE, STICK, SLIP = 0, 1, 2
 ZONES = {"long_name": "zone of the contact", **flags(("outside", "stick", "slip"))}
-ALONG, DOWN = 101, 61  # points along x and z where none are asked for
-BELOW = 2.0  # reach of that grid, in contact radii
-DEEP = 1e300  # dimensionless; nothing is left there
 BODIES = ("first", "second")
-SHALLOW = 0.02  # depth, in contact radii, from which on stresses are told if those at the edge are
-# infinite: while viscous bodies are loaded
+BELOW_EDGE = 0.02  # contact radii: where stresses begin if those at the edge are infinite
+
+
+Places = ArrayLike | None
 
 
 def surface_fields(
-    contact: Contact,
-    x: ArrayLike | None = None,
-    y: ArrayLike | None = None,
-    *,
-    points: ArrayLike | None = None,
+    contact: Contact, x: Places = None, y: Places = None, points: Places = None
 ) -> "xr.Dataset":
     """Return tractions, zones, displacements and slip on a grid or at points of the surface.
 
     Arguments, result and errors as `InContact.fields`.
     """
-    reach = REACH * (contact.radius or contact.scales.radius)
-    side = np.linspace(-reach, reach, GRID)
+    reach = GRID_REACH * (contact.radius or contact.scales.radius)
+    side = np.linspace(-reach, reach, GRID_POINTS)
     dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, points)
     px, py = np.moveaxis(at, -1, 0)
     r = _distances(contact, px, py)
@@ -87,9 +88,9 @@ def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
 def _distances(contact: Contact, px: Array, py: Array) -> Array:
     """Return dimensionless distances from the centre, those at the edge freed from rounding."""
     with np.errstate(over="ignore"):
-        r = np.minimum(np.hypot(px, py) / contact.scales.radius, FAR)
+        r = np.minimum(np.hypot(px, py) / contact.scales.radius, FARTHEST)
     edge = contact.edge
-    return np.where(np.abs(r - edge) <= ROUNDING * edge, edge, r)
+    return np.where(np.abs(r - edge) <= RADIUS_ROUNDING * edge, edge, r)
 
 
 def _radial(contact: Contact, r: Array) -> Array:
@@ -152,36 +153,34 @@ def _in_contact(contact: Contact, r: Array) -> NDArray[np.bool_]:
 
 
 def stress_dataset(
-    contact: Contact,
-    *,
-    x: ArrayLike | None = None,
-    z: ArrayLike | None = None,
-    points: ArrayLike | None = None,
-    body: str = "second",
+    contact: Contact, x: Places, z: Places, points: Places, body: str
 ) -> "xr.Dataset":
     """Return the stress in one body, on a grid in the plane y = 0 or at points.
 
     Arguments, result and errors are those of `InContact.stress`.
     """
     friction, poisson = _of_body(contact, body)
-    reach = BELOW * (contact.radius or contact.scales.radius)
-    top = SHALLOW * contact.radius if contact.rim else 0.0
-    default = {"x": np.linspace(-reach, reach, ALONG), "z": np.linspace(top, reach, DOWN)}
+    reach = STRESS_REACH * (contact.radius or contact.scales.radius)
+    top = BELOW_EDGE * contact.radius if contact.rim else 0.0
+    default = {
+        "x": np.linspace(-reach, reach, STRESS_POINTS[0]),
+        "z": np.linspace(top, reach, STRESS_POINTS[1]),
+    }
     dims, coords, at = places("xyz", {"x": x, "z": z}, default, points)
     _refuse_outside("z" if points is None else "points", at[..., 2], top)
 
-    given: Any = {"friction": friction, "poisson": poisson, "rim": contact.rim}
+    of_body: Any = {"friction": friction, "poisson": poisson, "rim": contact.rim}
     with np.errstate(over="ignore"):
-        where = np.clip(at.reshape(-1, 3) / contact.scales.radius, -DEEP, DEEP)
-    stress = contact.scales.pressure * stresses(where, contact.profile, **given)
+        where = np.clip(at.reshape(-1, 3) / contact.scales.radius, -DEEPEST, DEEPEST)
+    stress = contact.scales.pressure * stresses(where, contact.profile, **of_body)
     columns = {
         name: (dims, v.reshape(at.shape[:-1])) for name, v in _stress_columns(stress).items()
     }
-    shallow = SHALLOW if contact.rim else 0.0
-    mises = largest(VON_MISES, contact.profile, **given, shallow=shallow)
+    shallow = BELOW_EDGE if contact.rim else 0.0
+    mises = largest(VON_MISES, contact.profile, **of_body, shallow=shallow)
     numbers = _entries(contact, "max_von_mises", mises)
     if not contact.rim:
-        tension = largest(TENSION, contact.profile, **given, deepest=0.0)
+        tension = largest(TENSION, contact.profile, **of_body, deepest=0.0)
         numbers |= _entries(contact, "max_tension", tension)
     return labelled_dataset(
         {**columns, **numbers, **contact.numbers(), "poisson": poisson},
@@ -199,9 +198,9 @@ def _stress_columns(stress: Array) -> dict[str, Array]:
     return columns
 
 
-def _entries(contact: Contact, name: str, found: Largest) -> dict[str, float]:
-    place = {f"{name}_{c}": getattr(found, c) * contact.scales.radius for c in "xyz"}
-    return {name: found.value * contact.scales.pressure, **place}
+def _entries(contact: Contact, name: str, peak: Largest) -> dict[str, float]:
+    place = {f"{name}_{c}": getattr(peak, c) * contact.scales.radius for c in "xyz"}
+    return {name: peak.value * contact.scales.pressure, **place}
 
 
 def _of_body(contact: Contact, body: str) -> tuple[float, float]:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from carom.contacts.contact import Contact
 from carom.contacts.fields import radial_fields, stress_dataset, surface_fields
-from carom.old_names import with_old_keywords
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import Value, counted
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ MOST_RADII = 100_000
 class InContact(ABC):
     """A result with a contact at each time in s, or after each step of a load path."""
 
-    @with_old_keywords
+    @known_keywords
     def contact(self, at: Value | None = None) -> Contact:
         """Return the contact at an instant, from which fields and stresses are computed.
 
@@ -44,10 +44,6 @@ class InContact(ABC):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> round(hit.contact(0.5 * hit.duration).penetration, 12)  # of the largest
         1.0
         >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
@@ -56,7 +52,7 @@ class InContact(ABC):
         """
         return self._contact(at)
 
-    @with_old_keywords
+    @known_keywords
     def fields(
         self,
         at: Value | None = None,
@@ -78,8 +74,7 @@ class InContact(ABC):
         Parameters
         ----------
         at : float, str or int
-            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
-            step, from the end if negative, by default the last.
+            The instant, as in `contact`.
         x, y : array_like, shapes (nx,) and (ny,)
             Positions in m of a grid around the centre of the contact, with x along V_x; by default
             101 by 101 points over 1.5 contact radii.
@@ -103,10 +98,6 @@ class InContact(ABC):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> patch = hit.fields(0.6 * hit.duration)
         >>> sorted({int(zone) for zone in patch.zone.values.flat})  # outside, stick, slip
         [0, 1, 2]
@@ -114,9 +105,9 @@ class InContact(ABC):
         >>> round(float(path.fields(points=[[0.0, 0.0]]).pressure[0]) / 1e9, 2)  # in GPa
         1.01
         """
-        return surface_fields(self.contact(at), x, y, points=points)
+        return surface_fields(self.contact(at), x, y, points)
 
-    @with_old_keywords
+    @known_keywords
     def stress(
         self,
         at: Value | None = None,
@@ -137,8 +128,7 @@ class InContact(ABC):
         Parameters
         ----------
         at : float, str or int
-            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
-            step, from the end if negative, by default the last.
+            The instant, as in `contact`.
         x, z : array_like, shapes (nx,) and (nz,)
             Positions in m of a grid in the plane y = 0, with x along V_x and z the depth; by
             default 101 by 61 points over 2 contact radii.
@@ -164,8 +154,6 @@ class InContact(ABC):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
         >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.0)
         >>> hit = carom.impact(pair, speed=2.0, angle=0.0)
         >>> below = hit.stress(0.5 * hit.duration, points=[[0.0, 0.0, 0.48 * hit.max_radius]])
@@ -173,17 +161,16 @@ class InContact(ABC):
         0.31
         """
         self._refuse_stress()
-        return stress_dataset(self.contact(at), x=x, z=z, points=points, body=body)
+        return stress_dataset(self.contact(at), x, z, points, body)
 
-    @with_old_keywords
+    @known_keywords
     def radial(self, at: Value | None = None, n: int = 401) -> xr.Dataset:
         """Return the pressure, the traction and the memory, g and q, along a radius.
 
         Parameters
         ----------
         at : float, str or int
-            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
-            step, from the end if negative, by default the last.
+            The instant, as in `contact`.
         n : int
             Number of distances from the centre, from 2 to 100,000.
 
@@ -200,10 +187,6 @@ class InContact(ABC):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> along = hit.radial(0.5 * hit.duration, n=11)
         >>> bool((abs(along.traction_x) <= 1.000001 * along.friction_limit).all())
         True

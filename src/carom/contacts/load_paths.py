@@ -13,7 +13,7 @@ from carom.bodies.pairs import ContactScales, Pair, with_friction
 from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
 from carom.contacts.in_contact import InContact
-from carom.contacts.load_steps import Given, Steps, followed, read_steps
+from carom.contacts.load_steps import Control, Steps, followed, read_steps
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import SLOPE, profile_of
 from carom.io.citations import LOADS, TURNING, bibtex
@@ -31,15 +31,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-COLUMNS = (
-    "penetration",
-    "displacement",
-    "normal_force",
-    "tangential_force",
-    "contact_radius",
-    "stick_radius",
-    "frictional_work",
-    "tangential_elastic_energy",
+PATH_COLUMNS = (
+    *("penetration", "displacement", "normal_force", "tangential_force"),
+    *("contact_radius", "stick_radius", "frictional_work", "tangential_elastic_energy"),
 )
 
 
@@ -81,10 +75,10 @@ class LoadPath(InContact, Result):
     def then(
         self,
         *,
-        normal_force: Given = None,
-        penetration: Given = None,
-        tangential_force: Given = None,
-        displacement: Given = None,
+        normal_force: Control = None,
+        penetration: Control = None,
+        tangential_force: Control = None,
+        displacement: Control = None,
         progress: Progress = None,
     ) -> LoadPath:
         """Return the path with further steps, with the same or another control.
@@ -111,9 +105,6 @@ class LoadPath(InContact, Result):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> pushed = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
         >>> moved = pushed.then(normal_force="10 N", displacement=0.0)
         >>> len(moved), bool(moved.tangential_force[-1] < 0.0)
@@ -146,13 +137,13 @@ class LoadPath(InContact, Result):
             stick_radius=float(path.results[k, paths.STICK]),
             profile=profile_of(path.stack),
             slid=lambda radii: paths.slid(d, u, radii) * scales.tangential_length,
-            scalars={name: float(getattr(self, name)[k]) for name in COLUMNS[2:4]},
+            scalars={name: float(getattr(self, name)[k]) for name in PATH_COLUMNS[2:4]},
             attributes=_state(path.stack) | {"inputs": self.inputs()},
         )
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        columns = {GLOSSARY[name]: getattr(self, name) for name in COLUMNS}
+        columns = {GLOSSARY[name]: getattr(self, name) for name in PATH_COLUMNS}
         rows = {it.meaning: it.span(float(v.min()), float(v.max())) for it, v in columns.items()}
         figure = self.plot() if len(self) > 1 else None
         return card(f"Load path of {len(self)} steps", rows, figure)
@@ -171,7 +162,7 @@ class LoadPath(InContact, Result):
             frictional_work and tangential_elastic_energy in J; and friction as a number.
         """
         count = {"units": "1", "long_name": "step of the load path"}
-        columns = {name: getattr(self, name) for name in COLUMNS}
+        columns = {name: getattr(self, name) for name in PATH_COLUMNS}
         dims = ("step", "direction")
         coords: dict[str, Any] = {"step": ("step", np.arange(len(self)), count)}
         if self.displacement.ndim == 2:
@@ -210,10 +201,10 @@ def _state(stack: Array) -> dict[str, Any]:
 def load_path(
     pair: Pair,
     *,
-    normal_force: Given = None,
-    penetration: Given = None,
-    tangential_force: Given = None,
-    displacement: Given = None,
+    normal_force: Control = None,
+    penetration: Control = None,
+    tangential_force: Control = None,
+    displacement: Control = None,
     progress: Progress = None,
 ) -> LoadPath:
     """Compute a quasi-static load path of a contact exactly, with slip and memory.

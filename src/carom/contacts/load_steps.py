@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from math import isfinite
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,8 +16,8 @@ from carom.quantities.refusals import InputError, refusal
 if TYPE_CHECKING:
     import xarray as xr
 
-Given = ArrayLike | str | None
-ROUNDING = 1e-12
+Control = ArrayLike | str | None
+FORCE_ROUNDING = 1e-12
 BEYOND = "its forces are too large or small for floating point; check the units"
 
 
@@ -38,17 +38,14 @@ class Steps(NamedTuple):
         targets = [self.target, more.target]
         if self.target.ndim != more.target.ndim:  # what had one direction goes along x
             targets = [t if t.ndim == 2 else t[:, None] * [1.0, 0.0] for t in targets]
-        return Steps(
-            np.append(self.penetration, more.penetration),
-            np.append(self.normal_force, more.normal_force),
-            np.concatenate(targets),
-            np.append(self.by_force, more.by_force),
-        )
+        pairs = zip(self._replace(target=targets[0]), more._replace(target=targets[1]), strict=True)
+        columns: list[Any] = [np.concatenate(pair) for pair in pairs]
+        return Steps(*columns)
 
     def first(self, n: int) -> "Steps":
         """Return the first n steps."""
-        depth, force, target, by_force = self
-        return Steps(depth[:n], force[:n], target[:n], by_force[:n])
+        columns: list[Any] = [column[:n] for column in self]
+        return Steps(*columns)
 
     def dimensionless(self, scales: ContactScales) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Return penetrations d, displacements U or forces Q, and where these are forces."""
@@ -61,7 +58,9 @@ class Steps(NamedTuple):
         return np.where(by_force, moved, self.target), np.where(by_force, self.target, force)
 
 
-def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved: Given) -> Steps:
+def read_steps(
+    pair: Pair, normal: Control, depth: Control, tangential: Control, moved: Control
+) -> Steps:
     """Return the steps that the four controls describe, or raise InputError."""
     tangential, moved = _directions_last(tangential), _directions_last(moved)
     along_the_same(tangential_force=tangential)  # each with its directions
@@ -79,44 +78,44 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
         allowed = f"must have {across[1].size} values as {across[0]}, or a single one"
         raise refusal(along[0], f"an array of {len(along[1])} values", allowed)
     n = max(sizes, default=1)
-    given = np.broadcast_to(across[1], n).copy()
+    control = np.broadcast_to(across[1], n).copy()
     target = np.broadcast_to(along[1], (n, *along[1].shape[1:])).copy()
     unit = pair.contact_scales(1.0).force
     if across[0] == "penetration":
         with np.errstate(over="ignore"):
-            depth, force = given, np.maximum(given, 0.0) ** 1.5 * unit
+            depth, force = control, np.maximum(control, 0.0) ** 1.5 * unit
     else:
-        if np.any(given < 0.0):
-            at = int(np.argmax(given < 0.0))
-            raise refusal("normal_force", float(given[at]), f"step {at}: it must not be negative")
-        depth, force = np.cbrt(given / unit) ** 2, given
+        if np.any(control < 0.0):
+            at = int(np.argmax(control < 0.0))
+            raise refusal("normal_force", float(control[at]), f"step {at}: it must not be negative")
+        depth, force = np.cbrt(control / unit) ** 2, control
     return Steps(depth, force, target, np.full(n, along[0] == "tangential_force"))
 
 
-def _directions_last(given: Given, first: bool = False) -> Given:
+def _directions_last(control: Control, first: bool = False) -> Control:
     """Return an array of xarray's with its `direction` as the last dimension, or the first one."""
-    if "direction" not in getattr(given, "dims", ()):
-        return given
-    array = cast("xr.DataArray", given)
+    if "direction" not in getattr(control, "dims", ()):
+        return control
+    array = cast("xr.DataArray", control)
     return array.isel(direction=0) if first else array.transpose(..., "direction")
 
 
-def _one_of(most: int, **controls: Given) -> tuple[str, Array]:
-    given = {name: value for name, value in controls.items() if value is not None}
-    if len(given) != 1:
+def _one_of(most: int, **controls: Control) -> tuple[str, Array]:
+    chosen = {name: value for name, value in controls.items() if value is not None}
+    if len(chosen) != 1:
         raise InputError(
-            f"load path: give {' or '.join(controls)}, {'not both' if given else 'one of them'}"
+            f"load path: give {' or '.join(controls)}, {'not both' if chosen else 'one of them'}"
         )
-    name, value = next(iter(given.items()))
+    name, value = next(iter(chosen.items()))
     return name, _values(name, value, most)
 
 
-def _values(name: str, given: ArrayLike | str, most: int) -> Array:
+def _values(name: str, control: ArrayLike | str, most: int) -> Array:
     """Return a control as numbers in SI units, without a dimension if it is a single one."""
     allowed = "must be one or a list of numbers in SI units, or texts with a unit"
     if most == 2:
         allowed += ", or of shape (n, 2), along x and y"
-    values = numbers(name, given, allowed)
+    values = numbers(name, control, allowed)
     if values.ndim > most or values.size == 0 or (values.ndim == 2 and values.shape[1] != 2):
         raise refusal(name, values, allowed)
     if not np.all(np.isfinite(values)):
@@ -163,7 +162,7 @@ def _refused(steps: Steps, n: int, friction: float) -> InputError:
     most = friction * normal
     limit, pressed = text(most, "N"), text(normal, "N")
     allowed = f"step {n}: Coulomb's law allows at most {limit} at F_z = {pressed}"
-    if float(np.linalg.norm(wanted)) <= most * (1.0 + ROUNDING):
+    if float(np.linalg.norm(wanted)) <= most * (1.0 + FORCE_ROUNDING):
         allowed += "; near this limit give displacements instead"
     return refusal("tangential_force", wanted.tolist(), allowed)
 

@@ -15,7 +15,7 @@ from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, checked_type, clipped, hint, refusal
 
-Given = Mapping[str, Any]  # arrays by name
+Quantities = Mapping[str, Any]  # arrays by name
 
 INCIDENCE = ("tangential_speed", "angle", "contact_angle", "psi_in")
 BEFORE = ("speed", "normal_speed", *INCIDENCE, "spin", "spin2")
@@ -41,7 +41,7 @@ IMPULSE: dict[str, Callable[[Rebound, Array], Any]] = {  # J_t, from what is kno
 SPEED = "rebound_speed"  # of both parts of the motion after
 OBSERVABLES = (*NORMAL, *IMPULSE, SPEED)
 NAMES = (*BEFORE, *OBSERVABLES)
-ROUNDING = 1e-9  # of a speed
+SPEED_TOLERANCE = 1e-9  # relative
 SLOWEST, FASTEST = 1e-12, 1e9  # normal speeds in m/s that measurements and programs may have
 SCALED = {name for name in NAMES if "spin" in name or "speed" in name}  # not a ratio or an angle
 RECEDING = (  # these need e
@@ -107,17 +107,16 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
     checked_type(
         "known", known, Mapping, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}"
     )
-    given = {name: _values(name, value) for name, value in known.items()}
+    quantities = {name: _values(name, value) for name, value in known.items()}
     along_the_same(**{str(name): value for name, value in known.items()})
     _check_name("wanted", wanted)
-    _check_bodies(pair, {*given, wanted})
-    shape = together(given)
+    _check_bodies(pair, {*quantities, wanted})
+    shape = together(quantities)
     with np.errstate(all="ignore"):
-        found = np.asarray(getattr(_rebound(pair, given, wanted), wanted))
-    if np.isinf(found).any():
+        result = np.asarray(getattr(_rebound(pair, quantities, wanted), wanted))
+    if np.isinf(result).any():
         raise InputError("known: the results are too large for floating point; check the units")
-    result = np.broadcast_to(found, shape)
-    return result.copy() if shape else result.item()
+    return np.broadcast_to(result, shape).copy() if shape else result.item()
 
 
 def _check_name(where: str, name: Any) -> None:
@@ -128,7 +127,7 @@ def _check_name(where: str, name: Any) -> None:
 
 
 def _values(name: str, value: Any) -> Array:
-    """Return what is known of one quantity, or raise InputError."""
+    """Return the values of one quantity, or raise InputError."""
     _check_name("known", name)
     values = numbers(name, value, "must be numbers, or text with a unit", gaps=True)
     if "angle" in name:
@@ -154,29 +153,29 @@ def _check_bodies(pair: Pair, names: set[str]) -> None:
         raise InputError(f"{psis[0]}: it is infinite without friction; give the pair a friction")
 
 
-def _resolved(given: Given) -> Given:
+def _resolved(quantities: Quantities) -> Quantities:
     """Return speed and angle after as the two velocities that they are."""
     both = (SPEED, "rebound_angle")
-    if not given.keys() >= set(both):
-        return given
-    twice = [name for name in OBSERVABLES if name in given and name not in both]
+    if not quantities.keys() >= set(both):
+        return quantities
+    twice = [name for name in OBSERVABLES if name in quantities and name not in both]
     if twice:
         raise InputError(f"known: {' and '.join(both)} determine the rebound; leave {twice[0]} out")
-    normal, tangential = components(*(given[name] for name in both))
-    others = {name: value for name, value in given.items() if name not in both}
+    normal, tangential = components(*(quantities[name] for name in both))
+    others = {name: value for name, value in quantities.items() if name not in both}
     return {**others, "normal_speed_out": normal, "tangential_speed_out": tangential}
 
 
-def _rebound(pair: Pair, given: Given, wanted: str) -> Rebound:
+def _rebound(pair: Pair, quantities: Quantities, wanted: str) -> Rebound:
     """Return the rebound, with NaN for what is not known of it and not wanted."""
-    normal, before = _before(pair, given, wanted)
-    given = _resolved(given)
-    start = Rebound(pair, normal, before, _restitution(normal, given), 0.0)
+    normal, before = _before(pair, quantities, wanted)
+    quantities = _resolved(quantities)
+    start = Rebound(pair, normal, *before, _restitution(normal, quantities), 0.0)
     if wanted in BEFORE:
         return start
-    ways = _one_of("the rebound", given, (*IMPULSE, SPEED)) if wanted not in NORMAL else ""
+    ways = _one_of("the rebound", quantities, (*IMPULSE, SPEED)) if wanted not in NORMAL else ""
     needing = [name for name in (ways, wanted) if name in RECEDING]
-    if needing and not given.keys() & set(NORMAL):
+    if needing and not quantities.keys() & set(NORMAL):
         raise InputError(f"normal_restitution: missing; {needing[0]} needs it, e.g. 0.98")
     if not ways:
         return start
@@ -188,8 +187,8 @@ def _rebound(pair: Pair, given: Given, wanted: str) -> Rebound:
                 "e.g. spin_out"
             )
     if ways == SPEED:
-        return replace(start, impulse=_slowing(start, given[SPEED]))
-    return replace(start, impulse=IMPULSE[ways](start, given[ways]))
+        return replace(start, impulse=_slowing(start, quantities[SPEED]))
+    return replace(start, impulse=IMPULSE[ways](start, quantities[ways]))
 
 
 def _slowing(start: Rebound, speed: Array) -> Any:
@@ -199,40 +198,41 @@ def _slowing(start: Rebound, speed: Array) -> Any:
     0 <= J_t <= 2 m_t V_x, to which scatter may come near from outside.
     """
     normal, before = start.normal_speed_out, start.tangential_speed
-    _refuse(SPEED, speed, speed < normal * (1.0 - ROUNDING), "it is below the normal speed after")
+    slow = speed < normal * (1.0 - SPEED_TOLERANCE)
+    _refuse(SPEED, speed, slow, "it is below the normal speed after")
     along = np.sqrt(np.maximum((speed - normal) * (speed + normal), 0.0))
     ratio = start.pair.tangential_mass / start.pair.normal_mass
     ends = before, before - 2.0 * (ratio * start.contact_velocity)
     low, high = np.minimum(*ends), np.maximum(*ends)
     on, back = (np.maximum(low - x, x - high) for x in (along, -along))  # how far outside
-    unsure = (np.maximum(on, back) <= 0.0) & (along > ROUNDING * speed)
+    unsure = (np.maximum(on, back) <= 0.0) & (along > SPEED_TOLERANCE * speed)
     _refuse(SPEED, speed, unsure, "the centre may go on or turn back; give rebound_angle, too")
     return start.pair.normal_mass * (before - np.where(on <= back, along, -along))
 
 
-def _one_of(what: str, given: Given, names: tuple[str, ...]) -> str:
+def _one_of(what: str, quantities: Quantities, names: tuple[str, ...]) -> str:
     """Return the one of some names that is given, or raise InputError."""
-    found = [name for name in names if name in given]
-    if len(found) != 1:
-        problem = f"determined by {' and '.join(found)}" if found else "not determined"
+    there = [name for name in names if name in quantities]
+    if len(there) != 1:
+        problem = f"determined by {' and '.join(there)}" if there else "not determined"
         raise InputError(f"known: {what} is {problem}; give one of {', '.join(names)}")
-    return found[0]
+    return there[0]
 
 
-def _before(pair: Pair, given: Given, wanted: str) -> tuple[Any, Tangential]:
+def _before(pair: Pair, quantities: Quantities, wanted: str) -> tuple[Any, Tangential]:
     """Return the normal speed and the tangential motion before."""
-    spins = (given.get("spin", np.zeros(())), given.get("spin2", np.zeros(())))
-    way = _one_of("the tangential motion before", given, INCIDENCE)
-    if "speed" in given:
-        if way != "angle" or "normal_speed" in given:
+    spins = (quantities.get("spin", np.zeros(())), quantities.get("spin2", np.zeros(())))
+    way = _one_of("the tangential motion before", quantities, INCIDENCE)
+    if "speed" in quantities:
+        if way != "angle" or "normal_speed" in quantities:
             raise InputError("speed: give it with angle alone, or give normal_speed instead")
-        normal, tangential = components(given["speed"], given["angle"])
+        normal, tangential = components(quantities["speed"], quantities["angle"])
         return normal, Tangential(tangential, *spins)
-    scaled = sorted(SCALED & {*given, wanted})
-    if scaled and "normal_speed" not in given:
+    scaled = sorted(SCALED & {*quantities, wanted})
+    if scaled and "normal_speed" not in quantities:
         raise InputError(f"speed: missing; {scaled[0]} needs speed and angle, or normal_speed")
-    normal = given.get("normal_speed", np.ones(()))
-    moved = given[way]
+    normal = quantities.get("normal_speed", np.ones(()))
+    moved = quantities[way]
     if way != "tangential_speed":
         moved = moved * _psi_unit(pair, normal) if way == "psi_in" else normal * np.tan(moved)
     if way in ("contact_angle", "psi_in"):
@@ -240,13 +240,13 @@ def _before(pair: Pair, given: Given, wanted: str) -> tuple[Any, Tangential]:
     return normal, Tangential(moved, *spins)
 
 
-def _restitution(normal: Any, given: Given) -> Any:
+def _restitution(normal: Any, quantities: Quantities) -> Any:
     """Return the normal restitution, NaN if nothing is known of it."""
-    if given.keys() >= set(NORMAL):
+    if quantities.keys() >= set(NORMAL):
         raise InputError(f"known: {' and '.join(NORMAL)} mean the same; give one of them")
-    if "normal_speed_out" in given:
-        return given["normal_speed_out"] / normal
-    return given.get("normal_restitution", nan)
+    if "normal_speed_out" in quantities:
+        return quantities["normal_speed_out"] / normal
+    return quantities.get("normal_restitution", nan)
 
 
 def _turning(body: Any, change: Any) -> Any:

@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.datasets.observables import OBSERVABLES
-from carom.io.columns import ERROR, entry, in_units, with_errors
 from carom.io.labels import attributes, labelled_dataset
 from carom.io.tables import read_table
-from carom.io.user_table import UserTable
+from carom.io.user_table import ERROR, UserTable, entry, in_units, with_errors
 from carom.quantities.refusals import one_of
 
 if TYPE_CHECKING:
@@ -122,20 +121,18 @@ def load(name: str) -> "xr.Dataset":
     """
     columns = table(name).columns
     variables = {key: ("point", values, _attributes(key)) for key, values in columns.items()}
-    told = dict(_read(path(name)).comments)
-    told["references"] = told.pop("source")  # "source" is the version of Carom, as everywhere
-    return labelled_dataset(variables, {}, {"name": name, **told})
+    comments = dict(_read(path(name)).comments)
+    comments["references"] = comments.pop("source")  # "source" is the version of Carom
+    return labelled_dataset(variables, {}, {"name": name, **comments})
 
 
 def _attributes(name: str) -> dict[str, Any]:
     """Return unit and meaning of a column of values or of their errors."""
-    known = attributes(entry(name))
-    if not name.endswith(ERROR):
-        return known
-    return known | {
-        "long_name": f"standard deviation of {known['long_name']}",
-        "symbol": rf"$\sigma$ of {known['symbol']}",
-    }
+    words = attributes(entry(name))
+    if name.endswith(ERROR):
+        words["long_name"] = f"standard deviation of {words['long_name']}"
+        words["symbol"] = rf"$\sigma$ of {words['symbol']}"
+    return words
 
 
 @lru_cache
@@ -148,7 +145,7 @@ def _data(name: str) -> Path:
 
 
 NUMBERS = ("diameter", "density", *with_errors(("normal_restitution", "friction", "beta_0")))
-WORDS = {  # columns of text
+TEXT_COLUMNS = {
     "body": "sphere that strikes",
     "other": "what it strikes",
     "shape": "sphere, of the same size, or plane",
@@ -173,16 +170,16 @@ def parameters() -> "xr.Dataset":
     Examples
     --------
     >>> import carom
-    >>> known = carom.datasets.parameters()
-    >>> glass = known.isel(pair=(known.body == "soda-lime glass") & (known.other == "aluminium"))
+    >>> data = carom.datasets.parameters()
+    >>> glass = data.isel(pair=(data.body == "soda-lime glass") & (data.other == "aluminium"))
     >>> glass.friction.item(), glass.friction_error.item(), glass.reference.item()[:16]
     (0.125, 0.007, 'Louge, M. Y. (19')
     """
     cells = _read(_data("parameters.csv"))
     numbers = in_units(cells, NUMBERS, gaps=("diameter", "density")).columns
-    found = {name: ("pair", numbers[name], _attributes(name)) for name in NUMBERS}
+    values = {name: ("pair", numbers[name], _attributes(name)) for name in NUMBERS}
     words = {
         name: ("pair", [str(cell) for cell in cells.column(name).cells], {"long_name": meaning})
-        for name, meaning in WORDS.items()
+        for name, meaning in TEXT_COLUMNS.items()
     }
-    return labelled_dataset(found, words, {"name": "parameters", **cells.comments})
+    return labelled_dataset(values, words, {"name": "parameters", **cells.comments})

@@ -6,6 +6,8 @@ begins or ceases to slide, or turns back: these are found by bisection. Steps by
 (1980).
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from carom.dem import coefficients as forces
@@ -39,6 +41,19 @@ NODES = np.array(
 ERROR = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
 
 
+class Mode(NamedTuple):
+    """What does not change within a step.
+
+    `slip` is 0 in stick, else the sign of the slip; `branch` that of an incremental law, `peak` the
+    largest penetration.
+    """
+
+    slip: int
+    branch: int
+    loading: bool
+    peak: float
+
+
 @kernel
 def limit_rate(law: Coefficients, loading: bool, b: float, v: float, f: float) -> float:
     """Return df/dtau."""
@@ -54,14 +69,14 @@ def limit_rate(law: Coefficients, loading: bool, b: float, v: float, f: float) -
 
 
 @kernel
-def spring_rate(law: Coefficients, branch: int, loading: bool, y: Array, f: float) -> float:
+def spring_rate(law: Coefficients, mode: Mode, y: Array, f: float) -> float:
     """Return dt/dtau of the elastic tangential force of a contact that sticks."""
     elastic = 2.0 * y[B] * forces.shear_stiffness(law, y[B]) * y[PSI]
     if law.shear == Shear.SPRING.value:
-        return float(elastic + forces.kept(law, loading) * y[T] * y[V] / y[B])
-    rate = limit_rate(law, loading, y[B], y[V], f)
-    theta = forces.softening(law.shear, branch, y[T], f, y[UPPER], y[LOWER])
-    return forces.force_change(law.shear, branch, theta, elastic, rate)
+        return float(elastic + forces.kept(law, mode.loading) * y[T] * y[V] / y[B])
+    rate = limit_rate(law, mode.loading, y[B], y[V], f)
+    theta = forces.softening(law.shear, mode.branch, y[T], f, y[UPPER], y[LOWER])
+    return forces.force_change(law.shear, mode.branch, theta, elastic, rate)
 
 
 @kernel
@@ -71,17 +86,15 @@ def damping_force(law: Coefficients, y: Array) -> float:
 
 
 @kernel
-def rates(
-    law: Coefficients, slip: int, branch: int, loading: bool, peak: float, y: Array, out: Array
-) -> None:
-    """Write dy/dtau in stick (slip = 0) or slip of a sign."""
-    b, v = y[B], y[V]
-    f = forces.normal_force(law, peak, loading, b, v)
+def rates(law: Coefficients, mode: Mode, y: Array, out: Array) -> None:
+    """Write dy/dtau."""
+    b, v, slip, loading = y[B], y[V], mode.slip, mode.loading
+    f = forces.normal_force(law, mode.peak, loading, b, v)
     out[B] = v
     out[V] = -2.0 * b * ELASTIC_PULL * f
     whole = slip * abs(f) if slip != 0 else y[T] + damping_force(law, y)
     out[PSI] = -4.0 * b * ELASTIC_PULL * law.chi * whole
-    out[T] = 0.0 if slip != 0 else spring_rate(law, branch, loading, y, f)
+    out[T] = 0.0 if slip != 0 else spring_rate(law, mode, y, f)
     if law.shear == Shear.MINDLIN_DERESIEWICZ.value:
         out[UPPER] = limit_rate(law, loading, b, v, f)
         out[LOWER] = -out[UPPER]
@@ -93,26 +106,17 @@ def rates(
 
 
 @kernel
-def bring_to_limit(law: Coefficients, slip: int, peak: float, loading: bool, y: Array) -> None:
+def bring_to_limit(law: Coefficients, mode: Mode, y: Array) -> None:
     """Set the elastic force of a sliding contact."""
-    limit = slip * abs(forces.normal_force(law, peak, loading, y[B], y[V]))
+    limit = mode.slip * abs(forces.normal_force(law, mode.peak, mode.loading, y[B], y[V]))
     y[T] = limit - damping_force(law, y) if law.limits_damping else limit
 
 
 @kernel
-def step(
-    law: Coefficients,
-    slip: int,
-    branch: int,
-    loading: bool,
-    peak: float,
-    h: float,
-    y: Array,
-    work: Array,
-) -> None:
+def step(law: Coefficients, mode: Mode, h: float, y: Array, work: Array) -> None:
     """Write the state after a step to work[7], the derivatives on the way to work[:7]."""
     end = work[7]
-    rates(law, slip, branch, loading, peak, y, work[0])
+    rates(law, mode, y, work[0])
     for stage in range(6):
         for i in range(SIZE):
             total = 0.0
@@ -120,9 +124,9 @@ def step(
                 total += NODES[stage, earlier] * work[earlier, i]
             end[i] = y[i] + h * total
         end[B] = max(end[B], 0.1 * TOUCH)
-        rates(law, slip, branch, loading, peak, end, work[stage + 1])
-    if slip != 0:
-        bring_to_limit(law, slip, peak, loading, end)
+        rates(law, mode, end, work[stage + 1])
+    if mode.slip != 0:
+        bring_to_limit(law, mode, end)
 
 
 @kernel
@@ -139,12 +143,10 @@ def error_of(law: Coefficients, h: float, y: Array, work: Array) -> float:
 
 
 @kernel
-def event(
-    law: Coefficients, slip: int, branch: int, loading: bool, peak: float, pushing: bool, y: Array
-) -> int:
+def event(law: Coefficients, mode: Mode, pushing: bool, y: Array) -> int:
     """Return what has happened by this state, if anything."""
-    b, v, psi = y[B], y[V], y[PSI]
-    f = forces.normal_force(law, peak, loading, b, v)
+    b, v, psi, branch, loading = y[B], y[V], y[PSI], mode.branch, mode.loading
+    f = forces.normal_force(law, mode.peak, loading, b, v)
     if loading and v <= 0.0:
         return TURNS
     if not loading and (b <= TOUCH or (f <= 0.0 and (law.unloading != 1.0 or not law.pulls))):
@@ -152,7 +154,7 @@ def event(
     incremental = law.shear != Shear.SPRING.value
     if incremental and (psi > 0.0 if branch == forces.BACK else psi < 0.0):
         return REVERSES
-    if slip == 0:
+    if mode.slip == 0:
         whole = y[T] + damping_force(law, y) if law.limits_damping else y[T]
         ahead = -whole if branch == forces.BACK else whole
         stiff = law.shear == Shear.WALTON_BRAUN.value and ahead > (1.0 - NEAR) * f
@@ -161,20 +163,19 @@ def event(
         again = law.shear == Shear.MINDLIN_DERESIEWICZ.value and branch == forces.AGAIN
         if again and y[T] > y[UPPER]:
             return CONTINUES
-    elif leaves_limit(law, slip, branch, loading, y, f):
+    elif leaves_limit(law, mode, y, f):
         return STICKS
     return PULLS if pushing and f < 0.0 else NOTHING
 
 
 @kernel
-def leaves_limit(
-    law: Coefficients, slip: int, branch: int, loading: bool, y: Array, f: float
-) -> bool:
+def leaves_limit(law: Coefficients, mode: Mode, y: Array, f: float) -> bool:
     """Return whether the force of a sliding contact would fall below its limit if it stuck."""
-    if law.shear == Shear.WALTON_BRAUN.value and (slip < 0) == (branch == forces.BACK):
+    slip, loading = mode.slip, mode.loading
+    if law.shear == Shear.WALTON_BRAUN.value and (slip < 0) == (mode.branch == forces.BACK):
         elastic = 2.0 * y[B] * forces.shear_stiffness(law, y[B]) * abs(y[PSI])
         return bool(limit_rate(law, loading, y[B], y[V], f) > 2.0 * np.cbrt(NEAR) * elastic)
-    rate = slip * spring_rate(law, branch, loading, y, f)
+    rate = slip * spring_rate(law, mode, y, f)
     if law.limits_damping and law.shear_damping > 0.0:
         b, v, power = y[B], y[V], law.damping_power
         slowing = -4.0 * b * ELASTIC_PULL * law.chi * slip * abs(f)
@@ -185,22 +186,14 @@ def leaves_limit(
 
 @kernel
 def until_event(
-    law: Coefficients,
-    slip: int,
-    branch: int,
-    loading: bool,
-    peak: float,
-    chatters: bool,
-    h: float,
-    y: Array,
-    work: Array,
+    law: Coefficients, mode: Mode, chatters: bool, h: float, y: Array, work: Array
 ) -> int:
     """Return what happens first in a step of this length; the state just after it is in work[7].
 
     Of a law that chatters it is what has happened by the end of the step.
     """
-    pushing = forces.normal_force(law, peak, loading, y[B], y[V]) > 0.0
-    what = event(law, slip, branch, loading, peak, pushing, work[7])
+    pushing = forces.normal_force(law, mode.peak, mode.loading, y[B], y[V]) > 0.0
+    what = event(law, mode, pushing, work[7])
     if what == NOTHING or chatters:
         return what
     before, after = 0.0, h
@@ -208,13 +201,13 @@ def until_event(
         middle = 0.5 * (before + after)
         if middle <= before or middle >= after or after - before < 1e-15:
             break
-        step(law, slip, branch, loading, peak, middle, y, work)
-        found = event(law, slip, branch, loading, peak, pushing, work[7])
-        if found == NOTHING:
+        step(law, mode, middle, y, work)
+        first = event(law, mode, pushing, work[7])
+        if first == NOTHING:
             before = middle
         else:
-            after, what = middle, found
-    step(law, slip, branch, loading, peak, after, y, work)
+            after, what = middle, first
+    step(law, mode, after, y, work)
     return what
 
 
@@ -226,13 +219,14 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
     slip, branch, loading, peak = 0, forces.FIRST, True, 0.0
     h, changes = TOUCH, 0
     for _ in range(MOST_STEPS):
-        step(law, slip, branch, loading, peak, h, y, work)
+        mode = Mode(slip, branch, loading, peak)
+        step(law, mode, h, y, work)
         error = error_of(law, h, y, work)
         if error > 1.0 and h > SHORTEST:  # a cube root that vanishes is stepped over
             h = max(SHORTEST, h * max(0.2, 0.9 * error**-0.2))
             continue
         chatters = changes > PATIENCE and h <= DWELL
-        what = until_event(law, slip, branch, loading, peak, chatters, h, y, work)
+        what = until_event(law, mode, chatters, h, y, work)
         for k in range(SIZE):
             y[k] = work[7, k]
         h = min(LONGEST, max(SHORTEST, h * min(5.0, 0.9 * max(error, 1e-10) ** -0.2)))
@@ -246,7 +240,7 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
         elif what == SLIDES:
             ahead = y[T] + damping_force(law, y) if law.limits_damping else y[T]
             slip = 1 if ahead > 0.0 else -1
-            bring_to_limit(law, slip, peak, loading, y)
+            bring_to_limit(law, Mode(slip, branch, loading, peak), y)
         elif what == STICKS:
             slip = 0
         elif what == CONTINUES:

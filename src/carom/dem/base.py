@@ -1,9 +1,12 @@
 """The base of all contact laws, with a name, a source and the rebound that follows from them."""
 
+import re
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Self
+from inspect import cleandoc
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,29 +14,100 @@ from numpy.typing import ArrayLike, NDArray
 from carom.dem.adaptive import WORK, rebounds
 from carom.dem.coefficients import Coefficients
 from carom.dem.damping import damped_restitution
-from carom.dem.status import OF_FUNCTIONS, Codes, LawStatus, status_of
-from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
+from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import answered
 from carom.quantities.arrays import Array
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag, refusal
+from carom.quantities.shown import Shown
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
 
+Codes = NDArray[np.int8]
+
 SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
 FEWEST_STEPS, MOST_STEPS = 4, 10_000_000
-BLOCK = 16  # impacts that a thread takes at once
-READERS = {  # of the parameters that laws have
-    "stiffness_ratio": lambda name, value: None if value is None else positive(name, value),
-    "stiffness": positive,
-    "restitution": damped_restitution,
-    "tangential_damping": not_negative,
+IMPACTS_AT_ONCE = 16  # that a thread takes
+
+
+class LawStatus(WordedStatus):
+    """What became of an impact by a contact law; its `message` says so in words.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.status.LawStatus(2).message
+    'chi must be positive and finite'
+    """
+
+    SOLVED = 0, "solved"
+    PSI_NOT_FINITE = 1, "psi must be a finite number"
+    CHI_NOT_POSITIVE = 2, "chi must be positive and finite"
+    KAPPA_NOT_POSITIVE = 3, "kappa must be positive and finite"
+    CHI_TOO_LARGE = 4, "not solved: chi is too large"
+    UNRESOLVED = 5, "not solved: the bodies do not part, or steps are too few"
+    RAISED = 6, "not solved: the function of the law raised an exception"
+    NOT_A_NUMBER = 7, "not solved: the function of the law did not return a finite number"
+
+
+OF_FUNCTIONS = (LawStatus.RAISED, LawStatus.NOT_A_NUMBER)
+
+
+def status_of(psi: Array, chi: Array, kappa: Array, largest_chi: float) -> Codes:
+    """Return what is known of impacts before they are solved; of two faults the first."""
+    status = np.zeros(psi.size, dtype=np.int8)
+    status[chi > largest_chi] = LawStatus.CHI_TOO_LARGE
+    for values, fault in ((kappa, LawStatus.KAPPA_NOT_POSITIVE), (chi, LawStatus.CHI_NOT_POSITIVE)):
+        status[~((values > 0.0) & (values < np.inf))] = fault
+    status[~np.isfinite(psi)] = LawStatus.PSI_NOT_FINITE
+    return status
+
+
+def kappa_or_solid(kappa: Any, chi: Any) -> Any:
+    """Return kappa if there is one, else that of solid spheres with this chi."""
+    return SOLID * chi if kappa is None else positive("kappa", kappa)
+
+
+class Parameter(NamedTuple):
+    """A parameter that laws share: what reads it, and what docstrings say of it."""
+
+    read: Callable[[str, Any], float | None]
+    meaning: str
+
+
+PARAMETERS = {
+    "stiffness_ratio": Parameter(
+        lambda name, value: None if value is None else positive(name, value),
+        "float, optional\n    k_t/k_n, positive; by default kappa = G*/E* (Mindlin 1949).",
+    ),
+    "stiffness": Parameter(
+        positive, "float\n    k_t in units of Mindlin's stiffness 2 G* a, positive."
+    ),
+    "restitution": Parameter(
+        damped_restitution,
+        "float\n    Normal coefficient of restitution e, above 0 and at most 1 (no damping).",
+    ),
+    "tangential_damping": Parameter(
+        not_negative,
+        "float\n    Tangential damping in units of the normal one, `x_gamma` of LAMMPS.",
+    ),
 }
+NAMES_ALONE = re.compile("(?m)^(?:{0})(?:, (?:{0}))*$".format("|".join(PARAMETERS)))
+RAISES = "Raises\n------\nInputError\n    If a parameter is out of range."
+
+
+def described(names: re.Match[str]) -> str:
+    """Return the entries of a docstring for parameters that laws share."""
+    return "\n".join(f"{name} : {PARAMETERS[name].meaning}" for name in names[0].split(", "))
 
 
 @dataclass(frozen=True)
-class Law(ABC):
-    """What gives psi_2 from psi_1 and chi: contact laws, a function, the exact table."""
+class Law(Shown, ABC):
+    """What gives psi_2 from psi_1 and chi: contact laws, a function, the exact table.
+
+    In docstrings of laws a line with names of `PARAMETERS` alone stands for what is said there.
+    """
 
     name: ClassVar[str]
     source: ClassVar[str]
@@ -41,10 +115,15 @@ class Law(ABC):
     most_steps: ClassVar[int] = MOST_STEPS  # that are tried for a time step
     statuses: ClassVar[type[WordedStatus]] = LawStatus  # of impacts
 
+    def __init_subclass__(cls) -> None:
+        text, count = NAMES_ALONE.subn(described, cleandoc(cls.__doc__ or ""))
+        if count:
+            cls.__doc__ = text.replace("Examples\n---", f"{RAISES}\n\nExamples\n---", 1) + "\n"
+
     def __post_init__(self) -> None:
-        for name, read in READERS.items():
+        for name, parameter in PARAMETERS.items():
             if name in vars(self):
-                object.__setattr__(self, name, read(name, getattr(self, name)))
+                object.__setattr__(self, name, parameter.read(name, getattr(self, name)))
 
     def _damped(self, restitution: float) -> Self:
         """Return the law with another restitution."""
@@ -56,9 +135,10 @@ class Law(ABC):
     ) -> tuple[Array, Codes]:
         """Return psi_2 and the status of impacts, arrays of one length."""
 
+    @known_keywords
     def rebound(
         self,
-        psi: ArrayLike,
+        psi_1: ArrayLike,
         chi: ArrayLike,
         *,
         kappa: ArrayLike | None = None,
@@ -70,10 +150,10 @@ class Law(ABC):
 
         Parameters
         ----------
-        psi : array_like
+        psi_1 : array_like
             Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
         chi : array_like
-            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
+            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive; broadcast against `psi_1`.
         kappa : array_like, optional
             Stiffness ratio G*/E*, by default that of solid spheres, 4 chi/7. It matters for laws
             with their own k_t/k_n or damping.
@@ -117,7 +197,7 @@ class Law(ABC):
                 reason = self._why(*(float(each[lost[0]]) for each in (psi, chi, own)))
             return result, status, reason
 
-        arguments = {"psi": psi, "chi": chi} | ({} if kappa is None else {"kappa": kappa})
+        arguments = {"psi_1": psi_1, "chi": chi} | ({} if kappa is None else {"kappa": kappa})
         return answered(arguments, solve, self.statuses, return_status)
 
     def _why(self, psi: float, chi: float, kappa: float) -> str:
@@ -131,6 +211,7 @@ class ContactLaw(Law):
 
     largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
     symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
+    default_steps: ClassVar[int | None] = None  # None: of adaptive size
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
@@ -160,28 +241,33 @@ class ContactLaw(Law):
 
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
         """Return psi_2 of impacts with one chi."""
-        law = self.coefficients(chi, kappa)
-        out = np.empty(psi.size)
+        steps = steps or self.default_steps
         if steps is None:
-            rebounds(law, psi, np.empty(WORK), out)
-        else:
-            nothing = np.empty((0, len(HISTORY)))
-            stepped_rebounds(law, psi, steps, np.empty(REMEMBERED), nothing, out)
-        return out
+            out = np.empty(psi.size)
+            rebounds(self.coefficients(chi, kappa), psi, np.empty(WORK), out)
+            return out
+        sign, nothing = np.copysign(1.0, psi), np.empty((0, len(HISTORY)))
+        each = (self._stepped(size, chi, kappa, steps, nothing)[1] for size in np.abs(psi).tolist())
+        return np.asarray(sign * np.array(list(each)))
+
+    def _stepped(
+        self, psi: float, chi: float, kappa: float, steps: int, record: Array
+    ) -> tuple[int, float]:
+        """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part."""
+        return stepped(self.coefficients(chi, kappa), psi, steps, np.empty(REMEMBERED), record)
 
     def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
-        """Write what happens in equal steps; return their number, -1 if the bodies do not part."""
-        law = self.coefficients(chi, kappa)
-        return stepped(law, psi, steps, np.empty(REMEMBERED), record)[0]
+        return self._stepped(psi, chi, kappa, steps, record)[0]
 
+    @known_keywords
     def history(
-        self, psi: float, chi: float, *, kappa: float | None = None, steps: int = 1000
+        self, psi_1: float, chi: float, *, kappa: float | None = None, steps: int = 1000
     ) -> dict[str, Array]:
         """Return the history of an impact in equal time steps, in the units of Hertz's impact.
 
         Parameters
         ----------
-        psi : float
+        psi_1 : float
             Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
         chi : float
             Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
@@ -209,11 +295,11 @@ class ContactLaw(Law):
         0.8
         """
         counted("steps", steps, FEWEST_STEPS)
-        chi, psi = positive("chi", chi), finite("psi", psi, "1")
-        own = SOLID * chi if kappa is None else positive("kappa", kappa)
+        chi, psi_1 = positive("chi", chi), finite("psi_1", psi_1, "1")
+        kappa = kappa_or_solid(kappa, chi)
         record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
-        sign = float(np.copysign(1.0, psi)) if self.symmetric else 1.0
-        count = self._recorded(sign * psi, chi, own, steps, record)
+        sign = float(np.copysign(1.0, psi_1)) if self.symmetric else 1.0
+        count = self._recorded(sign * psi_1, chi, kappa, steps, record)
         if count < 0 or not np.all(np.isfinite(record[:count])):
             raise refusal("steps", steps, "the bodies do not part; take more steps")
         columns = {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}
@@ -228,4 +314,8 @@ def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
     members = members.ravel()  # NumPy 2.0 gives it two dimensions
     order = np.argsort(members, kind="stable")
     groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
-    return [group[i : i + BLOCK] for group in groups for i in range(0, group.size, BLOCK)]
+    return [
+        group[i : i + IMPACTS_AT_ONCE]
+        for group in groups
+        for i in range(0, group.size, IMPACTS_AT_ONCE)
+    ]

@@ -3,27 +3,164 @@
 from abc import abstractmethod
 from collections.abc import Callable
 from copy import deepcopy
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, field
 from inspect import signature
-from math import isfinite, isnan
-from typing import Any, ClassVar
+from math import isfinite, isnan, nan, sqrt
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.bodies.pairs import Pair, checked_scales, with_friction
-from carom.dem import contact_step
-from carom.dem.base import ContactLaw, Law
+from carom.bodies.pairs import Pair, Scales, checked_scales, with_friction
+from carom.bodies.shapes import HalfSpace, Sphere
+from carom.dem.base import Codes, ContactLaw, Law, LawStatus, status_of
 from carom.dem.coefficients import SPRING
-from carom.dem.contact_step import NORMAL, Bodies, ContactStep, Fault
 from carom.dem.damping import damping_ratio, hertz_damping
-from carom.dem.status import Codes, LawStatus, status_of
-from carom.dem.stepping import HISTORY
+from carom.dem.stepping import HISTORY, PATIENCE
+from carom.dimensionless.numerics.hertz import DURATION
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, checked_type, clipped, one_of, refusal
 from carom.quantities.units import bears_unit, number, positive
 
-CONVERGED = 2000  # steps where none are asked for
+DEFAULT_STEPS = 2000
+Force = Callable[[Any, Any], tuple[float, Any]]
 FORCE, REBOUND = "def law(contact, state)", "def rebound(psi, chi)"
+NORMAL = ("hertz", "linear")  # how the elastic part of the normal force grows
+
+
+class ContactStep(NamedTuple):
+    """What a contact law is given in one time step, in SI units.
+
+    V_x, `tangential_velocity`, is that of the contact point, of the first body relative to the
+    second; the force that a law returns acts on the first body along x, so that it is negative
+    where it slows V_x > 0. Stiffnesses are those of a contact of radius a that sticks, k_n = 2 E* a
+    and k_t = 2 G* a (Mindlin 1949), which is 8 G_eff a where codes write G* = 4 G_eff; with linear
+    springs they are constants, k_t = kappa k_n.
+
+    Parameters
+    ----------
+    overlap : float
+        d in m.
+    normal_velocity : float
+        In m/s, positive while the bodies approach.
+    normal_force : float
+        F_n in N, damping included; negative where it pulls.
+    tangential_velocity : float
+        V_x in m/s.
+    time_step : float
+        In s.
+    contact_radius : float
+        a = sqrt(R* d) in m.
+    normal_stiffness, tangential_stiffness : float
+        k_n and k_t in N/m.
+    friction : float
+        Coefficient mu.
+    effective_radius : float
+        R* in m.
+    effective_modulus, effective_shear_modulus : float
+        E* and G* in Pa.
+    normal_mass, tangential_mass : float
+        m_n and m_t in kg: dv/dt = -F_n/m_n, dV_x/dt = F_t/m_t.
+
+    Examples
+    --------
+    >>> import carom
+    >>> def spring(contact, stretch):
+    ...     stretch = stretch + contact.tangential_velocity * contact.time_step
+    ...     return -contact.tangential_stiffness * stretch, stretch
+    >>> round(carom.dem.FunctionLaw(spring).rebound(0.5, 1.44), 3)
+    0.477
+    """
+
+    overlap: float
+    normal_velocity: float
+    normal_force: float
+    tangential_velocity: float
+    time_step: float
+    contact_radius: float
+    normal_stiffness: float
+    tangential_stiffness: float
+    friction: float
+    effective_radius: float
+    effective_modulus: float
+    effective_shear_modulus: float
+    normal_mass: float
+    tangential_mass: float
+
+
+class Fault(Exception):
+    """What a function did wrong: a status, and the words for it; `step` is where."""
+
+    def __init__(self, status: int, words: str) -> None:
+        super().__init__(words)
+        self.status, self.step = status, -1
+
+
+class Bodies(NamedTuple):
+    """Two bodies at one normal speed with the chi and kappa of an impact, in SI units.
+
+    G* and m_t follow from chi and kappa; `constants` are those of a ContactStep from `friction` on.
+    """
+
+    constants: tuple[float, float, float, float, float, float]
+    speed: float
+    length: float
+    force: float
+    kappa: float
+    linear: bool
+    damping: float
+
+    def normal_force(self, d: float, v: float) -> float:
+        """Return the normal force in N, its damping included."""
+        part, rate = d / self.length, v / self.speed
+        if self.linear:
+            return self.force * (SPRING * part + self.damping * rate)
+        return self.force * (part * sqrt(part) + self.damping * sqrt(sqrt(part)) * rate)
+
+
+def steel_on_steel() -> Pair:
+    """Return the pair of the published comparison: nu = 0.3, hence chi = 1.4412."""
+    return Pair(Sphere(radius=0.005, material="steel"), HalfSpace(material="steel"), friction=0.2)
+
+
+def stepped_by(
+    bodies: Bodies,
+    law: Callable[[Any, Any], tuple[float, Any]],
+    state: Any,
+    psi: float,
+    steps: int,
+    record: Array,
+) -> tuple[int, float]:
+    """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part.
+
+    The steps are those of DEM codes, velocity Verlet, as in `stepping`; nothing is compiled. The
+    record is in the units of Hertz's impact, its tangential force positive against V_x > 0.
+    """
+    friction, radius, modulus, _, m_n, m_t = bodies.constants
+    unit, limit = friction * bodies.speed / bodies.kappa, friction * bodies.force
+    whole = bodies.length / bodies.speed  # unit of time
+    dt = DURATION * whole / steps
+    d, v, along, f_n, f_t = 0.0, bodies.speed, psi * unit, 0.0, 0.0
+    for i in range(PATIENCE * steps):
+        if i < len(record):
+            normal = (i * dt / whole, d / bodies.length, v / bodies.speed)
+            record[i] = *normal, along / unit, f_n / bodies.force, -f_t / limit
+        v -= 0.5 * dt * f_n / m_n
+        along += 0.5 * dt * f_t / m_t
+        d += dt * v
+        if d <= 0.0:
+            return i + 1, along / unit
+        f_n = bodies.normal_force(d, v)
+        a = sqrt(radius * d)
+        k_n = SPRING * bodies.force / bodies.length if bodies.linear else 2.0 * modulus * a
+        try:
+            own = (d, v, f_n, along, dt, a, k_n, bodies.kappa * k_n)
+            f_t, state = law(ContactStep(*own, *bodies.constants), state)
+        except Fault as fault:
+            fault.step = i
+            raise
+        v -= 0.5 * dt * f_n / m_n
+        along += 0.5 * dt * f_t / m_t
+    return -1, float("nan")
 
 
 @dataclass(frozen=True)
@@ -52,7 +189,7 @@ class ByFunction(Law):
         try:
             self._one(psi, chi, kappa, None)
         except Fault as fault:
-            return _told(self, fault, psi, chi)
+            return _located(self, fault, psi, chi)
         return ""
 
     def _solved(
@@ -117,7 +254,7 @@ class FunctionLaw(ByFunction, ContactLaw):
 
     written: ClassVar[str] = FORCE
     symmetric: ClassVar[bool] = False  # unless the function is
-    most_steps: ClassVar[int] = CONVERGED
+    most_steps: ClassVar[int] = DEFAULT_STEPS
 
     _: KW_ONLY
     initial_state: Any = 0.0
@@ -125,6 +262,7 @@ class FunctionLaw(ByFunction, ContactLaw):
     restitution: float = 1.0
     pair: Pair | None = None
     normal_speed: float = 0.1
+    _scaled: tuple[Pair, Scales] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -137,18 +275,21 @@ class FunctionLaw(ByFunction, ContactLaw):
         if self.pair is not None:
             with_friction(self.pair, "psi is infinite without friction")
         speed = positive("normal_speed", self.normal_speed)
-        checked_scales(self._pair(), speed)
+        bodies = steel_on_steel() if self.pair is None else self.pair
         object.__setattr__(self, "normal_speed", speed)
-
-    def _pair(self) -> Pair:
-        return contact_step.steel_on_steel() if self.pair is None else self.pair
+        object.__setattr__(self, "_scaled", (bodies, checked_scales(bodies, speed)))
 
     def _bodies(self, chi: float, kappa: float) -> Bodies:
-        linear = self.normal == "linear"
-        part = 2.0 * SPRING * damping_ratio(self.restitution)
-        damping = part if linear else hertz_damping(self.restitution)
-        given: Any = {"linear": linear, "damping": damping}
-        return contact_step.bodies_of(self._pair(), self.normal_speed, chi, kappa, **given)
+        linear, damping = self.normal == "linear", hertz_damping(self.restitution)
+        if linear:
+            damping = 2.0 * SPRING * damping_ratio(self.restitution)
+        pair, scales = self._scaled
+        mass, modulus = pair.normal_mass, pair.effective_modulus
+        moduli, masses = (modulus, kappa * modulus), (mass, 0.5 * kappa * mass / chi)
+        constants = (pair.friction, pair.effective_radius, *moduli, *masses)
+        return Bodies(
+            constants, self.normal_speed, scales.length, scales.force, kappa, linear, damping
+        )
 
     def _stepped(
         self, psi: float, chi: float, kappa: float, steps: int, record: Array
@@ -157,7 +298,7 @@ class FunctionLaw(ByFunction, ContactLaw):
         try:
             bodies = self._bodies(chi, kappa)
             start = deepcopy(self.initial_state)
-            count, psi_out = contact_step.stepped_by(bodies, self._force, start, psi, steps, record)
+            count, psi_out = stepped_by(bodies, self._force, start, psi, steps, record)
         except ArithmeticError:  # of numbers that floating point cannot hold
             raise Fault(LawStatus.UNRESOLVED, LawStatus.UNRESOLVED.message) from None
         if not isfinite(psi_out):
@@ -172,17 +313,17 @@ class FunctionLaw(ByFunction, ContactLaw):
         except (TypeError, ValueError):
             words = f"returned {clipped(repr(answer))}, which is not a force and a state"
             raise Fault(LawStatus.NOT_A_NUMBER, words) from None
-        return force if _is_finite(force) else _number("force", force, "N"), after
+        return _number("force", force, "N"), after
 
     def _one(self, psi: float, chi: float, kappa: float, steps: int | None) -> float:
         nothing = np.empty((0, len(HISTORY)))
-        return self._stepped(psi, chi, kappa, steps or CONVERGED, nothing)[1]
+        return self._stepped(psi, chi, kappa, steps or DEFAULT_STEPS, nothing)[1]
 
     def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
         try:
             return self._stepped(psi, chi, kappa, steps, record)[0]
         except Fault as fault:
-            raise InputError(_told(self, fault, psi, chi)) from fault
+            raise InputError(_located(self, fault, psi, chi)) from fault
 
 
 @dataclass(frozen=True)
@@ -215,11 +356,11 @@ class FunctionRebound(ByFunction):
     written: ClassVar[str] = REBOUND
 
     def _one(self, psi: float, chi: float, kappa: float, steps: int | None) -> float:
-        answer = _answer(self.function, psi, chi)
-        return float(answer) if _is_finite(answer) else _number("psi_2", answer, "1")
+        return float(_number("psi_2", _answer(self.function, psi, chi), "1"))
 
 
-def _told(law: ByFunction, fault: Fault, psi: float, chi: float) -> str:
+def _located(law: ByFunction, fault: Fault, psi: float, chi: float) -> str:
+    """Return what went wrong in which impact, and in which time step if one is meant."""
     where = f"psi_1 = {psi:g}, chi = {chi:g}"
     where = where if fault.step < 0 else f"time step {fault.step + 1}, {where}"
     return f"{law.name.replace(':', ' ')}: {fault} ({where})"
@@ -239,26 +380,25 @@ def _check_function(function: Any, written: str) -> None:
         raise refusal("function", function, f"must take two arguments, {written}") from None
 
 
-def _answer(function: Callable[..., Any], *given: Any) -> Any:
+def _answer(function: Callable[..., Any], *arguments: Any) -> Any:
     try:
-        return function(*given)
+        return function(*arguments)
     except Exception as error:
         words = f"raised {type(error).__name__}: {clipped(str(error))}"
         raise Fault(LawStatus.RAISED, words) from error
 
 
-def _is_finite(value: Any) -> bool:
-    plain = type(value) is float or (isinstance(value, float) and not bears_unit(value))
-    return plain and isfinite(value)
-
-
 def _number(name: str, value: Any, unit: str) -> float:
     """Return what a function has returned as a finite number in a unit, or raise Fault."""
+    plain = type(value) is float or (isinstance(value, float) and not bears_unit(value))
+    if plain and isfinite(value):  # at every time step
+        return float(value)
+    shown = clipped(repr(value))
     try:
-        found = value if isinstance(value, float) and isnan(value) else number(name, value, unit)
+        real = value if isinstance(value, float) and isnan(value) else number(name, value, unit)
+        shown = str(real)
     except InputError:
-        shown = clipped(repr(value))
-        raise Fault(LawStatus.NOT_A_NUMBER, f"returned {shown} as the {name}") from None
-    if not isfinite(found):
-        raise Fault(LawStatus.NOT_A_NUMBER, f"returned {found} as the {name}")
-    return found
+        real = nan
+    if not isfinite(real):
+        raise Fault(LawStatus.NOT_A_NUMBER, f"returned {shown} as the {name}")
+    return real

@@ -5,8 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.dem.base import Law
-from carom.dem.status import Codes, status_of
+from carom.dem.base import Codes, Law, status_of
 from carom.quantities.arrays import Array
 from carom.quantities.units import within
 
@@ -18,19 +17,13 @@ class HardSphere(Law):
         psi_2 = psi_1 - min(2 chi (1 + e), (1 + beta_0) psi_1) for psi_1 >= 0
 
     With beta_0 = 0 this is rigid Coulomb friction (Routh 1891), otherwise the law with Walton's
-    three parameters (Foerster et al. 1994, (11)-(13)).
+    three parameters (Foerster et al. 1994, (11)-(13)), that of `carom.laws.WaltonLaw` in psi.
 
     Parameters
     ----------
     tangential_restitution : float
         Tangential restitution beta_0 = -psi_2/psi_1 without sliding, from -1 to 1.
-    restitution : float
-        Coefficient of restitution e, above 0 and at most 1.
-
-    Raises
-    ------
-    InputError
-        If a parameter is out of range.
+    restitution
 
     Examples
     --------

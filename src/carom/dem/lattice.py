@@ -282,22 +282,3 @@ def impact(
         v -= 0.5 * dt * ELASTIC_PULL * load[0]
         psi -= dt * ELASTIC_PULL * chi * load[1]
     return -1, np.nan
-
-
-@entry_point()
-def impacts(
-    psi: Vector,
-    chi: float,
-    steps: int,
-    alpha: float,
-    shear_alpha: float,
-    springs: int,
-    memory: Vector,
-    load: Vector,
-    nothing: Matrix,
-    out: Vector,
-) -> None:
-    """Write psi_2 of each impact, NaN where the bodies do not part; `nothing` has no rows."""
-    given = chi, steps, alpha, shear_alpha, springs, memory, load, nothing
-    for i in range(psi.size):
-        out[i] = impact(psi[i], *given)[1] if np.isfinite(psi[i]) else np.nan

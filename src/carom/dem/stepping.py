@@ -90,15 +90,3 @@ def stepped(
         v = v_half - 0.5 * dt * ELASTIC_PULL * f
         psi = psi_half - 0.5 * dt * 2.0 * ELASTIC_PULL * law.chi * t
     return -1, np.nan
-
-
-@entry_point()
-def stepped_rebounds(
-    law: Coefficients, psi: Vector, steps: int, memory: Vector, nothing: Matrix, out: Vector
-) -> None:
-    """Write psi_2 of each impact, NaN where the bodies do not part; `nothing` has no rows."""
-    for i in range(psi.size):
-        if np.isfinite(psi[i]):
-            out[i] = np.copysign(1.0, psi[i]) * stepped(law, abs(psi[i]), steps, memory, nothing)[1]
-        else:
-            out[i] = np.nan

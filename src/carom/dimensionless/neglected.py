@@ -19,21 +19,21 @@ CHI, KAPPA = Studied(0.3, 8.0), Studied(2.0 / 3.0, 1.2)  # Poisson's ratio 0.5 t
 BETA, FRICTION, RATIO = Studied(-0.5, 0.5), Studied(0.02, 1.0), Studied(0.0, 10.0)
 SPIN = Studied(0.0, 20.0)
 SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johnson 1985, 4.2)
-LIKE = 1e-9  # of Dundurs' beta: as good as none, so that friction drops out
-ROUNDING = 1e-9
-FARTHEST = 10.0  # beyond sliding, psi_1 - 4 chi + 1
+NO_BETA = 1e-9  # of Dundurs' beta: as good as none, so that friction drops out
+RANGE_ROUNDING = 1e-9
+FARTHEST_BEYOND = 10.0  # beyond sliding, psi_1 - 4 chi + 1
 LATERAL, RADIAL, COUPLED, TIED = 0.011, 0.28, 0.6, 0.34
 TURNED = 1.45
 
 
 def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
     """Return a sentence on the parameter that lies outside the study of the bounds, or nothing."""
-    known = [("chi", chi, CHI), ("kappa", kappa, KAPPA)]
-    if abs(beta) > LIKE and friction > 0.0:
-        known += [("Dundurs' beta", beta, BETA), ("friction", friction, FRICTION)]
-        known += [("Dundurs' beta over friction", abs(beta) / friction, RATIO)]
-    for name, value, (least, most) in known:
-        slack = ROUNDING * max(abs(least), abs(most))
+    studied = [("chi", chi, CHI), ("kappa", kappa, KAPPA)]
+    if abs(beta) > NO_BETA and friction > 0.0:
+        studied += [("Dundurs' beta", beta, BETA), ("friction", friction, FRICTION)]
+        studied += [("Dundurs' beta over friction", abs(beta) / friction, RATIO)]
+    for name, value, (least, most) in studied:
+        slack = RANGE_ROUNDING * max(abs(least), abs(most))
         if not least - slack <= value <= most + slack:
             return f"{name} of {value:.3g} is outside {least:.3g} to {most:.3g}"
     return ""
@@ -75,7 +75,7 @@ def beyond_sliding(chi: Any, psi: Any) -> Any:
 
     Farther out slip is along the motion ever more, and differences fall, if slowly.
     """
-    return np.clip(psi - np.maximum(4.0 * chi - 1.0, 1.0), 0.0, FARTHEST)
+    return np.clip(psi - np.maximum(4.0 * chi - 1.0, 1.0), 0.0, FARTHEST_BEYOND)
 
 
 def poisson(kappa: float) -> float:

@@ -13,12 +13,10 @@ from importlib.resources import files
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.stages import viscous_loss
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.dimensionless.numerics.arrays import Array, Counts, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.dimensionless.numerics.kernels import entry_point, kernel
@@ -31,7 +29,7 @@ from carom.dimensionless.numerics.patches import (
     leaf_at,
     sections,
 )
-from carom.dimensionless.rebounds import regime_borders
+from carom.dimensionless.rebounds import lossy_rebounds, regime_borders, solved
 from carom.quantities.refusals import refusal
 
 STORED = "data/rebounds.npz"  # the table of `stored`, made by studies/rebound_table.py

@@ -1,4 +1,4 @@
-"""Rebounds of many impacts at once."""
+"""Rebounds of many impacts at once, in threads."""
 
 from __future__ import annotations
 
@@ -9,11 +9,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.dimensionless.elastic.batch import solved
-from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.numerics.arrays import Array, Codes
+from carom.dimensionless.elastic.integration import Work
+from carom.dimensionless.elastic.motion import PSI
+from carom.dimensionless.elastic.phases import Status, new_work, run_phases
+from carom.dimensionless.elastic.record import KIND, KIND_SIGN, Record, new_record
+from carom.dimensionless.lossy import law, layout
+from carom.dimensionless.lossy.law import Loss, LossNumbers, LossyRebounds, ScaleFreeLaw
+from carom.dimensionless.lossy.springs import march
+from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic, record, work
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
+from carom.dimensionless.numerics.threads import in_blocks
 from carom.quantities.arrays import along_the_same, pure_numbers, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
@@ -21,11 +28,119 @@ from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import threads_or_none
 
 THROUGHOUT = 3  # place of the regime of gross slip throughout
+STEP_TOLERANCE = 1e-10  # of one Taylor step; keeps psi_2 to a tenth of what `rebound` promises
+LINEAR_PSI = 1e-6  # below, psi_2 is taken proportional to psi_1: rounding would cost more
+BLOCK, SMALLEST_BLOCK = 256, 8  # impacts that a thread takes at once
+
+NEARLY_ELASTIC, NEARLY_YIELDING = 1e-10, 1e-5
+LOSSY_BLOCK, SMALLEST_LOSSY_BLOCK = 64, 2  # the same with losses
+
+
+@kernel
+def outgoing(psi_1: float, chi: float, work: Work, record: Record) -> tuple[float, int]:
+    """Return psi_2 of one impact, of either sign, and its status."""
+    speed = abs(psi_1)
+    scale = 1.0
+    if 0.0 < speed < LINEAR_PSI:
+        scale = speed / LINEAR_PSI
+        speed = LINEAR_PSI
+    status = run_phases(speed, chi, STEP_TOLERANCE, work, record)
+    if status != Status.SOLVED:
+        return np.nan, status
+    result = scale * work.series[0, PSI] if speed > 0.0 else 0.0
+    return -result if np.signbit(psi_1) else result, status
+
+
+@kernel
+def code_of_phases(record: Record) -> int:
+    """Return a number that tells one sequence of phases and stretches of memory from another."""
+    code = 1 + int(record.counts[1])
+    for row in range(record.counts[2]):
+        digit = 3 * int(record.changes[row, KIND]) + int(record.changes[row, KIND_SIGN]) + 1
+        code = (code * 16 + digit) % 2147483629  # a prime: sequences of any length stay apart
+    return code
+
+
+@entry_point()
+def fill(
+    psi_1: Vector,
+    chi: Vector,
+    work: Work,
+    record: Record,
+    psi_2: Vector,
+    status: Codes,
+    sequence: Counts,
+) -> None:
+    """Write psi_2, the status and the sequence of phases of every impact."""
+    for i in range(psi_1.size):
+        record.counts[:] = 0
+        psi_2[i], status[i] = outgoing(psi_1[i], chi[i], work, record)
+        sequence[i] = code_of_phases(record)
+
+
+def solved(
+    psi_1: Array, chi: Array, threads: int | None = None
+) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
+    """Return psi_2, `Status` and a number for the sequence of phases of impacts, in threads."""
+    psi_2, status = np.empty(psi_1.size), np.empty(psi_1.size, dtype=np.int8)
+    sequence = np.empty(psi_1.size, dtype=np.int64)
+
+    def block(part: slice) -> None:
+        results = psi_2[part], status[part], sequence[part]
+        fill(psi_1[part], chi[part], new_work(), new_record(False), *results)
+
+    in_blocks(block, psi_1.size, BLOCK, SMALLEST_BLOCK, threads)
+    return psi_2, status, sequence
+
+
+def is_elastic(loss: int, parameter: Array, extra: Array) -> NDArray[np.bool_]:
+    """Tell where so little is lost, 1 - e below 2e-10, that the impact is the elastic one."""
+    if loss == Loss.PLASTIC:
+        return np.asarray(parameter > 1.0 - NEARLY_YIELDING)
+    alpha = parameter * extra if loss == Loss.RELAXING else parameter
+    return np.asarray((alpha >= 0.0) & (alpha < NEARLY_ELASTIC))
+
+
+def lossy_rebounds(
+    psi_1: Array,
+    chi: Array,
+    losses: LossNumbers,
+    threads: int | None = None,
+    tolerance: float = viscoelastic.TOLERANCE,
+) -> LossyRebounds:
+    """Return what impacts with losses come to, psi_1 and chi of one length, in threads.
+
+    NaN where the status is not SOLVED.
+    """
+    parameter, extra = (np.broadcast_to(x, psi_1.shape) for x in losses[1:])
+    elastic = is_elastic(losses.loss, parameter, extra)
+    numbers, status = np.ones((psi_1.size, layout.NUMBERS)), np.zeros(psi_1.size, dtype=np.int8)
+    numbers[:, layout.TIME], numbers[:, layout.SHEAR_LOST] = hertz.DURATION, 0.0
+    psi_2, status[elastic], _ = solved(psi_1[elastic], chi[elastic], threads)
+    numbers[elastic, layout.PSI_OUT] = psi_2
+    lossy = np.flatnonzero(~elastic)
+    columns = tuple(x[lossy] for x in (psi_1, chi, parameter, extra))
+    rows, codes = np.empty((lossy.size, layout.NUMBERS)), np.empty(lossy.size, dtype=np.int8)
+
+    def block(part: slice) -> None:
+        psis, chis, parameters, extras = (column[part] for column in columns)
+        out = rows[part], codes[part]
+        if losses.loss == Loss.VISCOUS:
+            arrays = tolerance, work.new_work(), record.new_record(False)
+            viscoelastic.fill(psis, chis, parameters, *arrays, *out)
+        else:
+            solid = int(losses.loss), parameters, extras
+            march.fill(psis, chis, *solid, march.new_work(), *out)
+
+    in_blocks(block, lossy.size, LOSSY_BLOCK, SMALLEST_LOSSY_BLOCK, threads)
+    numbers[lossy], status[lossy] = rows, codes
+    numbers[status != Status.SOLVED] = np.nan
+    return law.named(numbers, losses.loss, status)
 
 
 @known_keywords
 def rebound(
-    psi: ArrayLike,
+    psi_1: ArrayLike,
     chi: ArrayLike,
     *,
     threads: int | None = None,
@@ -43,11 +158,12 @@ def rebound(
 
     Parameters
     ----------
-    psi : array_like
+    psi_1 : array_like
         Dimensionless tangential velocity of the contact point before the impact,
         psi_1 = kappa V_x/(mu V_1), of any sign.
     chi : array_like
-        Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
+        Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; broadcast against
+        `psi_1`.
     threads : int, optional
         Number of threads, by default all cores. The result does not depend on it.
     return_status : bool
@@ -83,10 +199,10 @@ def rebound(
     def solve(psi: Array, chi: Array) -> tuple[Array, Codes, str]:
         if losses is None:
             return *solved(psi, chi, threads)[:2], ""
-        lossy = lossy_rebounds(psi, chi, scale_free(losses), threads)
+        lossy = lossy_rebounds(psi, chi, law.scale_free(losses), threads)
         return lossy.psi_out, lossy.status, ""
 
-    return answered({"psi": psi, "chi": chi}, solve, Status, return_status)
+    return answered({"psi_1": psi_1, "chi": chi}, solve, Status, return_status)
 
 
 def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
@@ -95,9 +211,9 @@ def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
     They are 1; 2 chi, up to which gross slip ends before the largest compression; and
     2 chi (1 + e) - e, from which on gross slip lasts to the end. All are 1 for chi <= 1/2.
     """
-    given = np.broadcast_arrays(np.asarray(chi, dtype=np.float64), np.asarray(restitution))
+    chi, e = np.broadcast_arrays(np.asarray(chi, dtype=np.float64), np.asarray(restitution))
     with np.errstate(over="ignore"):
-        twice, e = 2.0 * given[0], given[1]
+        twice = 2.0 * chi
         borders = np.ones_like(twice), twice, twice * (1.0 + e) - e
     return np.asarray(np.maximum(np.stack(borders, axis=-1), 1.0))
 

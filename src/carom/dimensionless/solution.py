@@ -8,20 +8,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless import states
-from carom.dimensionless.elastic import dense_output as dense, friction_work, slip
-from carom.dimensionless.elastic.annuli import memory_at
-from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
+from carom.dimensionless.elastic import dense_output as dense, record as recorded, slip
 from carom.dimensionless.elastic.motion import PSI
 from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
-from carom.dimensionless.elastic.record import CAUSE, KIND, KIND_SIGN, Record, new_record, trimmed
+from carom.dimensionless.elastic.record import Record, Steps, new_record, trimmed
 from carom.dimensionless.fields import surface
-from carom.dimensionless.fields.memory import Memory
-from carom.dimensionless.lossy.law import LossNumbers, ScaleFreeLaw, scale_free
-from carom.dimensionless.lossy.rebounds import is_elastic
+from carom.dimensionless.fields.profile import Memory
+from carom.dimensionless.lossy.law import Loss, LossNumbers, ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.lossy.solving import solve_with_losses
+from carom.dimensionless.lossy.springs.solution import solve_by_marching
+from carom.dimensionless.lossy.viscoelastic.solution import solve_viscoelastic
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.rebounds import LINEAR_PSI, STEP_TOLERANCE, is_elastic
 from carom.dimensionless.states import ContactState, History, Phase, SlipAngle, Trajectory
 from carom.quantities.causes import Cause
 from carom.quantities.keywords import known_keywords
@@ -29,8 +28,8 @@ from carom.quantities.refusals import refusal
 from carom.quantities.units import pure_number
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(48)  # in time, over a phase
-ONE = "give one number; carom.rebound takes arrays"
-SHORTEST = 1e-12  # of a phase, in units of d_max/V_1; what is shorter is rounding
+ONE_NUMBER = "give one number; carom.rebound takes arrays"
+SHORTEST_PHASE = 1e-12  # in units of d_max/V_1; what is shorter is rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +60,7 @@ class Solution(Trajectory):
     status: Status
     phases: tuple[Phase, ...]
     _record: Record = field(repr=False)
-    _times: Array = field(repr=False)
-    _moved: Array = field(repr=False)
+    _steps: Steps = field(repr=False)
 
     duration: float = field(default=hertz.DURATION, init=False, repr=False)
     max_radius: float = field(default=1.0, init=False, repr=False)
@@ -79,7 +77,7 @@ class Solution(Trajectory):
         The impact is recorded at |psi_1|, and at 1e-6 if that is smaller, because all tangential
         quantities are proportional to psi_1 below 1e-6.
         """
-        return float(np.copysign(min(1.0, abs(self.psi_in) / LINEAR), self.psi_in))
+        return float(np.copysign(min(1.0, abs(self.psi_in) / LINEAR_PSI), self.psi_in))
 
     def at(self, time: ArrayLike) -> History:
         """Return the state at the given times, one row for each.
@@ -110,9 +108,8 @@ class Solution(Trajectory):
         array([ 0.5   , -0.0419])
         """
         wanted = self._times_within(time)
-        rows = np.empty((wanted.size, dense.COLUMNS))
-        record, scale = self._record, self.scale
-        dense.sample(record.nodes, record.series, self.chi, self._times, self._moved, wanted, rows)
+        rows, scale = np.empty((wanted.size, dense.SAMPLED)), self.scale
+        dense.sample(self._steps, wanted, rows)
         return History(
             time=wanted,
             penetration=rows[:, dense.AT_D],
@@ -157,7 +154,7 @@ class Solution(Trajectory):
         True
         """
         now = states.now_at(self.at(self._time_within(time)))
-        return memory_at(self._record, self._times, self._moved, now, self.scale or 1.0)
+        return dense.memory_at(self._record, self._steps, now, self.scale or 1.0)
 
     def _contact_at(self, time: float) -> ContactState:
         rate, now = self.slip_rate(time), states.now_at(self.at(self._time_within(time)))
@@ -175,40 +172,21 @@ class Solution(Trajectory):
 
     def _friction_work(self, radii: Array) -> Array:
         out = np.empty((radii.size, 2))
-        friction_work.work(self._record.nodes, self._record.series, self.chi, radii, out)
+        slip.work(self._steps, radii, out)
         return self.scale**2 * out
 
     def _pressed(self, radii: Array) -> Array:
         out = np.empty(radii.size)
-        friction_work.pressed(radii, out)
+        slip.pressed(radii, out)
         return out
 
     def _slip_borders(self) -> Array:
-        return friction_work.borders(self._record.nodes, self._record.series)
+        return slip.borders(self._steps)
 
     def slip_rate(self, time: float) -> float:
         """Return psi - sigma v, the rate of slip far outside the stick region; zero in stick.
 
-        Parameters
-        ----------
-        time : float
-            Time in units of d_max/V_1, from 0 to `duration`.
-
-        Returns
-        -------
-        float
-            Rate of slip in units of mu V_1/kappa.
-
-        Raises
-        ------
-        InputError
-            If the time is outside the contact, or the impact is not solved.
-
-        Examples
-        --------
-        >>> import carom
-        >>> carom.solve(0.5, 1.44).slip_rate(1.0)
-        0.0
+        In mu V_1/kappa, at a time in d_max/V_1. Raises InputError as `at`.
         """
         sign = self.phase_at(time).sign
         now = states.now_at(self.at(self._time_within(time)))
@@ -246,9 +224,8 @@ class Solution(Trajectory):
         now = states.now_at(self.at(self._time_within(time)))
         places = states.places_of(radii)
         out = np.empty((places.size, 2))
-        last = int(np.searchsorted(self._times, now["time"], side="right")) - 1
-        record, b, v = self._record, now["contact_radius"], now["speed"]
-        slip.slid(record.nodes, record.series, self.chi, last, b, v, places, out)
+        last = int(np.searchsorted(self._steps.times, now["time"], side="right")) - 1
+        slip.slid(self._steps, last, now["contact_radius"], now["speed"], places, out)
         return self.scale * out
 
     def slip_angles(self, lateral_ratio: float) -> tuple[SlipAngle, ...]:
@@ -297,24 +274,17 @@ class Solution(Trajectory):
         return SlipAngle(float(np.arcsin(lateral_ratio)), float(rate @ turned / (rate @ power)))
 
 
-def solve_with(psi: float, chi: float, losses: LossNumbers) -> Solution | LossySolution:
-    """Solve one impact with losses, as elastic if that is nothing."""
-    if is_elastic(*losses):
-        return solve(psi, chi)
-    return solve_with_losses(psi, chi, losses)
+@overload
+def solve(psi_1: float, chi: float, *, losses: None = ...) -> Solution: ...
 
 
 @overload
-def solve(psi: float, chi: float, *, losses: None = ...) -> Solution: ...
-
-
-@overload
-def solve(psi: float, chi: float, *, losses: ScaleFreeLaw) -> Solution | LossySolution: ...
+def solve(psi_1: float, chi: float, *, losses: ScaleFreeLaw) -> Solution | LossySolution: ...
 
 
 @known_keywords
 def solve(
-    psi: float, chi: float, *, losses: ScaleFreeLaw | None = None
+    psi_1: float, chi: float, *, losses: ScaleFreeLaw | None = None
 ) -> Solution | LossySolution:
     """Solve one oblique impact exactly, phase by phase.
 
@@ -325,7 +295,7 @@ def solve(
 
     Parameters
     ----------
-    psi : float
+    psi_1 : float
         Dimensionless tangential velocity psi_1 = kappa V_x/(mu V_1), any finite number.
     chi : float
         Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive.
@@ -353,41 +323,64 @@ def solve(
     slip       -1 until 2.4967: slip front reaches centre
     gross slip -1 until 2.9433: separation
     """
-    psi, chi = pure_number("psi", psi, ONE), pure_number("chi", chi, ONE)
-    if losses is not None:
-        return solve_with(psi, chi, scale_free(losses))
+    psi_1, chi = pure_number("psi_1", psi_1, ONE_NUMBER), pure_number("chi", chi, ONE_NUMBER)
+    if losses is None:
+        return solve_elastic(psi_1, chi)
+    return solve_with(psi_1, chi, scale_free(losses))
+
+
+def solve_with(psi_1: float, chi: float, losses: LossNumbers) -> Solution | LossySolution:
+    """Solve one impact with losses, as elastic if that is nothing."""
+    return solve_elastic(psi_1, chi) if is_elastic(*losses) else solve_lossy(psi_1, chi, losses)
+
+
+def solve_lossy(psi_1: float, chi: float, losses: LossNumbers) -> LossySolution:
+    """Solve one impact in the way that suits its losses."""
+    viscous = losses.loss == Loss.VISCOUS
+    solution = (solve_viscoelastic if viscous else solve_by_marching)(psi_1, chi, losses)
+    _refuse_unfit(psi_1, chi, solution.status)
+    return solution
+
+
+def solve_elastic(psi_1: float, chi: float) -> Solution:
+    """Solve one elastic impact."""
     work, record = new_work(), new_record(True)
-    recorded = max(abs(psi), LINEAR) if psi != 0.0 else 0.0
-    status = Status(run_phases(recorded, chi, TOLERANCE, work, record))
-    if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
-        name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
-        raise refusal(name, value, f"not allowed: {status.message}")
+    solved_for = max(abs(psi_1), LINEAR_PSI) if psi_1 != 0.0 else 0.0
+    status = Status(run_phases(solved_for, chi, STEP_TOLERANCE, work, record))
+    _refuse_unfit(psi_1, chi, status)
     record = trimmed(record)
-    steps = len(record.nodes)
-    times, moved, changed = np.zeros(steps), np.zeros((steps + 1, 2)), np.zeros(len(record.changes))
-    dense.tabulate(record.nodes, record.series, record.changes, chi, times, moved, changed)
-    mirror = -1 if np.signbit(psi) else 1
-    phases = _phases(record.changes, changed, mirror)
+    count, change_times = len(record.nodes), np.zeros(len(record.changes))
+    steps = Steps(record.nodes, record.series, chi, np.zeros(count), np.zeros((count + 1, 2)))
+    dense.tabulate(record.changes, steps, change_times)
+    mirror = -1 if np.signbit(psi_1) else 1
+    phases = phases_of(record.changes, change_times, mirror)
     psi_out = float("nan")
     if status is Status.SOLVED:
-        psi_out = mirror * min(1.0, abs(psi) / LINEAR) * float(work.series[0, PSI])
-    return Solution(psi, chi, psi_out, status, phases, record, times, moved)
+        psi_out = mirror * min(1.0, abs(psi_1) / LINEAR_PSI) * float(work.series[0, PSI])
+    return Solution(psi_1, chi, psi_out, status, phases, record, steps)
 
 
-def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
-    found: list[Phase] = []
+def _refuse_unfit(psi_1: float, chi: float, status: Status) -> None:
+    if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
+        name, value = ("psi_1", psi_1) if status is Status.PSI_NOT_FINITE else ("chi", chi)
+        raise refusal(name, value, f"not allowed: {status.message}")
+
+
+def phases_of(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
+    """Return the phases between changes at these times; slip is as recorded, or mirrored by -1."""
+    phases: list[Phase] = []
     for i in range(len(changes) - 1):
-        kind = states.KIND_NAMES[Kind(int(changes[i, KIND]))]
-        cause = Cause(int(changes[i + 1, CAUSE])).message
-        sign = mirror * int(changes[i, KIND_SIGN])
+        kind = states.KIND_NAMES[Kind(int(changes[i, recorded.KIND]))]
+        cause = Cause(int(changes[i + 1, recorded.CAUSE])).message
+        sign = mirror * int(changes[i, recorded.KIND_SIGN])
         start, end = float(times[i]), float(times[i + 1])
-        if end - start <= SHORTEST:
+        if end - start <= SHORTEST_PHASE:
             continue
-        start = found[-1].end if found else 0.0
-        if found and (found[-1].kind, found[-1].sign) == (kind, sign):
-            start = found.pop().start
-        found.append(Phase(kind, sign, start, end, cause))
-    if found:  # what was too short to keep may have been the last
-        last = Cause(int(changes[-1, CAUSE])).message
-        found[-1] = found[-1]._replace(end=float(times[-1]), cause=last)
-    return tuple(found)
+        start = phases[-1].end if phases else 0.0
+        if phases and (phases[-1].kind, phases[-1].sign) == (kind, sign):
+            start = phases.pop().start
+        phases.append(Phase(kind, sign, start, end, cause))
+    if phases:  # what was too short to keep may have been the last
+        last = Cause(int(changes[-1, recorded.CAUSE])).message
+        phases[-1] = phases[-1]._replace(end=float(times[-1]), cause=last)
+    return tuple(phases)

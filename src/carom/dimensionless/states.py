@@ -94,29 +94,9 @@ class Trajectory(ABC):
         """Return the contact at a time within the impact."""
 
     def contact_at(self, time: float) -> ContactState:
-        """Return the contact at a given time, with its radius, tractions and slip.
+        """Return the contact at a time in d_max/V_1: its radius, tractions and slip.
 
-        Parameters
-        ----------
-        time : float
-            Time in units of d_max/V_1, from 0 to `duration`.
-
-        Returns
-        -------
-        ContactState
-            The `radius` of the edge in units of sqrt(R* d_max), the density of the pressure there,
-            `rim`, a `profile` of g and q, and the functions `slid` and `slipping` of radii.
-
-        Raises
-        ------
-        InputError
-            If the time is outside the contact, or the impact is not solved.
-
-        Examples
-        --------
-        >>> import carom
-        >>> round(float(carom.solve(0.5, 1.44).contact_at(1.0).radius), 4)
-        0.9304
+        Raises InputError if the time is outside the contact, or the impact is not solved.
         """
         return self._contact_at(self._time_within(time))
 
@@ -125,28 +105,9 @@ class Trajectory(ABC):
         """Return when the edge of the contact first passed radii that it reaches."""
 
     def touched(self, radii: ArrayLike) -> Array:
-        """Return the times at which the edge of the growing contact passed given radii.
+        """Return the times in d_max/V_1 at which the edge of the growing contact passed radii.
 
-        Parameters
-        ----------
-        radii : array_like, shape (n,)
-            Distances from the centre in units of sqrt(R* d_max), none above `max_radius`.
-
-        Returns
-        -------
-        numpy.ndarray, shape (n,)
-            Times in units of d_max/V_1.
-
-        Raises
-        ------
-        InputError
-            If a radius is negative or larger than the contact becomes.
-
-        Examples
-        --------
-        >>> import carom
-        >>> carom.solve(0.5, 1.44).touched([0.5]).round(4)
-        array([0.2511])
+        Radii are in sqrt(R* d_max). Raises InputError for one that the contact never reaches.
         """
         places = places_of(radii)
         if np.any(places > self.max_radius):
@@ -167,31 +128,11 @@ class Trajectory(ABC):
         """Return rising radii, from 0 to `max_radius`, between which the work is smooth."""
 
     def friction_work(self, radii: ArrayLike) -> Array:
-        """Return the work of friction per area at given radii, over the whole impact.
+        """Return the work of friction per area at given radii, over the whole impact, (n, 2).
 
         It is the integral over time of the traction times the rate of slip along x,
-        W_0 - lambda W_2 cos 2 theta.
-
-        Parameters
-        ----------
-        radii : array_like, shape (n,)
-            Distances from the centre in units of sqrt(R* d_max).
-
-        Returns
-        -------
-        numpy.ndarray, shape (n, 2)
-            W_0 and W_2 in units of mu^2 p_0 d_max/kappa, zero where the bodies never touch.
-
-        Raises
-        ------
-        InputError
-            If a radius is negative, or the impact is not solved.
-
-        Examples
-        --------
-        >>> import carom
-        >>> carom.solve(0.5, 1.44).friction_work([0.0, 0.8])[:, 0].round(6)
-        array([0.019084, 0.031222])
+        W_0 - lambda W_2 cos 2 theta, in mu^2 p_0 d_max/kappa; zero where the bodies never touch.
+        Raises InputError if a radius is negative, or the impact is not solved.
         """
         self._check_solved()
         return self._friction_work(places_of(radii))
@@ -200,28 +141,7 @@ class Trajectory(ABC):
         """Return the integral of the pressure over the time of the impact at given radii.
 
         Without friction the bodies slide at a constant speed, and wear is proportional to this
-        integral times the speed.
-
-        Parameters
-        ----------
-        radii : array_like, shape (n,)
-            Distances from the centre in units of sqrt(R* d_max).
-
-        Returns
-        -------
-        numpy.ndarray, shape (n,)
-            The integral in units of p_0 d_max/V_1.
-
-        Raises
-        ------
-        InputError
-            If a radius is negative, or the impact is not solved.
-
-        Examples
-        --------
-        >>> import carom
-        >>> carom.solve(0.5, 1.44).pressed([0.0, 0.8]).round(4)
-        array([2.2196, 0.7413])
+        integral, in p_0 d_max/V_1, times the speed. Raises InputError as `friction_work`.
         """
         self._check_solved()
         return self._pressed(places_of(radii))

@@ -3,7 +3,6 @@
 All is as JSON holds it, null for what is no finite number.
 """
 
-from math import isfinite
 from time import monotonic
 from typing import Any
 
@@ -15,19 +14,20 @@ from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
 from carom.explorer.scenes import Scene, scene_of
 from carom.explorer.views import View
 from carom.quantities.arrays import Array
+from carom.quantities.units import or_none
 
-PROMPT = 0.06  # s from the question on, until which an answer waits for contact laws
-DIGITS = 6  # of what is carried over from bodies to numbers
-FINE = 7  # decimals of a curve, in which one may zoom
+PROMPT_SECONDS = 0.06  # from the question on, until which an answer waits for contact laws
+CARRIED_DIGITS = 6
+CURVE_DECIMALS = 7  # one may zoom
 
 Answer = dict[str, Any]
 
 
 def answer(view: View) -> Answer:
     """Return what there is to see of a view, or raise Refused."""
-    end = monotonic() + PROMPT
+    end = monotonic() + PROMPT_SECONDS
     scene = scene_of(view)
-    told: Answer = {
+    shown: Answer = {
         "query": view.query(),
         "carried": _carried(view, scene),
         "scene": scene.moving(),
@@ -38,19 +38,19 @@ def answer(view: View) -> Answer:
         "findings": scene.findings,
     }
     laws = law_curves(scene, view.laid_over, max(0.0, end - monotonic()))
-    return told | _laws(view, scene, laws, "late")
+    return shown | _laws(view, scene, laws, "late")
 
 
 def laws(view: View) -> Answer:
     """Return the contact laws of a view once they are solved, "slow" those that are not."""
     scene = scene_of(view)
-    found = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
-    return _laws(view, scene, found, "slow")
+    curves = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
+    return _laws(view, scene, curves, "slow")
 
 
-def _laws(view: View, scene: Scene, found: list[LawCurve | None], left: str) -> Answer:
-    missing = [label for label, law in zip(view.laid_over, found, strict=True) if law is None]
-    return {"laws": [_law(scene, law) for law in found if law is not None], left: missing}
+def _laws(view: View, scene: Scene, curves: list[LawCurve | None], left: str) -> Answer:
+    missing = [label for label, law in zip(view.laid_over, curves, strict=True) if law is None]
+    return {"laws": [_law(scene, law) for law in curves if law is not None], left: missing}
 
 
 def _law(scene: Scene, law: LawCurve) -> Answer:
@@ -58,8 +58,8 @@ def _law(scene: Scene, law: LawCurve) -> Answer:
         "label": law.label,
         "psi": _fine(law.psi_in),
         "out": _fine(law.psi_out),
-        "at": _number(law.at),
-        "off": _number(law.at - scene.psi_out),
+        "at": or_none(law.at),
+        "off": or_none(law.at - scene.psi_out),
         "share": _fine(law.share),
         "force": _fine(law.force),
     }
@@ -70,7 +70,7 @@ def _carried(view: View, scene: Scene) -> Answer | None:
     if view.in_numbers or not scene.rubs:
         return None
     numbers = {"psi": scene.psi_in, "chi": scene.chi}
-    return {name: float(f"{number:.{DIGITS}g}") for name, number in numbers.items()}
+    return {name: float(f"{number:.{CARRIED_DIGITS}g}") for name, number in numbers.items()}
 
 
 def _history(scene: Scene) -> Answer:
@@ -93,10 +93,5 @@ def _curve(scene: Scene) -> Answer:
     }
 
 
-def _number(value: float) -> float | None:
-    return value if isfinite(value) else None
-
-
 def _fine(values: Array) -> list[float | None]:
-    found: list[float | None] = np.round(values, FINE).tolist()
-    return found if np.isfinite(values).all() else [_number(value) for value in found]  # type: ignore[arg-type]
+    return [or_none(value) for value in np.round(values, CURVE_DECIMALS).tolist()]

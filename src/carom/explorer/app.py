@@ -3,6 +3,7 @@
 import json
 import logging
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
@@ -12,11 +13,10 @@ from werkzeug.exceptions import HTTPException
 
 from carom.datasets.shipped import names as dataset_names
 from carom.explorer import answers
-from carom.explorer.knobs import WORDS
-from carom.explorer.limits import LARGEST_REQUEST, Busy, Refused
+from carom.explorer.limits import LARGEST_REQUEST, Busy
 from carom.explorer.page import page, plotly_file
 from carom.explorer.scripts import script
-from carom.explorer.views import View
+from carom.explorer.views import FIELDS, Refused, View
 from carom.explorer.warming import Preparing, Warming
 from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError
@@ -32,24 +32,16 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
-TYPES = {
-    ".csv": "text/csv; charset=utf-8",
-    ".nc": "application/x-netcdf",
-    ".png": "image/png",
-    ".svg": "image/svg+xml",
-    ".pdf": "application/pdf",
-    ".py": "text/x-python; charset=utf-8",
-}
 PICTURES = ("curve", "history", "contact", "course")
-WRITTEN = (  # files of a view that take time
+WRITTEN_FILES = (  # of a view, which take time
     *("template.csv", "history.csv", "history.nc"),
     *(f"{picture}.{kind}" for picture in PICTURES for kind in ("png", "svg", "pdf")),
 )
 UPLOADED = ("contents", "name", "bodies")
 ASSETS = Path(__file__).with_name("assets")
-FOR_THE_PAGE = ("/answer", "/laws", "/fit")  # told of errors as JSON, others as text
-AGAIN = 1  # s after which to ask again for what is being compiled
-LOGGED = 300  # characters of what went wrong
+ANSWERED_IN_JSON = ("/answer", "/laws", "/fit")  # whose errors are JSON, of others text
+SECONDS_UNTIL_AGAIN = 1  # for what is being compiled
+MOST_LOGGED = 300  # characters
 
 log = logging.getLogger(__name__)
 
@@ -114,15 +106,14 @@ def _add_files(server: Flask, worker: Worker) -> None:
 
     @server.get("/<name>")
     def file(name: str) -> Response:
-        if name not in ("view.py", *WRITTEN):
+        if name not in ("view.py", *WRITTEN_FILES):
             abort(404)
         view, time = View.of(_query()), _time_of(_query())
         if name == "view.py":
             content = script(view, time).encode()
         else:
             content = worker.file(name, view.query(), time)
-        attached = {"Content-Disposition": f"attachment; filename={name}"}
-        return Response(content, headers=attached, content_type=TYPES[Path(name).suffix])
+        return send_file(BytesIO(content), as_attachment=True, download_name=name)
 
 
 def _time_of(query: str) -> float:
@@ -162,15 +153,15 @@ def _query() -> str:
     return request.query_string.decode("ascii", "replace")
 
 
-def _json(told: Any, status: int = 200) -> Response:
-    content = json.dumps(told, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+def _json(answer: Any, status: int = 200) -> Response:
+    content = json.dumps(answer, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return Response(content.encode("utf-8", "replace"), status, content_type="application/json")
 
 
 def _one_line(error: Exception) -> Response:
     """Return an error of a request in a line, with the field that it is about."""
     if isinstance(error, Preparing):
-        return _refusal("", str(error), 503, again=AGAIN, percent=error.percent)
+        return _refusal("", str(error), 503, again=SECONDS_UNTIL_AGAIN, percent=error.percent)
     if isinstance(error, Refused):
         return _refusal(error.field, error.message)
     if isinstance(error, InputError):
@@ -178,17 +169,17 @@ def _one_line(error: Exception) -> Response:
     if isinstance(error, Busy):
         return _refusal("", str(error), 503)
     if isinstance(error, RecursionError) and request.is_json:
-        return _told("what was sent is nested too deeply", 400)
+        return _line("what was sent is nested too deeply", 400)
     if isinstance(error, HTTPException):
-        return _told(f"{error.code}: {error.name}", error.code or 500)
-    log.error("%s: %s", type(error).__name__, " ".join(str(error).split())[:LOGGED])
-    return _told(f"failed, {type(error).__name__}", 500)
+        return _line(f"{error.code}: {error.name}", error.code or 500)
+    log.error("%s: %s", type(error).__name__, " ".join(str(error).split())[:MOST_LOGGED])
+    return _line(f"failed, {type(error).__name__}", 500)
 
 
-def _parted(told: str) -> tuple[str, str]:
+def _parted(refusal: str) -> tuple[str, str]:
     """Return the field that a refusal of the library begins with, and the rest of it."""
-    name, colon, rest = told.partition(": ")
-    return (name, rest) if colon and name in WORDS else ("", told)
+    name, colon, rest = refusal.partition(": ")
+    return (name, rest) if colon and name in FIELDS else ("", refusal)
 
 
 def _refusal(field: str, message: str, status: int = 400, **more: Any) -> Response:
@@ -196,14 +187,13 @@ def _refusal(field: str, message: str, status: int = 400, **more: Any) -> Respon
 
     The page gets it with the status of an answer, as browsers log all others as errors.
     """
-    if request.path in FOR_THE_PAGE:
+    if request.path in ANSWERED_IN_JSON:
         return _json({"field": field, "message": message, **more})
-    words = WORDS.get(field)
-    return _told(f"{words.label}: {message}" if words else message, status)
+    return _line(f"{FIELDS[field].label}: {message}" if field else message, status)
 
 
-def _told(message: str, status: int) -> Response:
-    if request.path in FOR_THE_PAGE:
+def _line(message: str, status: int) -> Response:
+    if request.path in ANSWERED_IN_JSON:
         return _json({"field": "", "message": message}, status)
     content = f"carom: {message}\n".encode("utf-8", "replace")
     return Response(content, status, content_type="text/plain; charset=utf-8")

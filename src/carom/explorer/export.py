@@ -1,20 +1,19 @@
 """A copy of the page as a folder of files, which needs neither this program nor a network."""
 
 import os
-import re
 import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
-from carom.explorer.page import asset, assets_of, page, plotly_file
-from carom.explorer.tables import IMPACTS, tables
+from carom.explorer.page import ASSETS, asset, assets_in, page, plotly_file
+from carom.explorer.tables import SOLVED_IMPACTS, tables
 from carom.io.paths import checked_path
 from carom.io.progress import Progress, advancing
 from carom.quantities.refusals import InputError, refusal
 
-PAGE, PLOTLY, ASSETS = "index.html", "plotly.min.js", "assets"
-MADE = (ASSETS, PLOTLY, PAGE)  # what a copy holds
-MARK = 'id="config"'  # in its page
+PAGE, PLOTLY = "index.html", "plotly.min.js"
+COPIED = (ASSETS, PLOTLY, PAGE)
+COPY_MARK = 'id="config"'  # in its page
 
 
 class Copy(NamedTuple):
@@ -61,22 +60,23 @@ def _is_ours(folder: Path) -> bool:
     held = {each.name for each in folder.iterdir()}
     if not held:
         return True
-    if held != set(MADE) or any(each.is_symlink() for each in folder.iterdir()):
+    if held != set(COPIED) or any(each.is_symlink() for each in folder.iterdir()):
         return False
-    told = (folder / PAGE).read_text(encoding="utf-8", errors="replace")
-    named = set(re.findall(rf'"{ASSETS}/([^"]+)"', told))
-    return MARK in told and {each.name for each in (folder / ASSETS).iterdir()} <= named
+    html = (folder / PAGE).read_text(encoding="utf-8", errors="replace")
+    parts = {each.name for each in (folder / ASSETS).iterdir()}
+    return COPY_MARK in html and parts <= {*assets_in(html)}
 
 
 def _parts(progress: Progress) -> dict[str, bytes]:
     """Return the content of all files by their places."""
-    found = {PAGE: page(static=True).encode()}
-    with advancing("tabulating the rebounds", IMPACTS, progress, unit="impacts") as advance:
+    html = page(static=True)
+    parts = {PAGE: html.encode()}
+    with advancing("tabulating the rebounds", SOLVED_IMPACTS, progress, unit="impacts") as advance:
         script = tables(advance)
-    for name in assets_of(static=True):
-        found[f"{ASSETS}/{name}"] = script.encode() if name == "tables.js" else asset(name)
-    found[PLOTLY] = plotly_file().read_bytes()
-    return found
+    for name in assets_in(html):
+        parts[f"{ASSETS}/{name}"] = script.encode() if name == "tables.js" else asset(name)
+    parts[PLOTLY] = plotly_file().read_bytes()
+    return parts
 
 
 def _replace(real: Path, parts: dict[str, bytes]) -> None:
@@ -94,11 +94,11 @@ def _replace(real: Path, parts: dict[str, bytes]) -> None:
             return
         old.mkdir()
         try:
-            for name in MADE:
+            for name in COPIED:
                 _moved(real / name, old / name)
                 _moved(made / name, real / name)
         except BaseException:
-            for name in MADE:
+            for name in COPIED:
                 if not (made / name).exists():
                     _moved(real / name, made / name)
                 _moved(old / name, real / name)

@@ -12,11 +12,19 @@ from carom.bodies.pairs import Scales
 from carom.contacts.contact import contact_in_impact
 from carom.contacts.fields import surface_fields
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.solution import Solution, solve
+from carom.dimensionless.solution import solve
 from carom.explorer.limits import LAW_SECONDS, Busy
 from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
-from carom.explorer.scenes import OF_CONTACT, TIMES, Scene, impact_of, scene_of
-from carom.explorer.views import View
+from carom.explorer.scenes import (
+    ENERGIES_OF_CONTACT,
+    FORCE_SCALE,
+    HISTORY_TIMES,
+    Scene,
+    columns_of_numbers,
+    impact_of,
+    scene_of,
+)
+from carom.explorer.views import PAGE, View
 from carom.fitting.template import TEMPLATE
 from carom.impacts.curves import curve
 from carom.io.files import save
@@ -41,93 +49,52 @@ from carom.plots.impact import (
 from carom.plots.legends import legend_above, legend_outside
 from carom.verify.errors import losses_of
 
-LENGTH, TIME = r"$[R^* d_{max}]^{1/2}$", "$d_{max}/V_1$"
-UNITS = {  # of what is told without units, as figures write them
-    **dict.fromkeys(("time", "phase_start", "phase_end"), TIME),
-    **dict.fromkeys(("x", "y", "contact_radius", "stick_radius"), LENGTH),
-    **dict.fromkeys(("tangential_force", "normal_force"), r"$\mu F_{max}$"),
-    **dict.fromkeys(("contact_velocity", "slip_velocity_x"), r"$\mu V_1/\kappa$"),
-    "normal_velocity": "$V_1$",
-    "pressure": "$p_0$",
-    "traction_x": r"$\mu p_0$",
-}
 SCALES = Scales(
     **dict.fromkeys(("length", "radius", "force", "pressure", "tangential_length"), 1.0),
-    **dict.fromkeys(("time", "energy", "tangential_speed"), 1.0),
-    tangential_force=1.5,  # Q = (2/3) F_x/(mu F_max)
+    **dict.fromkeys(("speed", "time", "energy", "tangential_speed"), 1.0),
+    tangential_force=FORCE_SCALE,
 )
 TANGENTIAL = {  # energies that psi_1 and chi tell, with the looks of what they are part of
     name: (words, *ENERGIES.get(name, ENERGIES["tangential_kinetic_energy"])[1:])
-    for name, words in OF_CONTACT.items()
+    for name, words in ENERGIES_OF_CONTACT.items()
     if name not in LOST
 }
-ENTRY = 1.8  # mm that a law adds to the legend of the rebound curve
-MEANINGS = {  # of the columns of `Solution.history`
-    "penetration": "penetration, in d_max",
-    "speed": "normal speed of approach, in V_1",
-    "psi": "velocity of the contact point, in mu V_1/kappa",
-    "displacement": "tangential displacement, in mu d_max/kappa",
-    "force": "(2/3) F_x/(mu P_max)",
-    "stick_radius": "radius of the stick zone, in sqrt(R* d_max)",
-    "contact_radius": "radius of the contact, in sqrt(R* d_max)",
-    "stored": "tangential elastic energy; that of motion is psi^2/2",
-    "dissipated": "work of friction, as above",
-    "normal_force": "F_z/P_max",
-    "normal_stored": "normal elastic energy, in that of the impact",
-    "shear_lost": "what viscosity took in shear, in psi^2/2",
-    "normal_lost": "what the normal motion lost, as above",
-}
+ENTRY_HEIGHT = 1.8  # mm that a law adds to the legend of the rebound curve
 
 
 class UnitBodies(NamedTuple):
-    """Bodies of which every scale is 1, and whose slip is along x alone."""
+    """Bodies whose slip is along x alone."""
 
     friction: float = 1.0
     lateral_ratio: float = 0.0
-
-    def scales(self, _: float) -> Scales:
-        """Return the scales of an impact of these bodies."""
-        return SCALES
 
 
 class NumbersImpact:
     """An impact that psi_1 and chi tell, as figures take it: each quantity in a unit of theory."""
 
-    def __init__(self, solution: Solution | LossySolution) -> None:
-        self._solution = solution
+    def __init__(self, view: View) -> None:
+        self.solution = solve(view.psi, view.chi, losses=view.losses)
+        self.duration = self.solution.duration
 
-    def history(self, n: int = TIMES) -> xr.Dataset:
+    def history(self, n: int = HISTORY_TIMES) -> xr.Dataset:
         """Return the impact at n times."""
-        solution = self._solution
-        told = solution.history(n)
-        columns = {
-            "time": told.time,
-            "normal_force": told.normal_force,
-            "tangential_force": SCALES.tangential_force * told.force,
-            "contact_velocity": told.psi,
-            "normal_velocity": told.speed,
-            "contact_radius": told.contact_radius,
-            "stick_radius": told.stick_radius,
-            "contact_kinetic_energy": 0.5 * told.psi**2,
-            "tangential_elastic_energy": told.stored,
-            "frictional_work": told.dissipated,
-            "shear_loss": told.shear_lost,
-        }
+        solution = self.solution
         numbers = {"friction": 1.0, "max_pressure": solution.max_pressure}
-        given: dict[str, Any] = {"psi_in": solution.psi_in, "chi": solution.chi}
+        inputs: dict[str, Any] = {"psi_in": solution.psi_in, "chi": solution.chi}
         if isinstance(solution, LossySolution):
-            given["losses"] = solution.losses._asdict()
-        return _in_theory(labelled(columns, numbers, solution.phases, given))
+            inputs["losses"] = solution.losses._asdict()
+        columns = columns_of_numbers(solution.history(n))
+        return _in_theory(labelled(columns, numbers, solution.phases, inputs))
 
     def fields(self, time: float) -> xr.Dataset:
         """Return what the surface of the contact does at a time, in d_max/V_1."""
         bodies: Any = UnitBodies()
-        contact = contact_in_impact(bodies, 1.0, 0.0, self._solution, time, {})
+        contact = contact_in_impact(bodies, SCALES, 0.0, self.solution, time, {})
         return _in_theory(surface_fields(contact))
 
 
 def _in_theory(dataset: xr.Dataset) -> xr.Dataset:
-    for name, unit in UNITS.items():
+    for name, unit in PAGE["units_of_numbers"].items():
         if name in dataset.variables:
             dataset.variables[name].attrs["units"] = unit
     return dataset
@@ -136,8 +103,8 @@ def _in_theory(dataset: xr.Dataset) -> xr.Dataset:
 def history_figure(view: View, _: float = 0.0) -> Figure:
     """Return forces, velocities, radii and energies against time."""
     if not view.in_numbers:
-        return plot_impact(impact_of(view).history(TIMES))
-    return _without_units(_numbers(view).history())
+        return plot_impact(impact_of(view).history(HISTORY_TIMES))
+    return _without_units(NumbersImpact(view).history())
 
 
 @drawing.styled
@@ -157,30 +124,26 @@ def _without_units(history: xr.Dataset) -> Figure:
 
 def contact_figure(view: View, time: float) -> Figure:
     """Return the contact from above at a time that is a share of the duration."""
-    if view.in_numbers:
-        solution = solve(view.psi, view.chi, losses=view.losses)
-        return plot_patch(NumbersImpact(solution).fields(time * solution.duration))
-    hit = impact_of(view)
+    hit = _impact(view)
     return plot_patch(hit.fields(time * hit.duration))
 
 
 def course_figure(view: View, _: float = 0.0) -> Figure:
     """Return the contact at several instants, above the course of the force."""
-    return plot_contact(_numbers(view) if view.in_numbers else impact_of(view))
+    return plot_contact(_impact(view))
 
 
-def _numbers(view: View) -> NumbersImpact:
-    return NumbersImpact(solve(view.psi, view.chi, losses=view.losses))
+def _impact(view: View) -> Any:
+    return NumbersImpact(view) if view.in_numbers else impact_of(view)
 
 
 def curve_figure(view: View, _: float = 0.0) -> Figure:
     """Return the rebound curve with the contact laws of the view; Busy if one takes too long."""
     scene = scene_of(view)
-    found = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
-    laws = [law for law in found if law is not None]
-    if len(laws) < len(found):
+    laws = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
+    if None in laws:
         raise Busy
-    return drawn_curve(scene, laws)
+    return drawn_curve(scene, [law for law in laws if law is not None])
 
 
 @drawing.styled
@@ -199,7 +162,7 @@ def drawn_curve(scene: Scene, laws: list[LawCurve]) -> Figure:
         point: Any = {"marker": "o", "ls": "", "color": drawing.BLACK, "label": "this impact"}
         entries += axis.plot(scene.psi_in, scene.psi_out, **point)
     if laws:  # whose names are long
-        height = figure.get_figheight() + ENTRY * drawing.MM * len(laws)
+        height = figure.get_figheight() + ENTRY_HEIGHT * drawing.MM * len(laws)
         figure.set_size_inches(1.5 * figure.get_figwidth(), height)
     legend_above(axis, 2, handles=entries)
     return figure
@@ -227,12 +190,12 @@ def write(name: str, view: View, time: float, folder: Path) -> Path:
 def history_of(view: View) -> xr.Dataset:
     """Return the history of a view, without units if it tells psi_1 and chi."""
     if not view.in_numbers:
-        return impact_of(view).history(TIMES)
-    solution = solve(view.psi, view.chi, losses=view.losses)
-    history = solution.history(TIMES)
+        return impact_of(view).history(HISTORY_TIMES)
+    solution = NumbersImpact(view).solution
+    history = solution.history(HISTORY_TIMES)
     columns: dict[str, Any] = {
         name: ("time", getattr(history, name), {"long_name": meaning, "units": "1"})
-        for name, meaning in MEANINGS.items()
+        for name, meaning in PAGE["columns_of_numbers"].items()
     }
     time = ("time", history.time, {"long_name": "time, in d_max/V_1", "units": "1"})
     numbers = {"psi_in": view.psi, "chi": view.chi, "psi_out": solution.psi_out}

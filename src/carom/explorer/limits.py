@@ -1,10 +1,8 @@
-"""What a request may take of the page: every limit, and how what goes beyond it is refused."""
-
-from carom.quantities.refusals import InputError
+"""What a request may take of the page: every limit."""
 
 LONGEST_LINK = 4000  # characters
 LARGEST_UPLOAD = 1_000_000  # bytes
-MOST_ROWS = 2000  # of an upload
+MOST_UPLOADED_ROWS = 2000
 LARGEST_HEAD = 1 << 16  # bytes of a request, besides what it carries
 LARGEST_REQUEST = 2 * LARGEST_UPLOAD  # a file travels in more characters than it has
 
@@ -14,15 +12,15 @@ WORK_MEMORY = 1 << 30  # bytes, besides what a process that fits or writes has b
 START_SECONDS = 300.0  # until such a process is ready; it may have to compile
 
 LAW_SECONDS = 20.0  # that contact laws are waited for; the slowest takes five, at chi = 10
-FOLLOWERS = 16  # requests that wait for contact laws; the latest count
+MOST_FOLLOWERS = 16  # requests that wait for contact laws; the latest count
 
-WAITING = 4  # requests that wait until another's upload is fitted, or its file written
+MOST_WAITING = 4  # requests that wait until another's upload is fitted, or its file written
 WAITING_SECONDS = 20.0  # that they do
 
-CONNECTIONS = 200  # at once
-QUEUED = 128  # connections that are not accepted yet: a burst of so many drives nobody out
+MOST_CONNECTIONS = 200  # at once
+MOST_QUEUED = 128  # connections that are not accepted yet: a burst of so many drives nobody out
 IDLE_SECONDS = 60.0  # that a connection may be silent
-THREADS = 2 * (FOLLOWERS + 2 * (1 + WAITING))  # twice as many as ever wait for something
+THREADS = 2 * (MOST_FOLLOWERS + 2 * (1 + MOST_WAITING))  # twice as many as ever wait for something
 
 
 class Busy(RuntimeError):
@@ -32,18 +30,3 @@ class Busy(RuntimeError):
 
     def __str__(self) -> str:
         return self.said
-
-
-class Refused(InputError):
-    """A field of the page cannot be what it is, in the page's own words; "" is the whole link.
-
-    Its text begins with the label of the field, for those who have no field to look at.
-    """
-
-    def __init__(self, field: str, message: str, label: str = "") -> None:
-        super().__init__(f"{label}: {message}" if label else message)
-        self.field, self.label = field, label
-        self.message = " ".join(message.splitlines())
-
-    def __reduce__(self) -> tuple[type["Refused"], tuple[str, str, str]]:
-        return Refused, (self.field, self.message, self.label)

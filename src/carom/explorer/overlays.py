@@ -11,23 +11,22 @@ import numpy as np
 
 from carom.dem.base import ContactLaw, Law
 from carom.dimensionless.lossy.law import scale_free
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.threads import available_cores
-from carom.dimensionless.rebounds import rebound
-from carom.explorer.limits import FOLLOWERS, LAW_SECONDS
+from carom.dimensionless.rebounds import lossy_rebounds, rebound
+from carom.explorer.limits import LAW_SECONDS, MOST_FOLLOWERS
 from carom.explorer.scenes import Scene
 from carom.quantities.arrays import Array
-from carom.verify.entries import named
-from carom.verify.errors import damped, losses_of
+from carom.verify.entries import damped, named
+from carom.verify.errors import losses_of
 
 POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 81, 61
-DRAWN = 1e-8  # tolerance of a curve with losses, of which a point takes 0.6 ms
-BEYOND = 1.15  # of the present psi_1, that is shown
-STEPS = 400  # of a law's force in time
-EVERY = 2  # of these that is drawn
-KEPT = 256  # curves that are remembered
-GLANCE = 0.1  # s
-DIGITS = 12  # of what a curve is remembered by
+CURVE_TOLERANCE = 1e-8  # with losses, where a point takes 0.6 ms
+MARGIN = 1.15  # beyond the present psi_1
+FORCE_STEPS = 400
+DRAWN_EVERY = 2  # of these steps
+KEPT_CURVES = 256
+GLANCE_SECONDS = 0.1
+KEY_DIGITS = 12  # by which curves are kept
 
 _solvers = ThreadPoolExecutor(max(1, available_cores() - 1), "carom-law")  # answers go first
 _at_work: dict[tuple[Scene, str], Future["LawCurve"]] = {}
@@ -43,11 +42,11 @@ class Followers:
     def joined(self) -> Callable[[], bool]:
         """Return what tells a request that joins when it is to give up."""
         number = self._latest = next(self._numbers)
-        return lambda: number <= self._latest - FOLLOWERS
+        return lambda: number <= self._latest - MOST_FOLLOWERS
 
     def dismiss(self) -> None:
         """Let all give up."""
-        for _ in range(FOLLOWERS):
+        for _ in range(MOST_FOLLOWERS):
             self.joined()
 
 
@@ -68,7 +67,7 @@ class LawCurve:
 
 def exact_curve(scene: Scene) -> tuple[Array, Array]:
     """Return psi_1 and psi_2 of the exact curve, over the present point and all regimes."""
-    psi, out = _exact(round(scene.chi, DIGITS), scene.restitution)
+    psi, out = _exact(round(scene.chi, KEY_DIGITS), scene.restitution)
     high = _span(scene)[1]
     if high > psi[-1]:  # the curve is straight there
         psi, out = np.append(psi, high), np.append(out, out[-1] + (high - psi[-1]))
@@ -89,7 +88,7 @@ def law_curves(
     end = monotonic() + seconds
     begun = [_begun(scene, label) for label in labels]
     while True:
-        _, late = wait(begun, max(0.0, min(GLANCE, end - monotonic())))
+        _, late = wait(begun, max(0.0, min(GLANCE_SECONDS, end - monotonic())))
         if not late or monotonic() >= end or given_up():
             break
         rows = zip(labels, begun, strict=True)  # another request may have cancelled what it shares
@@ -101,14 +100,14 @@ def law_curves(
 
 def _begun(scene: Scene, label: str) -> Future[LawCurve]:
     """Return a law at work, only once even if it is asked for again meanwhile."""
-    found = _at_work.get((scene, label))
-    if found is None or found.cancelled():
-        found = _at_work[scene, label] = _solvers.submit(_of_law, scene, label)
-        found.add_done_callback(lambda _: _at_work.pop((scene, label), None))
-    return found
+    curve = _at_work.get((scene, label))
+    if curve is None or curve.cancelled():
+        curve = _at_work[scene, label] = _solvers.submit(_of_law, scene, label)
+        curve.add_done_callback(lambda _: _at_work.pop((scene, label), None))
+    return curve
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=KEPT_CURVES)
 def _exact(chi: float, restitution: float) -> tuple[Array, Array]:
     """Return psi_1 and psi_2 over all regimes, psi_1 >= 0."""
     losses = losses_of(restitution)
@@ -116,25 +115,25 @@ def _exact(chi: float, restitution: float) -> tuple[Array, Array]:
     psi = np.linspace(0.0, _regimes(chi), points)
     if losses is None:
         return psi, rebound(psi, chi)
-    given = psi, np.full(psi.size, chi), scale_free(losses)
-    return psi, lossy_rebounds(*given, tolerance=DRAWN).psi_out
+    chis = np.full(psi.size, chi)
+    return psi, lossy_rebounds(psi, chis, scale_free(losses), tolerance=CURVE_TOLERANCE).psi_out
 
 
 def _whole(scene: Scene, psi: Array, out: Array) -> tuple[Array, Array]:
-    """Return a curve, known for psi_1 >= 0, as far as it is drawn."""
+    """Return a curve that is there for psi_1 >= 0, as far as it is drawn."""
     low, high = _span(scene)
     both = np.concatenate([-psi[:0:-1], psi]), np.concatenate([-out[:0:-1], out])
     shown = (both[0] >= low) & (both[0] <= high)
     return both[0][shown], both[1][shown]
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=KEPT_CURVES)
 def _of_law(scene: Scene, label: str) -> LawCurve:
     law = named(label)[0].law
     if scene.restitution != 1.0:
         law = damped(law, scene.restitution)
     grid = np.linspace(0.0, _regimes(scene.chi), POINTS_OF_LAWS)
-    half = _half(law, round(scene.chi, DIGITS), round(scene.kappa, DIGITS))
+    half = _half(law, round(scene.chi, KEY_DIGITS), round(scene.kappa, KEY_DIGITS))
     at, share, force = float("nan"), np.array([]), np.array([])
     if np.isfinite(scene.psi_in):
         at = float(_rebound(law, scene.psi_in, scene.chi, scene.kappa))
@@ -146,12 +145,12 @@ def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:
     """Return times as shares of the exact duration, and the force in the unit of the scene."""
     if not isinstance(law, ContactLaw):
         return np.array([]), np.array([])  # a hard sphere has no contact to follow
-    told = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=STEPS)
-    force = told["tangential_force"] * scene.force_scale
-    return told["time"][::EVERY] / scene.lasts, force[::EVERY]
+    course = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=FORCE_STEPS)
+    force = course["tangential_force"] * scene.force_scale
+    return course["time"][::DRAWN_EVERY] / scene.lasts, force[::DRAWN_EVERY]
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=KEPT_CURVES)
 def _half(law: Law, chi: float, kappa: float) -> Array:
     """Return psi_2 of a law over the regimes; beyond them every law slides."""
     grid = np.linspace(0.0, _regimes(chi), POINTS_OF_LAWS)
@@ -160,8 +159,8 @@ def _half(law: Law, chi: float, kappa: float) -> Array:
 
 def _rebound(law: Law, psi: float | Array, chi: float, kappa: float) -> Array:
     """Return psi_2 of a law, NaN without a word where it leaves an impact unsolved."""
-    found, _ = law.rebound(psi, chi, kappa=kappa, threads=1, return_status=True)
-    return np.asarray(found)
+    out, _ = law.rebound(psi, chi, kappa=kappa, threads=1, return_status=True)
+    return np.asarray(out)
 
 
 def _regimes(chi: float) -> float:
@@ -173,5 +172,5 @@ def _span(scene: Scene) -> tuple[float, float]:
     """Return the psi_1 between which curves are drawn: all regimes, and the present point."""
     regimes = _regimes(scene.chi)
     point = scene.psi_in if np.isfinite(scene.psi_in) else 0.0
-    reach = np.ceil(BEYOND * abs(point)) if abs(point) > regimes / BEYOND else regimes
+    reach = np.ceil(MARGIN * abs(point)) if abs(point) > regimes / MARGIN else regimes
     return (-reach if point < 0.0 else 0.0), max(reach, regimes)

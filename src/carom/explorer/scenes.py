@@ -1,6 +1,6 @@
 """What a view comes to: an impact solved, in the units in which the page draws it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -9,16 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.kinematics import Tangential
 from carom.dem.base import SOLID
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve
-from carom.dimensionless.states import Phase
-from carom.explorer.knobs import refused
-from carom.explorer.limits import Refused
+from carom.dimensionless.states import History, Phase
 from carom.explorer.results import Row, findings_of, rows_of
 from carom.explorer.stages import MovingBodies, precise, short, stage_of_bodies, stage_of_numbers
-from carom.explorer.views import View
+from carom.explorer.views import PAGE, Refused, View
 from carom.impacts.exact import Impact
 from carom.impacts.outcome import history_columns
 from carom.impacts.solve import impact
@@ -26,28 +23,15 @@ from carom.quantities.arrays import Array
 from carom.quantities.prefixes import prefixed
 from carom.quantities.refusals import InputError
 
-TIMES = 201  # of the histories
-NO_SPIN = 1e-9  # of the spin before: less is rounding
-KEPT = 16  # scenes that are remembered
+HISTORY_TIMES = 201
+SPIN_ROUNDING = 1e-9  # of the spin before
+KEPT_SCENES = 16
 RADII, INSTANTS = 33, 61  # at which tractions are drawn
-FEWER = 31  # instants with losses, of which one takes 2 ms
-HIGHEST = 9.0  # traction that is drawn: at the edge it is infinite where viscous bodies are loaded
-ENERGIES = {  # by their columns in a history, from the bottom of a stack to its top
-    "normal_kinetic_energy": "normal motion",
-    "tangential_kinetic_energy": "tangential motion",
-    "spin_kinetic_energy": "spin",
-    "normal_elastic_energy": "elastic, normal",
-    "tangential_elastic_energy": "elastic, tangential",
-    "frictional_work": "lost to friction",
-    "normal_loss": "normal losses",
-    "shear_loss": "losses in shear",
-}
-OF_CONTACT = {  # of the tangential motion alone
-    "contact_kinetic_energy": "motion of the contact point",
-    "tangential_elastic_energy": "elastic, tangential",
-    "frictional_work": "lost to friction",
-    "shear_loss": "losses in shear",
-}
+INSTANTS_WITH_LOSSES = 31  # of which one takes 2 ms
+HIGHEST_TRACTION = 9.0  # at the edge it is infinite where viscous bodies are loaded
+ENERGIES: dict[str, str] = PAGE["energies"]
+ENERGIES_OF_CONTACT: dict[str, str] = PAGE["energies_of_contact"]
+FORCE_SCALE = 1.5  # F_x/(mu F_max) over Q of the theory
 TOO_LARGE = "with the other numbers it leads to some that a computer cannot hold"
 
 
@@ -86,8 +70,8 @@ class Scene:
 
     def moving(self) -> dict[str, Any]:
         """Return what the page animates, as JSON can hold it."""
-        told = ("kind", "sign", "start", "end")
-        phases = [{name: getattr(phase, name) for name in told} for phase in self.phases]
+        names = ("kind", "sign", "start", "end")
+        phases = [{name: getattr(phase, name) for name in names} for phase in self.phases]
         return {
             "duration": self.duration,
             "unit": self.time_unit,
@@ -108,7 +92,7 @@ def scene_of(view: View) -> Scene:
     return _solved(replace(view, law=(), data=""))
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=KEPT_SCENES)
 def _solved(view: View) -> Scene:
     with refusals("psi" if view.in_numbers else "friction"):
         return _of_numbers(view) if view.in_numbers else _of_bodies(view)
@@ -117,35 +101,31 @@ def _solved(view: View) -> Scene:
 def impact_of(view: View) -> Impact:
     """Return the impact of the bodies of a view, or raise Refused."""
     with refusals("speed"):
-        found: Impact = impact(view.pair, losses=view.losses, **view.motion)
-        return found
+        hit: Impact = impact(view.pair, losses=view.losses, **view.motion)
+        return hit
 
 
 @contextmanager
 def refusals(field: str) -> Iterator[None]:
-    """Tell of what the library refuses as of a field of the page: each is right by itself."""
+    """Refuse a field of the page where the library refuses: each is right by itself."""
     try:
         yield
     except Refused:
         raise
     except (InputError, ArithmeticError):
-        raise refused(field, TOO_LARGE) from None
+        raise Refused(field, TOO_LARGE) from None
 
 
 def _of_bodies(view: View) -> Scene:
     hit = impact_of(view)
-    before = Tangential(hit.tangential_speed, hit.spin, hit.spin2)
-    column = history_columns(hit.pair, hit.normal_speed, before, hit.solution, TIMES)
+    pair, scales, column = hit.pair, hit.scales, history_columns(hit, HISTORY_TIMES)
     seconds, unit = prefixed(hit.duration, "s")
-    newtons, force_unit = prefixed(hit.pair.friction * hit.max_force or hit.max_force, "N")
-    energies = {name: column[name] for name in ENERGIES}
-    whole = sum(energies.values())
-    scales = hit.pair.scales(hit.normal_speed)
+    newtons, force_unit = prefixed(pair.friction * hit.max_force or hit.max_force, "N")
     return Scene(
         psi_in=hit.psi_in,
         psi_out=hit.psi_out,
-        chi=hit.pair.chi,
-        kappa=hit.pair.kappa,
+        chi=pair.chi,
+        kappa=pair.kappa,
         restitution=view.restitution,
         lasts=hit.solution.duration,
         duration=hit.duration * seconds,
@@ -154,10 +134,10 @@ def _of_bodies(view: View) -> Scene:
         share=column["time"] / hit.duration,
         psi=column["contact_velocity"] / (scales.tangential_speed or np.inf),
         force=column["tangential_force"] * newtons,
-        limit=hit.pair.friction * column["normal_force"] * newtons,
-        force_scale=hit.pair.friction * scales.force * newtons,
+        limit=pair.friction * column["normal_force"] * newtons,
+        force_scale=pair.friction * scales.force * newtons,
         force_unit=force_unit,
-        energies={name: part / whole for name, part in energies.items()},
+        energies=_energies(column, ENERGIES),
         contact=column["contact_radius"] / hit.max_radius,
         stick=column["stick_radius"] / hit.max_radius,
         rim=_rim(hit.solution, column["normal_velocity"] / hit.normal_speed),
@@ -168,20 +148,42 @@ def _of_bodies(view: View) -> Scene:
     )
 
 
+def _energies(column: Mapping[str, Array], names: Iterable[str]) -> dict[str, Array]:
+    """Return these energies as shares of their sum, which is zero where nothing moves."""
+    whole: Any = sum(column[name] for name in names)
+    return {name: column[name] / whole if whole.any() else column[name] for name in names}
+
+
 def _scalars(hit: Impact) -> Mapping[str, float]:
     """Return the numbers of an impact; what rounding leaves of a spin is none."""
-    found = hit.scalars()
-    left = found["spin_out"]
-    return found | {"spin_out": 0.0 if abs(left) < NO_SPIN * abs(hit.spin) else left}
+    numbers = hit.scalars()
+    left = numbers["spin_out"]
+    return numbers | {"spin_out": 0.0 if abs(left) < SPIN_ROUNDING * abs(hit.spin) else left}
+
+
+def columns_of_numbers(history: History) -> dict[str, Array]:
+    """Return the columns of a history in units of the theory, by the names of those of bodies."""
+    return {
+        "time": history.time,
+        "normal_force": history.normal_force,
+        "tangential_force": FORCE_SCALE * history.force,
+        "contact_velocity": history.psi,
+        "normal_velocity": history.speed,
+        "contact_radius": history.contact_radius,
+        "stick_radius": history.stick_radius,
+        "contact_kinetic_energy": 0.5 * history.psi**2,
+        "tangential_elastic_energy": history.stored,
+        "frictional_work": history.dissipated,
+        "shear_loss": history.shear_lost,
+    }
 
 
 def _of_numbers(view: View) -> Scene:
     if not view.friction:
-        raise refused("friction", "must be above 0: without friction there is no ψ₁")
+        raise Refused("friction", "must be above 0: without friction there is no ψ₁")
     solution = solve(view.psi, view.chi, losses=view.losses)
-    history = solution.history(TIMES)
-    parts = (0.5 * history.psi**2, history.stored, history.dissipated, history.shear_lost)
-    whole = sum(parts) if parts[0][0] > 0.0 else np.ones(TIMES)
+    history = solution.history(HISTORY_TIMES)
+    column = columns_of_numbers(history)
     return Scene(
         psi_in=solution.psi_in,
         psi_out=solution.psi_out,
@@ -194,11 +196,11 @@ def _of_numbers(view: View) -> Scene:
         phases=_shares(solution.phases, solution.duration),
         share=history.time / solution.duration,
         psi=history.psi,
-        force=1.5 * history.force,  # Q = (2/3) F_x/(mu P_max)
+        force=column["tangential_force"],
         limit=history.normal_force,
         force_scale=1.0,
         force_unit="µ F_max",
-        energies={name: part / whole for name, part in zip(OF_CONTACT, parts, strict=True)},
+        energies=_energies(column, ENERGIES_OF_CONTACT),
         contact=history.contact_radius / solution.max_radius,
         stick=history.stick_radius / solution.max_radius,
         rim=_rim(solution, history.speed),
@@ -217,14 +219,14 @@ def _numbers(solution: Solution | LossySolution) -> dict[str, float]:
 
 def _tractions(solution: Solution | LossySolution) -> Array:
     """Return the traction over mu and Hertz's pressure of the largest contact, to the edge."""
-    instants = FEWER if isinstance(solution, LossySolution) else INSTANTS
+    instants = INSTANTS_WITH_LOSSES if isinstance(solution, LossySolution) else INSTANTS
     times = np.linspace(0.0, solution.duration, instants)
     edges = solution.at(times).contact_radius
-    found = np.zeros((instants, RADII))
+    tractions = np.zeros((instants, RADII))
     line = np.linspace(0.0, 1.0, RADII)
     for row in range(1, instants - 1):
-        found[row] = solution.traction(times[row], edges[row] * line)
-    return np.clip(found / solution.max_radius, -HIGHEST, HIGHEST)
+        tractions[row] = solution.traction(times[row], edges[row] * line)
+    return np.clip(tractions / solution.max_radius, -HIGHEST_TRACTION, HIGHEST_TRACTION)
 
 
 def _rim(solution: Solution | LossySolution, speed: Array) -> Array:

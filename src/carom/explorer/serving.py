@@ -14,11 +14,11 @@ from waitress.server import TcpWSGIServer
 
 from carom.explorer.app import new_app
 from carom.explorer.limits import (
-    CONNECTIONS,
     IDLE_SECONDS,
     LARGEST_HEAD,
     LARGEST_REQUEST,
-    QUEUED,
+    MOST_CONNECTIONS,
+    MOST_QUEUED,
     THREADS,
 )
 from carom.explorer.overlays import followers
@@ -29,9 +29,9 @@ from carom.quantities.refusals import InputError, refusal
 
 LOOPBACK = "127.0.0.1"
 OWN_NAMES = [LOOPBACK, "localhost", "::1"]
-PORT = 8050
-PORTS = 65535
-PIECE = 1 << 17  # bytes of an answer that are sent, or tried to be sent, at a time
+DEFAULT_PORT = 8050
+LARGEST_PORT = 65535
+SENT_AT_ONCE = 1 << 17  # bytes of an answer that are sent, or tried to be sent, at a time
 
 
 class Connection(HTTPChannel):  # type: ignore[misc]
@@ -39,7 +39,7 @@ class Connection(HTTPChannel):  # type: ignore[misc]
 
     def __init__(self, *arguments: Any, **more: Any) -> None:
         super().__init__(*arguments, **more)
-        self.sendbuf_len = PIECE
+        self.sendbuf_len = SENT_AT_ONCE
 
     def service(self) -> None:
         """Answer a request."""
@@ -63,9 +63,9 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
         self._stopped = False
         settings: dict[str, Any] = {
             "threads": THREADS,
-            "backlog": QUEUED,
+            "backlog": MOST_QUEUED,
             "channel_timeout": IDLE_SECONDS,
-            "connection_limit": 2 * CONNECTIONS,  # the other half is at work
+            "connection_limit": 2 * MOST_CONNECTIONS,  # the other half is at work
             "max_request_header_size": LARGEST_HEAD,
             "max_request_body_size": 2 * LARGEST_REQUEST,  # less is refused in a line
             "outbuf_high_watermark": 1 << 40,  # answers wait in files, not in their threads
@@ -76,7 +76,7 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
 
     def handle_accept(self) -> None:
         """Accept connections, of a flood so many at a time that they cannot close each other."""
-        for _ in range(CONNECTIONS // 2):
+        for _ in range(MOST_CONNECTIONS // 2):
             before = len(self.active_channels)
             super().handle_accept()
             if len(self.active_channels) == before:
@@ -92,7 +92,7 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
         while not self._stopped:
             waiting = [each for each in self.active_channels.values() if each.creation_time < inf]
             waiting.sort(key=lambda each: each.creation_time)
-            for each in waiting[:-CONNECTIONS]:
+            for each in waiting[:-MOST_CONNECTIONS]:
                 each.handle_close()
             self.asyncore.loop(timeout=1.0, use_poll=True, map=self._map, count=1)
 
@@ -137,7 +137,7 @@ class Explorer:
         followers.dismiss()
 
 
-def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
+def explorer(*, host: str = LOOPBACK, port: int = DEFAULT_PORT) -> Explorer:
     """Return the page to explore impacts, bound to a port of this machine.
 
     Parameters
@@ -161,8 +161,8 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
     True
     >>> page.close()
     """
-    if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= PORTS:
-        allowed = f"must be a whole number from 0 to {PORTS}; 0 takes any that is free"
+    if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= LARGEST_PORT:
+        allowed = f"must be a whole number from 0 to {LARGEST_PORT}; 0 takes any that is free"
         raise refusal("port", port, allowed)
     if not host:
         raise refusal("host", host, "must be an address, e.g. 127.0.0.1; 0.0.0.0 is every one")

@@ -89,10 +89,10 @@ def _placed(kind: str, size: float, along: Array, closer: Array) -> Array:
     """
     if kind == "plane":
         return np.column_stack([along, 1.0 - closer])
-    reach = 1.0 + size - closer if kind == "sphere" else size - 1.0 + closer
-    angle = along / (1.0 + size if kind == "sphere" else size - 1.0)
-    up = np.cos(angle) if kind == "sphere" else -np.cos(angle)
-    return np.column_stack([reach * np.sin(angle), reach * up])
+    outside = 1.0 if kind == "sphere" else -1.0
+    reach = size + outside - outside * closer
+    angle = along / (size + outside)
+    return np.column_stack([reach * np.sin(angle), outside * reach * np.cos(angle)])
 
 
 def stage_of_numbers(
@@ -155,8 +155,8 @@ def _continued(time: Array, path: Array, before: float, after: float, duration: 
 
 def short(values: Array) -> list[Any]:
     """Return numbers for the page, to what a picture shows."""
-    found: list[Any] = np.round(values, 5).tolist()
-    return found
+    rounded: list[Any] = np.round(values, 5).tolist()
+    return rounded
 
 
 def precise(values: Array) -> list[float]:

@@ -1,37 +1,51 @@
-"""Tables of measured rebounds as they arrive: read, checked, fitted; or the bodies asked for."""
+"""Fits for the page: a table as it arrives is read, checked and fitted, or its bodies asked for.
+
+What is shown of a fit: parameters, laws, charts with residuals, bodies, notes.
+"""
 
 from base64 import b64decode
 from binascii import Error as NotBase64
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from math import isfinite, isnan
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import xarray as xr
+
 from carom import datasets
 from carom.bodies.pairs import Pair
+from carom.bodies.shapes import Cup, Sphere
 from carom.datasets.observables import BEFORE, OBSERVABLES
-from carom.explorer.fitted import plain_words, shown_fit
-from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS, Refused
+from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.explorer.results import in_words
-from carom.explorer.views import View
-from carom.fitting import Fit, fit
+from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View
+from carom.fitting import Estimate, Fit, fit
+from carom.fitting.comparison import LawFit
+from carom.fitting.estimates import significant
 from carom.fitting.reading import HEIGHTS, read_measurements, read_problem
-from carom.io.columns import entry
 from carom.io.tables import read_table
-from carom.io.user_table import Column
+from carom.io.user_table import Column, entry
+from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import prefixed, shared, text
 from carom.quantities.refusals import InputError, refusal
 
-KINDS = {
+COLUMN_KINDS = {
     **dict.fromkeys(BEFORE, "before the impact"),
     **dict.fromkeys(OBSERVABLES, "after the impact"),
     **dict.fromkeys(HEIGHTS, "drop and rebound"),
 }
-LONGEST_NAME = 80
-ASKED = (
+BODIES_ASKED = (
     "{name} does not say which bodies struck each other. The fit needs their radius, their "
     "density and their elastic constants."
 )
-WORDS = {"data": "file", "results": "file", "pair": "bodies"}  # of Python, and of the page
+PAGE_SUBJECTS = {"data": "file", "results": "file", "pair": "bodies"}  # by those of Python
+SHOWN_DIGITS = 6
+NO_NUMBER = "-"
+LEAST_WEIGHT = 1e-3  # of a law; of less it is said that it is below
+PARAMETERS: dict[str, tuple[str, str]] = PAGE["parameters"]
+SHOWN_ELSEWHERE = "columns that were not used"
 
 
 def answer(asked: dict[str, str]) -> dict[str, Any]:
@@ -64,51 +78,234 @@ def shown_name(name: str) -> str:
 def _in_words_of_the_page(message: str, path: str, name: str) -> str:
     subject, colon, rest = message.replace(path, name).partition(": ")
     rest = rest.replace(", or fix some, e.g. fixed={'restitution': 0.98}", "")
-    return in_words(WORDS.get(subject, subject) + colon + rest)
+    return in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
 
 
 def _decoded(contents: str) -> bytes:
     try:
-        found = b64decode(contents.partition(",")[2], validate=True)
+        content = b64decode(contents.partition(",")[2], validate=True)
     except (NotBase64, ValueError):  # ValueError: characters beyond ASCII
         raise InputError("file: it did not arrive whole; choose it again") from None
-    if len(found) > LARGEST_UPLOAD:
+    if len(content) > LARGEST_UPLOAD:
         allowed = f"must be at most {LARGEST_UPLOAD} bytes; leave out what is not needed"
-        raise refusal("file", f"{len(found)} bytes", allowed)
-    return found
+        raise refusal("file", f"{len(content)} bytes", allowed)
+    return content
 
 
 def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
     table = read_table(file, what="file")
-    if len(table) > MOST_ROWS:
-        allowed = f"must be at most {MOST_ROWS} rows; use carom fit for more"
+    if len(table) > MOST_UPLOADED_ROWS:
+        allowed = f"must be at most {MOST_UPLOADED_ROWS} rows; use carom fit for more"
         raise refusal("file", f"{len(table)} rows", allowed)
     if table.case is None and (view is None or view.in_numbers):
         read_measurements(table)  # what no bodies make right is said before they are asked for
         if not {*table.names} & {*OBSERVABLES, *HEIGHTS}:
             read_problem(table, View().pair)
-        asked = ASKED.format(name=name)
+        asked = BODIES_ASKED.format(name=name)
         return {"asks": "bodies", "name": name, "message": asked, "columns": taken(table.cells)}
     pair: Pair | None = view.pair if table.case is None and view is not None else None
-    found = fit(table, pair=pair)
-    return shown_fit(found, name, "page" if pair else "file", taken(table.cells, found))
+    fitted = fit(table, pair=pair)
+    return shown_fit(fitted, name, "page" if pair else "file", taken(table.cells, fitted))
 
 
-def taken(columns: Mapping[str, Column], found: Fit | None = None) -> list[dict[str, str]]:
+def taken(columns: Mapping[str, Column], fitted: Fit | None = None) -> list[dict[str, str]]:
     """Return for each column its head, what it was taken for, and the unit it was read in."""
-    ignored = () if found is None else found.best.model.problem.ignored
+    ignored = () if fitted is None else fitted.best.model.problem.ignored
     empty = [name.partition(" ")[0] for name in ignored if "(" in name]
     return [_taken(name, columns[name], entry(name) in empty) for name in columns]
 
 
 def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
     quantity = entry(name)
-    if quantity not in KINDS:
+    if quantity not in COLUMN_KINDS:
         return {"head": column.head, "kind": "not used", "meaning": "", "unit": ""}
-    si, kind, meaning = GLOSSARY[quantity].unit, KINDS[quantity], plain_words(quantity)
+    si, kind, meaning = GLOSSARY[quantity].unit, COLUMN_KINDS[quantity], plain_words(quantity)
     if name != quantity:
         kind, meaning = "standard deviation", f"of {meaning}"
     if empty:
         kind = "not used: no value in it"
     unit = str(column.unit) or ("" if si == "1" else f"{si} (the head names no unit)")
     return {"head": column.head, "kind": kind, "meaning": meaning, "unit": unit}
+
+
+def shown_fit(
+    result: Fit, name: str, bodies_from: str, columns: list[dict[str, str]]
+) -> dict[str, Any]:
+    """Return all that the page shows of a fit, as JSON can hold it."""
+    problem, dataset = result.best.model.problem, result.to_dataset()
+    drops = problem.is_normal and result.losses is not None
+    charts = [_drops(dataset)] if drops else [_chart(dataset, str(n)) for n in problem.responses]
+    return {
+        "name": name,
+        "values": problem.count,
+        "rows": len(problem.rows),
+        "confidence": f"{100.0 * result.confidence:g} %",
+        "parameters": [_parameter(each) for each in result.estimates.values() if _counts(each)],
+        "laws": _laws(result) if not problem.is_normal else _losses(result),
+        "verdict": result.losses.verdict if drops and result.losses else result.comparison.verdict,
+        "regimes": [] if problem.is_normal else _regimes(result),
+        "notes": [in_words(note) for note in result.notes if not note.startswith(SHOWN_ELSEWHERE)],
+        "charts": charts,
+        "columns": columns,
+        "bodies": {"from": bodies_from, "text": words_of(problem.pair)},
+        "words": str(result),
+    }
+
+
+def _counts(each: Estimate) -> bool:
+    """Tell whether a parameter is worth a row: a spin that was not sought is not."""
+    return each.determined or bool(each.reason) or each.name != "spin_offset" or each.value != 0.0
+
+
+def _parameter(each: Estimate) -> dict[str, str]:
+    symbol, meaning = PARAMETERS[each.name]
+    value, interval, unit, note = _with_interval(each)
+    if each.determined and not isnan(each.elastic):
+        note = f"elastic: {each.elastic:.3g}"
+    row = {"name": each.name, "symbol": symbol, "meaning": meaning}
+    return {**row, "value": value, "interval": interval, "unit": unit, "note": note}
+
+
+def _with_interval(each: Estimate) -> tuple[str, str, str, str]:
+    """Return value, interval, unit and what is to be said of a parameter."""
+    unit = GLOSSARY[each.name].unit
+    if each.reason:
+        return NO_NUMBER, "", "", f"not determined: {each.reason}"
+    if each.determined and not each.open:
+        ends = (each.low, each.value, each.high)
+        (low, value, high), unit = shared(ends, unit, significant(each.value, each.high - each.low))
+        return value, f"{low} to {high}", _or_none(unit), ""
+    (value,), own = shared((each.value,), unit, 4)
+    if not each.determined:
+        return value, "not varied", _or_none(own), ""
+    word, end = ("at most", each.high) if isfinite(each.high) else ("at least", each.low)
+    if each.name == "restitution" and each.high == 1.0:
+        word, end = "at least", each.low
+    return value, f"{word} {text(end, unit, 4)}", _or_none(own), ""
+
+
+def _or_none(unit: str) -> str:
+    return "" if unit == "1" else unit
+
+
+def _laws(result: Fit) -> list[dict[str, str]]:
+    standings = sorted(result.comparison, key=lambda each: each.excess)
+    return [_standing(each, _values(each)) for each in standings]
+
+
+def _losses(result: Fit) -> list[dict[str, str]]:
+    """Return the laws of losses, compared where speeds differ."""
+    if result.losses is None:
+        return []
+    return [
+        _standing(each, f"{PARAMETERS[each.parameter.name][0]} = {each.parameter}")
+        for each in result.losses.standings
+    ]
+
+
+def _standing(law: Any, parameters: str) -> dict[str, str]:
+    excess = weight = NO_NUMBER
+    if isfinite(law.excess):
+        seen = law.weight >= LEAST_WEIGHT
+        excess = f"{law.excess:.1f}"
+        weight = f"{100.0 * law.weight:.3g} %" if seen else f"below {100.0 * LEAST_WEIGHT:g} %"
+    return {"law": law.law, "excess": excess, "weight": weight, "parameters": parameters}
+
+
+def _values(law: LawFit) -> str:
+    return ", ".join(
+        f"{PARAMETERS[name][0]} = {GLOSSARY[name].text(value, 4)}"
+        for name, value in law.values.items()
+    )
+
+
+def _regimes(result: Fit) -> list[dict[str, Any]]:
+    return [{"name": name, "rows": count} for name, count in result.regimes.items() if count]
+
+
+def _chart(dataset: xr.Dataset, name: str) -> dict[str, Any]:
+    """Return a response against incidence: measured, by laws, and what is left."""
+    one = dataset.sel(response=name)
+    scale, unit = _scale(name, one["measured"].values)
+    along = np.degrees(one["curve_incidence"].values)
+    lines = {
+        str(law): scale * one["curve_expected"].sel(law=law).values for law in one["law"].values
+    }
+    spinning = bool(dataset.attrs["spinning"])
+    measured, residual, error = (scale * one[k].values for k in ("measured", "residual", "error"))
+    return {
+        **_points(np.degrees(one["incidence"].values), measured, residual, error),
+        "response": name.replace("_", " "),
+        "meaning": plain_words(name),
+        "unit": _or_none(unit),
+        "along": "incidence of the contact point" if spinning else "angle of incidence",
+        "along_unit": "deg",
+        "row": dataset["row"].values.tolist(),
+        "lines": [_line(law, along, line) for law, line in lines.items()],
+        "band": [_plain(scale * one[f"curve_{end}"].values) for end in ("low", "high")],
+        "borders": _plain(np.degrees(dataset["border"].values)),
+    }
+
+
+def _drops(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return restitution against speed: measured, by laws of losses, and what is left."""
+    speeds, along = dataset["normal_speed"].values, dataset["loss_speed"].values
+    laws = [str(law) for law in dataset["loss_law"].values]
+    lines = {law: dataset["loss_restitution"].sel(loss_law=law).values for law in laws}
+    measured, error = (dataset[f"restitution{end}"].values for end in ("", "_error"))
+    residual = measured - np.interp(speeds, along, lines[laws[0]])
+    return {
+        **_points(speeds, measured, residual, error),
+        "response": "restitution",
+        "meaning": "normal speed, after to before",
+        "unit": "",
+        "along": "normal speed before",
+        "along_unit": "m/s",
+        "row": dataset["row"].values.tolist(),
+        "lines": [_line(law, along, line) for law, line in lines.items()],
+        "band": [],
+        "borders": [],
+    }
+
+
+def _points(x: Array, measured: Array, residual: Array, error: Array) -> dict[str, Any]:
+    with np.errstate(all="ignore"):
+        scaled = residual / error
+    points = {"x": x, "measured": measured, "error": error, "residual": residual, "scaled": scaled}
+    return {name: _plain(values) for name, values in points.items()}
+
+
+def _line(law: str, x: Array, y: Array) -> dict[str, Any]:
+    return {"law": law, "x": _plain(x), "y": _plain(y)}
+
+
+def _plain(values: Iterable[float]) -> list[float | None]:
+    """Return numbers of a few digits, None for what is none."""
+    return [float(f"{each:.{SHOWN_DIGITS}g}") if isfinite(each) else None for each in values]
+
+
+def _scale(name: str, values: Array) -> tuple[float, str]:
+    unit = GLOSSARY[name].unit
+    return (float(np.degrees(1.0)), "deg") if unit == "rad" else prefixed(values, unit)
+
+
+def words_of(pair: Pair) -> str:
+    """Return the bodies of a fit in words."""
+    first = f"ball of {text(pair.first.radius, 'm', 4)} radius, {_material(pair.first)}"
+    second: Any = pair.second
+    if not isinstance(second, Sphere | Cup):
+        return f"{first}; on a half-space, {_material(second)}"
+    kind = "sphere" if isinstance(second, Sphere) else "cup"
+    return f"{first}; on a {kind} of {text(second.radius, 'm', 4)} radius, {_material(second)}"
+
+
+def _material(body: Any) -> str:
+    stuff = body.material
+    if stuff.name:
+        return str(stuff.name)
+    return f"E = {text(stuff.young, 'Pa', 3)}, ν = {stuff.poisson:.3g}"
+
+
+def plain_words(name: str) -> str:
+    """Return what a quantity means, without the marks of formulas."""
+    return GLOSSARY[name].meaning.replace("$", "")

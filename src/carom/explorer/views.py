@@ -1,39 +1,112 @@
-"""What the page shows, as the words of a link: every state has one, and every link a state."""
+"""What the page shows, as the words of a link: every state has one, and every link a state.
 
+Also the fields of the page: what each is called, what it may be, and how it is refused. Their words
+stand in `data/page.toml`, with others of the page.
+"""
+
+import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import Any, Self
+from importlib.resources import files
+from typing import Any, NamedTuple, Self
 from urllib.parse import parse_qs, urlencode
 
 from carom.bodies.losses import KelvinVoigt
-from carom.bodies.materials import Material, material
+from carom.bodies.materials import Material, material, materials
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
-from carom.explorer.knobs import (
-    BODIES,
-    CHOICES,
-    CUP,
-    KNOBS,
-    LONGEST_NAME,
-    NEEDS,
-    NUMBERS,
-    OF_MATERIAL,
-    OWN,
-    PLANE,
-    RIGID,
-    SECOND,
-    SPHERE,
-    one_of,
-    refused,
-)
-from carom.explorer.limits import LONGEST_LINK, Refused
-from carom.quantities.refusals import nearest
+from carom.datasets.shipped import names as dataset_names
+from carom.explorer.limits import LONGEST_LINK
+from carom.quantities.refusals import InputError, clipped, nearest
+from carom.quantities.texts import Unreadable, read_text
 from carom.verify.entries import CATALOGUE
 from carom.verify.errors import losses_of
 
+PAGE = tomllib.loads(files("carom").joinpath("data/page.toml").read_text("utf-8"))
+BODIES, NUMBERS = "bodies", "numbers"
+PLANE, SPHERE, CUP = AGAINST = ("half-space", "sphere", "cup")
+OWN, RIGID = "own", "rigid"
+MATERIALS = (*materials(), OWN)
+OF_MATERIAL = ("young", "poisson", "density")
+SECOND = "second_"
 LAWS = tuple(entry.label for entry in CATALOGUE)
 UNDAMPED = tuple(each.label for each in CATALOGUE if not hasattr(each.law, "restitution"))
 PAGE_ONLY = ("time", "pace", "theme", "slow", "tab", "preset", "beside")  # the page alone has them
+LONGEST_NAME = 80  # characters of an unknown name that are shown
+CHOICES: dict[str, tuple[str, ...]] = {
+    "given": (BODIES, NUMBERS),
+    "material": MATERIALS,
+    "against": AGAINST,
+    "second_material": (*MATERIALS[:-1], RIGID, OWN),
+    "law": LAWS,
+    "data": ("", *dataset_names()),
+}
+
+
+class Field(NamedTuple):
+    """A field: its label, its letter and a hint; of a number its unit, its range and its slider.
+
+    `needs` says what other fields must be for this one to matter.
+    """
+
+    label: str
+    symbol: str = ""
+    hint: str = ""
+    unit: str = ""
+    least: float = 0.0
+    most: float = 0.0
+    slider: tuple[float, float, float] | None = None  # from, to, step
+    needs: Mapping[str, list[str]] = {}
+
+    @property
+    def is_number(self) -> bool:
+        """Whether the field holds a number."""
+        return self.most > self.least
+
+
+FIELDS = {name: Field(**words) for name, words in PAGE["fields"].items()}
+
+
+class Refused(InputError):
+    """A field of the page cannot be what it is, in the page's own words; "" is the whole link.
+
+    Its text begins with the label of the field, for those who have no field to look at.
+    """
+
+    def __init__(self, field: str, message: str) -> None:
+        super().__init__(f"{FIELDS[field].label}: {message}" if field else message)
+        self.field = field
+        self.message = " ".join(message.splitlines())
+
+    def __reduce__(self) -> tuple[type["Refused"], tuple[str, str]]:
+        return Refused, (self.field, self.message)
+
+
+def read_number(name: str, text: Any) -> float:
+    """Return the number in the text of a field, or raise Refused."""
+    field = FIELDS[name]
+    unit = f" {field.unit}" if field.unit else ""
+    allowed = f"must be a number from {field.least:g} to {field.most:g}{unit}"
+    if not text:
+        raise Refused(name, f"{allowed}; it is empty")
+    reason = ""
+    try:
+        value = read_text(str(text), field.unit or "1")
+        if field.least <= value <= field.most:
+            return value
+    except Unreadable as error:
+        reason = f"; {error}" if str(error) else ""
+    raise Refused(name, f"{allowed}, not '{clipped(str(text))}'{reason}")
+
+
+def one_of(name: str, text: str) -> str:
+    """Return a text that is a choice of a field, or raise Refused with the nearest of them."""
+    if text not in (words := CHOICES[name]):
+        shown = clipped(text)[:LONGEST_NAME]
+        hint = nearest(text, words) or f"there are {'; '.join(filter(None, words))}"
+        raise Refused(name, f"there is no '{shown}'; {hint}")
+    return text
 
 
 @dataclass(frozen=True)
@@ -65,30 +138,22 @@ class View:
     @classmethod
     def of(cls, query: str) -> Self:
         """Return the view of a link's query, or raise Refused for the first thing wrong."""
-        view, wrong = cls.with_complaints(query)
-        for name, error in wrong.items():
-            if name not in view.unused:
-                raise error
-        return view
-
-    @classmethod
-    def with_complaints(cls, query: str) -> tuple[Self, dict[str, Refused]]:
-        """Return the view of a link, defaults in place of what cannot be used, and why by name."""
-        if not isinstance(query, str):
-            return cls(), {"link": Refused("", "a link must be text")}
         if len(query) > LONGEST_LINK:
             long = f"the link has {len(query)} characters; at most {LONGEST_LINK} are read"
-            return cls(), {"link": Refused("", long)}
-        found: dict[str, Any] = {}
+            raise Refused("", long)
+        values: dict[str, Any] = {}
         wrong: dict[str, Refused] = {}
         for name, texts in parse_qs(query.lstrip("?"), keep_blank_values=True).items():
-            if name in PAGE_ONLY:
-                continue
             try:
-                found[name] = _read(name, texts)
+                if name not in PAGE_ONLY:
+                    values[name] = _read(name, texts)
             except Refused as error:
                 wrong[name] = error
-        return cls(**found), wrong
+        view = cls(**values)
+        for name, refused in wrong.items():
+            if name not in view.unused:
+                raise refused
+        return view
 
     def query(self) -> str:
         """Return the link's query: what differs from the page as it opens."""
@@ -106,19 +171,19 @@ class View:
         """What does not matter in this view, and may be anything."""
         return tuple(
             name
-            for name, needs in NEEDS.items()
-            if any(getattr(self, other) not in words for other, words in needs.items())
+            for name, field in FIELDS.items()
+            if any(getattr(self, other) not in words for other, words in field.needs.items())
         )
 
     @cached_property
     def pair(self) -> Pair:
         """The bodies; Refused if they do not fit."""
         if self.against == CUP and not self.second_radius > self.radius:
-            told = f"must be above {self.radius:g} mm: the ball has to fit into the cup"
-            raise refused("second_radius", told)
+            allowed = f"must be above {self.radius:g} mm: the ball has to fit into the cup"
+            raise Refused("second_radius", allowed)
         if self.against == SPHERE and self.second_material == RIGID:
-            told = "a ball that moves must have a density, which a rigid one has not; take another"
-            raise refused("second_material", told)
+            why = "a ball that moves must have a density, which a rigid one has not; take another"
+            raise Refused("second_material", why)
         first = Sphere(radius=self.radius * 1e-3, material=self.stuff())
         return Pair(first, self._second(), self.friction)
 
@@ -160,16 +225,15 @@ class View:
 
 def _read(name: str, texts: list[str]) -> Any:
     """Return what the words of a link say of one thing, or raise Refused."""
-    known = tuple(field.name for field in fields(View))
-    if name not in known:
+    if name not in FIELDS:
         shown = " ".join(name.split())[:LONGEST_NAME]
-        hint = nearest(name, known) or "leave it out"
+        hint = nearest(name, FIELDS) or "leave it out"
         raise Refused("", f"the link says '{shown}', which is unknown; {hint}")
     if name == "law":
-        return tuple(dict.fromkeys(one_of(name, text, LAWS) for text in texts if text))
-    if name in KNOBS:
-        return KNOBS[name].read(name, texts[-1])
-    return one_of(name, texts[-1], CHOICES[name])
+        return tuple(dict.fromkeys(one_of(name, text) for text in texts if text))
+    if FIELDS[name].is_number:
+        return read_number(name, texts[-1])
+    return one_of(name, texts[-1])
 
 
 def _text(value: Any) -> Any:

@@ -2,17 +2,16 @@
 
 from collections.abc import Callable
 from threading import Condition, Thread
-from typing import Any, NamedTuple
+from typing import Any
 
 from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.kernels import has_numba
-from carom.explorer.knobs import NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import scene_of
-from carom.explorer.views import LAWS, View
+from carom.explorer.views import LAWS, NUMBERS, View
 from carom.io.progress import advancing
 
-PATIENCE = 2.0  # s that a question waits for what is not there yet
+PATIENCE_SECONDS = 2.0  # that a question waits for what is not there yet
 ELASTIC, LOSSY = View(), View(restitution=0.8)
 STEPS: tuple[Callable[[], Any], ...] = (
     lambda: scene_of(ELASTIC),
@@ -24,14 +23,7 @@ STEPS: tuple[Callable[[], Any], ...] = (
 )
 
 
-class Need(NamedTuple):
-    """How many of the steps answers need, and about how many kernels."""
-
-    steps: int
-    kernels: int
-
-
-OF_ELASTIC, OF_LOSSES, OF_LAWS = Need(3, 126), Need(5, 260), Need(len(STEPS), 310)
+OF_ELASTIC, OF_LOSSES, OF_LAWS = 3, 5, len(STEPS)  # steps that answers need
 
 
 class Preparing(RuntimeError):
@@ -50,7 +42,7 @@ class Warming:
 
     def __init__(self) -> None:
         self._steps = STEPS if shared_library.reason() and has_numba() else ()
-        self._done = self.kernels = 0
+        self._done = 0
         self._stopped = False
         self._news = Condition()
 
@@ -65,36 +57,21 @@ class Warming:
 
     def check(self, view: View, *, laws: bool = False) -> None:
         """Return once a view can be answered; raise Preparing if that takes long."""
-        need = OF_LAWS if laws else OF_LOSSES if view.losses else OF_ELASTIC
-        steps = min(need.steps, len(self._steps))
+        needed = OF_LAWS if laws else OF_LOSSES if view.losses else OF_ELASTIC
+        needed = min(needed, len(self._steps))
         with self._news:
-            if not self._news.wait_for(lambda: self._done >= steps, PATIENCE):
-                raise Preparing(min(99, 100 * self.kernels // need.kernels))
+            if not self._news.wait_for(lambda: self._done >= needed, PATIENCE_SECONDS):
+                raise Preparing(100 * self._done // needed)
 
     def _run(self) -> None:
-        from numba.core import event  # which takes long, and is not needed with the library
-
-        warming = self
-
-        class Counter(event.Listener):  # type: ignore[misc]
-            def on_start(self, _: Any) -> None:
-                """Say nothing yet."""
-
-            def on_end(self, _: Any) -> None:
-                """Count a kernel that is compiled."""
-                warming.kernels += 1
-                advance(1)
-
         try:
-            with (
-                advancing("compiling the solver", OF_LAWS.kernels) as advance,
-                event.install_listener("numba:compile", Counter()),
-            ):
-                for step in self._steps:
+            with advancing("compiling the solver", len(self._steps)) as advance:
+                for done, step in enumerate(self._steps, 1):
                     if self._stopped:
                         return
                     step()
-                    self._finish(self._done + 1)
+                    advance(1)
+                    self._finish(done)
         finally:  # if one has failed, each question tells by itself
             self._finish(len(self._steps))
 

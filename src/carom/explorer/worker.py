@@ -18,13 +18,13 @@ from typing import Any
 from carom.explorer.limits import (
     FILE_SECONDS,
     FIT_SECONDS,
+    MOST_WAITING,
     START_SECONDS,
-    WAITING,
     WAITING_SECONDS,
     WORK_MEMORY,
     Busy,
-    Refused,
 )
+from carom.explorer.views import Refused
 from carom.quantities.refusals import InputError
 
 PROGRAM = """\
@@ -33,13 +33,13 @@ sys.path[:] = json.loads(sys.argv[1])
 from carom.explorer import worker
 worker.work(sys.argv[2], float(sys.argv[3]))
 """
-LATE = {
+LATE_WORDS = {
     "fit": "file: fitting it takes longer than {:g} s; leave out what is not needed, or use "
     "carom fit",
     "file": "file: it takes longer than {:g} s to write; choose fewer contact laws",
 }
-PAGES = Path("/proc/self/statm")  # of memory; Linux has it
-ORPHAN = 1.25  # times the limit: only where nobody is left to kill
+MEMORY_PAGES = Path("/proc/self/statm")  # Linux has it
+ORPHAN_FACTOR = 1.25  # times the limit: only where nobody is left to kill
 
 
 class Ended(Busy):
@@ -58,7 +58,7 @@ class Desk:
 
     def __init__(self, task: str, seconds: float, folder: str) -> None:
         self._task, self._seconds, self._folder = task, seconds, folder
-        self._places = BoundedSemaphore(1 + WAITING)
+        self._places = BoundedSemaphore(1 + MOST_WAITING)
         self._turn = Lock()
         self._guard = Lock()
         self._process: subprocess.Popen[bytes] | None = None
@@ -70,28 +70,24 @@ class Desk:
             if self._closed:
                 raise Busy
             if self._process is None or self._process.poll() is not None:
-                if self._process is not None:
-                    _end(self._process)
-                self._process, self._ready = self._started(), False
+                _end(self._process)
+                paths = json.dumps([abspath(path) for path in sys.path])
+                self._ready = False
+                self._process = subprocess.Popen(
+                    [sys.executable, "-c", PROGRAM, paths, self._task, str(self._seconds)],
+                    cwd=self._folder,
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.DEVNULL,
+                    start_new_session=True,  # an interrupt from the keyboard is not for it
+                )
             return self._process
-
-    def _started(self) -> subprocess.Popen[bytes]:
-        paths = json.dumps([abspath(path) for path in sys.path])
-        return subprocess.Popen(
-            [sys.executable, "-c", PROGRAM, paths, self._task, str(self._seconds)],
-            cwd=self._folder,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            start_new_session=True,  # an interrupt from the keyboard is not for it
-        )
 
     def close(self) -> None:
         """End the process; none is started any more."""
         with self._guard:
             self._closed = True
-            if self._process is not None:
-                _end(self._process)
+            _end(self._process)
 
     def ask(self, **asked: Any) -> Any:
         """Return what the process answers, or raise what it raises.
@@ -123,7 +119,7 @@ class Desk:
             return _exchanged(process, self._seconds, asked)
         except TimeoutError:
             self.start()
-            raise Refused("", LATE[self._task].format(self._seconds)) from None
+            raise Refused("", LATE_WORDS[self._task].format(self._seconds)) from None
         finally:
             self._turn.release()
 
@@ -147,15 +143,13 @@ class Worker:
         self._fits.close()
         self._folder.cleanup()
 
-    def fit(self, **asked: str) -> dict[str, Any]:
+    def fit(self, **asked: str) -> Any:
         """Return a fit as `uploads.answer` does; raises as `Desk.ask`."""
-        found: dict[str, Any] = self._fits.ask(**asked)
-        return found
+        return self._fits.ask(**asked)
 
-    def file(self, name: str, query: str, time: float) -> bytes:
-        """Return a file of the view of a query; raises as `Desk.ask`."""
-        found: bytes = self._files.ask(name=name, query=query, time=time)
-        return found
+    def file(self, name: str, query: str, time: float) -> Any:
+        """Return the bytes of a file of the view of a query; raises as `Desk.ask`."""
+        return self._files.ask(name=name, query=query, time=time)
 
 
 def _exchanged(process: subprocess.Popen[bytes], seconds: float, asked: Any = None) -> Any:
@@ -163,17 +157,17 @@ def _exchanged(process: subprocess.Popen[bytes], seconds: float, asked: Any = No
 
     Raises TimeoutError if there was nothing after that time, Ended if the process ended before.
     """
-    assert process.stdin is not None
-    assert process.stdout is not None
+    questions: Any = process.stdin
+    answers: Any = process.stdout
     end = monotonic() + seconds
     limit = Timer(seconds, process.kill)
     limit.daemon = True
     limit.start()
     try:
         if asked is not None:
-            pickle.dump(asked, process.stdin)
-            process.stdin.flush()
-        return pickle.load(process.stdout)
+            pickle.dump(asked, questions)
+            questions.flush()
+        return pickle.load(answers)
     except (OSError, EOFError, ValueError, pickle.UnpicklingError):  # ValueError: it was closed
         _end(process)
         raise (Ended if monotonic() < end else TimeoutError) from None
@@ -181,12 +175,13 @@ def _exchanged(process: subprocess.Popen[bytes], seconds: float, asked: Any = No
         limit.cancel()
 
 
-def _end(process: subprocess.Popen[bytes]) -> None:
-    process.kill()
-    process.wait()
-    for pipe in (process.stdin, process.stdout):
-        with suppress(OSError):  # there is nobody to take what is left
-            pipe.close()  # type: ignore[union-attr]
+def _end(process: subprocess.Popen[bytes] | None) -> None:
+    if process is not None:
+        process.kill()
+        process.wait()
+        for pipe in (process.stdin, process.stdout):
+            with suppress(OSError):  # there is nobody to take what is left
+                pipe.close()  # type: ignore[union-attr]
 
 
 def work(task: str, seconds: float) -> None:
@@ -203,7 +198,7 @@ def work(task: str, seconds: float) -> None:
             pickle.dump(answer, answers)
             answers.flush()
             asked = pickle.load(sys.stdin.buffer)
-            faulthandler.dump_traceback_later(ORPHAN * seconds, exit=True)
+            faulthandler.dump_traceback_later(ORPHAN_FACTOR * seconds, exit=True)
             answer = _done(do, asked)
             faulthandler.cancel_dump_traceback_later()
 
@@ -249,7 +244,7 @@ def _limit_memory() -> None:
         import resource
     except ImportError:  # on Windows
         return
-    if PAGES.exists():
-        now = int(PAGES.read_text().split()[0]) * resource.getpagesize()
+    if MEMORY_PAGES.exists():
+        now = int(MEMORY_PAGES.read_text().split()[0]) * resource.getpagesize()
         with suppress(OSError, ValueError):  # a stricter limit may be there already
             resource.setrlimit(resource.RLIMIT_AS, (now + WORK_MEMORY, resource.RLIM_INFINITY))

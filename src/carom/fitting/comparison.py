@@ -13,8 +13,8 @@ from scipy.special import stdtrit
 from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import NORMAL
-from carom.dimensionless.lossy.panels.stages import restitution
-from carom.dimensionless.lossy.panels.work import new_work
+from carom.dimensionless.lossy.viscoelastic.normal import restitution
+from carom.dimensionless.lossy.viscoelastic.work import new_work
 from carom.fitting import model as laws
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan

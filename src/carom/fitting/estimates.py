@@ -7,6 +7,7 @@ from typing import Any
 from carom.fitting.intervals import ProfiledFit
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
+from carom.quantities.shown import Printed
 from carom.quantities.units import or_none
 
 LIMITS = {  # what a parameter can be at all
@@ -22,7 +23,7 @@ LIMITS = {  # what a parameter can be at all
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Estimate(Printed):
     """A fitted parameter: its value and interval, or the reason why it has none.
 
     An end of the interval that the data leave open is the end of the possible values: 0, 1 or

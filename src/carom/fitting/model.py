@@ -74,7 +74,7 @@ class FittedLaw:
         after = self.contact_velocity_out(pair, normal, velocity, values)
         impulse = pair.tangential_mass * (velocity - after)
         restitution = self.restitution(pair, normal, values)
-        rebound = Rebound(pair, normal, before, restitution + 0.0 * turning, impulse)
+        rebound = Rebound(pair, normal, *before, restitution + 0.0 * turning, impulse)
         return np.stack([getattr(rebound, name) for name in names], axis=-1)
 
 

@@ -14,13 +14,11 @@ from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged
 from carom.fitting.problem import NOTHING, FitProblem, IncomingMotion
-from carom.io.columns import ERROR, entry, in_units, others, with_errors
 from carom.io.tables import read_table
-from carom.io.user_table import UserTable
+from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
-from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, checked_type, clipped, nearest, refusal
+from carom.quantities.refusals import Faults, InputError, checked_type, clipped, nearest, refusal
 from carom.quantities.units import WHY_POSITIVE, number
 
 MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit

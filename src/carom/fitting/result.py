@@ -236,8 +236,7 @@ class Fit(FitRecord, Result):
         return "\n".join([bibtex(*keys), *([with_doi(doi)] if doi else [])])
 
     def _draw(self, dataset: Any, **look: Any) -> "Figure":
-        from carom.plots.drops import plot_drops  # these load matplotlib
-        from carom.plots.fits import plot_fit
+        from carom.plots.fits import plot_drops, plot_fit  # which loads matplotlib
 
         is_drops = self.losses is not None and self.best.model.problem.is_normal
         return (plot_drops if is_drops else plot_fit)(dataset, **look)

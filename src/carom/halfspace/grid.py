@@ -7,8 +7,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from carom.halfspace.influence import Field
-from carom.halfspace.transforms import Mirrors
+from carom.halfspace.transforms import Field, Mirrors
 
 MARGIN = 1.06  # of the grid over the largest contact
 

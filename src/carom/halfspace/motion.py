@@ -1,19 +1,22 @@
-"""The motion of the bodies through an impact, coupled to the contact between them."""
+"""The motion of the bodies through an impact, with the contact between them, and its ledger."""
 
 from collections.abc import Iterator
 from math import gamma, pi, sqrt
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from carom.halfspace.influence import Field
 from carom.halfspace.quasistatic import ContactStep, Patch
+from carom.halfspace.transforms import Field
 
 DURATION = 0.8 * sqrt(pi) * gamma(0.4) / gamma(0.9)  # of Hertz's impact, 2.9433 d_max/V_1
-NORMAL = 15.0 / 16.0  # d'' = -NORMAL P
-REACH = 1.0  # elements by which the edge may move in a step
+NORMAL_RATE = 15.0 / 16.0  # d'' = -NORMAL_RATE P
+EDGE_REACH = 1.0  # elements by which the edge may move in a step
 SLOWEST = 0.05  # of V_1: near the turning point the number of steps decides
 SLOW_CHI = 2.0  # beyond it the tangential motion on its springs decides the length of steps
+
+Number = TypeVar("Number", float, Field)
+FROM_TOUCH = 2.0 / 3.0  # of its end, a traction that grows from zero as a square root
 
 
 class BodyMotion(NamedTuple):
@@ -47,8 +50,8 @@ NO_SPIN = NormalSpin()
 
 def responses(chi: float, kappa: float, lightness: float) -> Field:
     """Return how forces along x and y and the moment change velocities, V' = -response F."""
-    along = 2.0 * NORMAL * chi / kappa
-    return np.array([along, along, NORMAL * lightness])
+    along = 2.0 * NORMAL_RATE * chi / kappa
+    return np.array([along, along, NORMAL_RATE * lightness])
 
 
 def move(
@@ -71,7 +74,7 @@ def move(
     while True:
         state = now.step.state
         length = min(longest, _edge_limit(now, spacing))
-        approach = now.approach - 0.5 * length * NORMAL * now.force
+        approach = now.approach - 0.5 * length * NORMAL_RATE * now.force
         velocity = now.velocity - 0.5 * length * response * now.drag
         depth = state.depth + length * approach
         if depth <= 0.0:
@@ -81,7 +84,7 @@ def move(
             return
         step = patch.advance(state, depth, state.displacement + length * velocity, length)
         force, drag = patch.grid.force(step.state.pressure), patch.grid.drag(step.state.traction)
-        approach = approach - 0.5 * length * NORMAL * force
+        approach = approach - 0.5 * length * NORMAL_RATE * force
         velocity = velocity - 0.5 * length * response * drag
         now = BodyMotion(now.time + length, approach, velocity, step, force, drag)
         yield now
@@ -94,6 +97,95 @@ def _apart(patch: Patch, displacement: Field) -> ContactStep:
 
 
 def _edge_limit(now: BodyMotion, spacing: float) -> float:
-    """Return the time in which the edge, a = sqrt d, moves by REACH elements."""
+    """Return the time in which the edge, a = sqrt d, moves by EDGE_REACH elements."""
     radius = max(sqrt(now.step.state.depth), 0.25 * spacing)
-    return REACH * spacing * 2.0 * radius / max(abs(now.approach), SLOWEST)
+    return EDGE_REACH * spacing * 2.0 * radius / max(abs(now.approach), SLOWEST)
+
+
+class LedgerEntry(NamedTuple, Generic[Number]):
+    """One instant of an impact, or all of them; `across` is along y, `turn` about the normal.
+
+    Units as in `Compliance` and `BodyMotion`; energies of the normal motion in E* a_max d_max^2, of
+    the tangential motion in friction^2 times that. What is `lost` and the angles belong to the step
+    that ends here.
+    """
+
+    time: Number
+    depth: Number
+    approach: Number
+    displacement: Number
+    velocity: Number
+    velocity_across: Number
+    turn_velocity: Number
+    force: Number
+    drag: Number
+    moment: Number
+    contact_radius: Number  # of the circle of the same area
+    slip_share: Number  # of the elements that touch
+    normal_stored: Number
+    tangential_stored: Number
+    lost: Number  # to friction
+    lost_across: Number  # of that, by slip across
+    slip_angle: Number  # between slip and x, averaged over the work of friction
+    slip_angle_max: Number
+    slip_drag: Number  # what of the drag is that of slipping elements
+
+    @property
+    def stick_radius(self) -> Number:
+        """Radius of the circle of the area that sticks."""
+        share: Number = (1.0 - self.slip_share) ** 0.5
+        return share * self.contact_radius
+
+    @property
+    def normal_force(self) -> Number:
+        """Normal force in the largest of Hertz's impact."""
+        return 0.75 * self.force
+
+    @property
+    def tangential_force(self) -> Number:
+        """Tangential force in (3/2) friction times that."""
+        return 0.5 * self.drag
+
+
+def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry[float]:
+    """Return what the step from one instant to the next comes to."""
+    state, old, grid = now.step.state, before.step.state, patch.grid
+    moved, slips = now.step.moved, now.step.slips
+    mean = np.where(old.pressure > 0.0, 0.5, FROM_TOUCH) * (old.traction + state.traction)
+    work = grid.element * mean * moved
+    angle, largest = _angles(state.traction[:, slips], moved[:, slips])
+    touching = np.count_nonzero(state.pressure > 0.0)
+    return LedgerEntry(
+        now.time,
+        state.depth,
+        now.approach,
+        float(state.displacement[0]),
+        float(now.velocity[0]),
+        float(now.velocity[1]),
+        float(now.velocity[2]),
+        now.force,
+        float(now.drag[0]),
+        float(now.drag[2]),
+        sqrt(touching * grid.element / pi),
+        np.count_nonzero(slips) / touching if touching else 1.0,
+        0.5 * grid.force(state.pressure * (state.depth - grid.apart)),
+        0.5 * grid.element * float(np.sum(state.traction * state.yielded)),
+        float(work.sum()),
+        float(work[1].sum()),
+        angle,
+        largest,
+        grid.element * float(state.traction[0, slips].sum()),
+    )
+
+
+def _angles(pulled: Field, slid: Field) -> tuple[float, float]:
+    """Return mean and largest angle against x of what slips; zero where nothing does.
+
+    Slip is along the traction, whose direction is known better where slip is little.
+    """
+    if not pulled.size:
+        return 0.0, 0.0
+    work = np.maximum(np.sum(slid * pulled, axis=0), 0.0)
+    angle = np.arctan2(np.abs(pulled[1]), np.abs(pulled[0]))
+    mean = float(np.sum(angle * work) / np.sum(work)) if work.any() else 0.0
+    return mean, float(angle.max())

@@ -7,17 +7,18 @@ import numpy as np
 
 from carom.halfspace.compliance import Compliance, Materials
 from carom.halfspace.grid import Grid, elements_across
-from carom.halfspace.influence import Field, Mask
-from carom.halfspace.second_order import aside_of_bodies, before_touch, turn_to_end
 from carom.halfspace.traction import at_bound, solve_pressure, solve_traction
-from carom.halfspace.transforms import NO_MIRRORS, Mirrors
+from carom.halfspace.transforms import NO_MIRRORS, Field, Mask, Mirrors
 
-EXCHANGES = 60  # between normal and tangential contact
-FIRST, NEXT = 1e-3, 0.03  # how far they are solved first, and then by what they still change
+MOST_EXCHANGES = 60  # between normal and tangential contact
+FIRST_TOLERANCE, NEXT_TOLERANCE = (1e-3, 0.03)  # first, and then of what changes
 RELAXED = 0.8  # of a change of direction: friction turned one way makes slip turn back
 TINY = 1e-300  # tractions of no motion are zero
-TURNS = 8  # exchanges after which the direction of slip is left as it is
+TURNING_EXCHANGES = 8  # exchanges after which the direction of slip is left as it is
 SLIPPING = 1e-5  # of its bound: as near to that a traction slips
+
+CLOSING = 1e-3  # of the approach: a gap that closes by less tells nothing of the edge
+LARGEST_TURN = 0.5  # its cosine: slip that turns by more in a step starts anew
 
 
 class Tolerances(NamedTuple):
@@ -112,39 +113,41 @@ class Patch:
         slip at the end of the step. `length` is that of the step, in any unit.
         """
         carried = self.grid.carried(displacement - state.displacement)
-        given, approach = carried + state.yielded, depth - state.depth
+        followed, approach = carried + state.yielded, depth - state.depth
         open_ = np.where(state.pressure > 0.0, 0.0, state.gap)
         early = before_touch(open_, carried, approach, state.aside)
         share = length / (length + state.length)
         start = (now + length * rate for now, rate in zip(state.loads, state.rates, strict=True))
-        found = self._balance(_Asked(depth, given, early, state.slip, share), *start)
-        rates = [(now - last) / length for now, last in zip(found.loads, state.loads, strict=True)]
-        closed = np.where(found.gap > 0.0, state.gap - found.gap, 0.0)
-        aside = aside_of_bodies(closed, given - found.yielded, carried, approach)
-        slip = np.where(slipping(found.loads[1], found.bound), found.moved / length, 0.0)
-        surfaces = (*found.loads, found.bound, found.yielded, found.gap, aside, slip)
+        balanced = self._balance(_Asked(depth, followed, early, state.slip, share), *start)
+        rates = [
+            (now - last) / length for now, last in zip(balanced.loads, state.loads, strict=True)
+        ]
+        closed = np.where(balanced.gap > 0.0, state.gap - balanced.gap, 0.0)
+        aside = aside_of_bodies(closed, followed - balanced.yielded, carried, approach)
+        slip = np.where(slipping(balanced.loads[1], balanced.bound), balanced.moved / length, 0.0)
+        surfaces = (*balanced.loads, balanced.bound, balanced.yielded, balanced.gap, aside, slip)
         reached = ContactState(depth, displacement, *surfaces, rates, length)
-        return ContactStep(reached, found.moved, found.moved - found.turn)
+        return ContactStep(reached, balanced.moved, balanced.moved - balanced.turn)
 
-    def _balance(self, asked: "_Asked", pressure: Field, traction: Field) -> "_Found":
+    def _balance(self, asked: "_Asked", pressure: Field, traction: Field) -> "_Balance":
         """Return normal and tangential contact and the direction of slip that agree.
 
         They are solved in turns, each with the others' results, from loads to begin with.
         """
         surface, tolerances = self.compliance, self.tolerances
-        turn, rough = np.zeros_like(traction), FIRST if surface.couples else 0.0
-        for count in range(EXCHANGES):
+        turn, rough = np.zeros_like(traction), FIRST_TOLERANCE if surface.couples else 0.0
+        for count in range(MOST_EXCHANGES):
             before, used = (pressure, traction), turn
             overlap = asked.depth - self.grid.apart - surface.normal_of_traction(traction)
             finer = max(tolerances.normal, rough), max(tolerances.tangential, rough)
             pressure, sunk = solve_pressure(surface, overlap, pressure, finer[0])
             skewed = surface.tangential_of_pressure(pressure)
-            since = asked.given - np.where(pressure > 0.0, asked.early, 0.0)
+            since = asked.followed - np.where(pressure > 0.0, asked.early, 0.0)
             pull = since - skewed - used
             bound = self.bound(pressure)
             traction, dragged = solve_traction(surface, pull, bound, traction, finer[1])
             moved = since - skewed - dragged
-            if count < TURNS:
+            if count < TURNING_EXCHANGES:
                 slips = slipping(traction, bound)
                 turned = turn_to_end(moved, slips, asked.slip, asked.share)
                 turn = used + RELAXED * (turned - used)
@@ -153,12 +156,12 @@ class Patch:
             straight = np.abs(turn - used).max() <= tolerances.turn * own
             if straight and max(change, 3.0 * rough) <= tolerances.exchange:
                 gap = np.maximum(sunk - overlap, 0.0)
-                return _Found((pressure, traction), bound, skewed + dragged, gap, moved, used)
-            rough = min(rough, NEXT * change)
+                return _Balance((pressure, traction), bound, skewed + dragged, gap, moved, used)
+            rough = min(rough, NEXT_TOLERANCE * change)
         product = surface.materials.friction * abs(surface.materials.beta)
         raise RuntimeError(
-            f"normal and tangential contact differ after {EXCHANGES} exchanges; friction times "
-            f"Dundurs' beta is {product:.3g}, and boundary elements need about 1 at most"
+            f"normal and tangential contact differ after {MOST_EXCHANGES} exchanges; friction "
+            f"times Dundurs' beta is {product:.3g}, and boundary elements need about 1 at most"
         )
 
 
@@ -166,13 +169,13 @@ class _Asked(NamedTuple):
     """What a step is about: positions, and what is known of slip."""
 
     depth: float
-    given: Field  # what the surfaces gave way before, and the motion of the bodies since
+    followed: Field  # what the surfaces gave way before, and the motion of the bodies since
     early: Field  # of that, what comes before they touch
     slip: Field  # of the last step
     share: float  # of the time between the middles of steps, that the end of this one is ahead
 
 
-class _Found(NamedTuple):
+class _Balance(NamedTuple):
     """What a step comes to."""
 
     loads: tuple[Field, Field]
@@ -192,3 +195,42 @@ def _change(before: tuple[Field, Field], after: tuple[Field, Field]) -> float:
     """Return the largest change of pressure or traction, as a share of the largest."""
     pairs = zip(before, after, strict=True)
     return max(float(np.abs(new - old).max() / max(np.abs(new).max(), TINY)) for old, new in pairs)
+
+
+def before_touch(gap: Field, carried: Field, approach: float, aside: Field) -> Field:
+    """Return how far surfaces that do not touch yet move along each other before they do.
+
+    Outside the edge both gap and motion fall as the distance to the power 3/2, so that motion goes
+    with the closing of the gap: as that of the bodies does with their approach, and `aside` more.
+    """
+    if approach <= 0.0:
+        return np.zeros_like(carried)
+    return gap * (carried / approach + aside)
+
+
+def aside_of_bodies(closed: Field, moved: Field, carried: Field, approach: float) -> Field:
+    """Return the motion of the surfaces over the closing of their gap, less that of the bodies.
+
+    Where nothing closes it is zero. `moved` is the motion in a step, `closed` what the gap did.
+    """
+    tells = closed > max(CLOSING * approach, 0.0)
+    if approach <= 0.0 or not tells.any():
+        return np.zeros_like(moved)
+    return np.where(tells, moved / np.where(tells, closed, 1.0) - carried / approach, 0.0)
+
+
+def turn_to_end(moved: Field, slips: Mask, last: Field, share: float) -> Field:
+    """Return what of the slip in a step is not along its direction at the end of the step.
+
+    The slip of this step and of the `last` tell the direction in the middle of each; the end is
+    ahead of this middle by `share` of the time between them.
+    """
+    middle, before = _unit(moved), _unit(last)
+    end = _unit(middle + share * (middle - before))
+    turns = slips & (np.sum(middle * before, axis=0) > LARGEST_TURN)
+    return np.where(turns, moved - np.sum(moved * end, axis=0) * end, 0.0)
+
+
+def _unit(vectors: Field) -> Field:
+    size = np.hypot(*vectors)
+    return vectors / np.where(size > 0.0, size, 1.0)

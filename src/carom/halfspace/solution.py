@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, pairwise
 from math import ceil
 from typing import NamedTuple
 
@@ -10,17 +10,88 @@ import numpy as np
 
 from carom.halfspace import motion
 from carom.halfspace.compliance import Materials
-from carom.halfspace.influence import Field
-from carom.halfspace.ledger import LedgerEntry, entry
+from carom.halfspace.motion import LedgerEntry, entry
 from carom.halfspace.quasistatic import ContactStep, Patch
-from carom.halfspace.refinement import STANDARD, Resolution
-from carom.halfspace.stages import SlipStage, stages
-from carom.halfspace.transforms import Mirrors
+from carom.halfspace.transforms import Field, Mirrors
+from carom.quantities.causes import Cause, cause_between
+
+LEAST_SHARE = 0.3  # of the last but one refinement: errors of both signs may hide in the last
+MOST_TO_COME = 3.0  # refinements of the last kind, if they do not get smaller
+
+THIN_ZONE = 0.02  # of the contact: as little as this is the grid's
+SHORTEST_STAGE = 0.02  # of the contact time
 
 Progress = Callable[[int], object]
 FAINT = 1e-6  # of the normal force: slip that pulls so little has no sign
-VELOCITIES = ("velocity", "velocity_across", "turn_velocity")
 SNAPSHOTS = 60  # steps of an impact whose fields are kept, about
+
+
+class Resolution(NamedTuple):
+    """Elements across the largest contact, and steps in the duration of Hertz's impact."""
+
+    elements: int = 64
+    steps: int = 300
+
+    @property
+    def half(self) -> "Resolution":
+        """Half as fine in space and time."""
+        return Resolution(max(self.elements // 2, 2), max(self.steps // 2, 2))
+
+
+STANDARD = Resolution()
+
+
+def refinement_error(quarter: float, half: float, whole: float) -> float:
+    """Return about the error of a number that was found on a whole grid, half and a quarter of it.
+
+    The last change, as for an error of first order in the grid; more where changes fall by less
+    than that, less than half, by their geometric series; and at least three tenths of the change
+    before.
+    """
+    before, last = abs(half - quarter), abs(whole - half)
+    to_come = min(last / (before - last), MOST_TO_COME) if before > last else MOST_TO_COME
+    return max(last * to_come if before < 2.0 * last else last, LEAST_SHARE * before)
+
+
+class SlipStage(NamedTuple):
+    """A stretch of time in which all sticks, all slips, or both; `cause` is what ends it."""
+
+    kind: str
+    sign: int  # of slip along the direction of the motion before
+    start: float
+    end: float
+    cause: str
+
+
+def stages(time: Field, slipping: Field, sign: Field) -> tuple[SlipStage, ...]:
+    """Return the stages of an impact, those too short for the grid left out.
+
+    `slipping` is the share of the contact that slips in the step that ends at each time, `sign` the
+    sign of that slip.
+    """
+    kinds = [_kind(*step) for step in zip(slipping[1:-1], sign[1:-1], strict=True)]
+    runs = [(kind, len(list(group))) for kind, group in groupby(kinds)]
+    starts = np.cumsum([0, *(length for _, length in runs)])
+    long = [
+        (kind, float(time[first]))
+        for (kind, length), first in zip(runs, starts, strict=False)
+        if time[first + length] - time[first] >= SHORTEST_STAGE * time[-1]
+    ] or [(kinds[0], 0.0)]
+    kept = [next(group) for _, group in groupby(long, key=lambda item: item[0])]
+    begins = [0.0, *(start for _, start in kept[1:])]
+    ends = [*begins[1:], float(time[-1])]
+    changes = pairwise(kind for (kind, _), _ in kept)
+    causes = [*(cause_between(*change).message for change in changes), Cause.SEPARATION.message]
+    return tuple(
+        SlipStage(kind, sign, begin, end, cause)
+        for ((kind, sign), _), begin, end, cause in zip(kept, begins, ends, causes, strict=True)
+    )
+
+
+def _kind(slipping: float, sign: float) -> tuple[str, int]:
+    if slipping <= THIN_ZONE:
+        return "stick", 0
+    return "slip" if slipping < 1.0 - THIN_ZONE else "gross slip", int(sign)
 
 
 class GridHistory(NamedTuple):
@@ -42,12 +113,7 @@ class GridHistory(NamedTuple):
     normal_lost: Field
     slip_angle: Field
     slip_angle_max: Field
-
-
-class Turning(NamedTuple):
-    """Spin about the normal at some times, the moment against it, velocity across the motion."""
-
-    speed: Field
+    spin: Field  # about the normal, with the moment against it and the velocity across the motion
     moment: Field
     velocity_across: Field
 
@@ -55,7 +121,7 @@ class Turning(NamedTuple):
 class Snapshot(NamedTuple):
     """The contact at the end of a step, with the velocity of slip during it."""
 
-    entry: LedgerEntry
+    entry: LedgerEntry[float]
     step: ContactStep
     slip_velocity: Field
 
@@ -66,61 +132,21 @@ class HalfspaceSolution:
 
     psi_in: float
     chi: float
+    psi_out: float  # along x
+    spin_out: float  # about the normal, as in `NormalSpin`
+    restitution: float  # unlike materials exchange a little with the other motion
+    duration: float
+    max_penetration: float  # in those of Hertz, as what follows
+    max_force: float
+    max_radius: float  # that of the circle of the same area
+    max_pressure: float  # of Hertz's theory at the largest force
     materials: Materials
     spin: motion.NormalSpin
     resolution: Resolution
-    ledger: Field  # a row a LedgerEntry
+    ledger: LedgerEntry[Field]  # of arrays along the steps
     snapshots: tuple[Snapshot, ...]
     patch: Patch
-
-    def column(self, name: str) -> Field:
-        """Return one quantity of `LedgerEntry` along the steps."""
-        return np.asarray(getattr(LedgerEntry(*self.ledger.T), name))
-
-    @property
-    def psi_out(self) -> float:
-        """psi after the impact, along x."""
-        return self.materials.kappa * float(self.column("velocity")[-1])
-
-    @property
-    def spin_out(self) -> float:
-        """Spin about the normal after the impact, as in `NormalSpin`."""
-        return float(self.column("turn_velocity")[-1])
-
-    @property
-    def restitution(self) -> float:
-        """Normal velocity after to before; unlike materials exchange a little with the other."""
-        return -float(self.column("approach")[-1])
-
-    @property
-    def duration(self) -> float:
-        """Time of contact, in d_max/V_1."""
-        return float(self.column("time")[-1])
-
-    @property
-    def max_penetration(self) -> float:
-        """Largest approach, in d_max of Hertz."""
-        return float(self.column("depth").max())
-
-    @property
-    def max_force(self) -> float:
-        """Largest normal force, in that of Hertz."""
-        return float(self.column("normal_force").max())
-
-    @property
-    def max_radius(self) -> float:
-        """Largest radius of the contact, that of the circle of the same area, in that of Hertz."""
-        return float(self.column("contact_radius").max())
-
-    @property
-    def max_pressure(self) -> float:
-        """Largest pressure of Hertz's theory at the largest force, in that of Hertz."""
-        return float(self.max_force ** (1.0 / 3.0))
-
-    @property
-    def shear_lost(self) -> float:
-        """Energy lost to viscosity in shear: none, the bodies are elastic."""
-        return 0.0
+    shear_lost: float = 0.0  # to viscosity: the bodies are elastic
 
     @property
     def energy_error(self) -> float:
@@ -128,33 +154,35 @@ class HalfspaceSolution:
 
         Of spin about the normal what it loses counts: all of it may be as large as one likes.
         """
+        ledger = self.ledger
         response = motion.responses(self.chi, self.materials.kappa, self.spin.lightness)
+        velocities = ledger.velocity, ledger.velocity_across, ledger.turn_velocity
         along, across, around = (
-            0.5 * self.column(name) ** 2 / each if each > 0.0 else np.zeros(len(self.ledger))
-            for name, each in zip(VELOCITIES, response, strict=True)
+            0.5 * velocity**2 / each if each > 0.0 else np.zeros(ledger.time.size)
+            for velocity, each in zip(velocities, response, strict=True)
         )
-        lost = np.cumsum(self.column("lost"))
-        tangential = along + across + around - around[-1] + self.column("tangential_stored") + lost
-        normal = 0.5 * self.column("approach") ** 2 / motion.NORMAL + self.column("normal_stored")
+        lost = np.cumsum(ledger.lost)
+        tangential = along + across + around - around[-1] + ledger.tangential_stored + lost
+        normal = 0.5 * ledger.approach**2 / motion.NORMAL_RATE + ledger.normal_stored
         total = normal + self.materials.friction**2 * tangential
         return float(np.abs(total - total[0]).max() / total[0])
 
     @property
     def phases(self) -> tuple[SlipStage, ...]:
         """Stick, slip and gross slip in order, as far as the grid shows them."""
-        pull = self.column("slip_drag")
-        sign = np.where(np.abs(pull) > FAINT * self.column("force"), np.sign(pull), 0.0)
-        return stages(self.column("time"), self.column("slip_share"), sign)
+        pull, ledger = self.ledger.slip_drag, self.ledger
+        sign = np.where(np.abs(pull) > FAINT * ledger.force, np.sign(pull), 0.0)
+        return stages(ledger.time, ledger.slip_share, sign)
 
     def slip_angles(self, start: float, end: float) -> tuple[float, float]:
         """Return largest and mean angle of slip against x between two times."""
-        time = self.column("time")
-        within = (time > start) & (time <= end)
-        work = np.maximum(self.column("lost")[within], 0.0)
+        ledger = self.ledger
+        within = (ledger.time > start) & (ledger.time <= end)
+        work = np.maximum(ledger.lost[within], 0.0)
         if not work.any():
             return 0.0, 0.0
-        mean = np.sum(self.column("slip_angle")[within] * work) / work.sum()
-        return float(self.column("slip_angle_max")[within].max()), float(mean)
+        mean = np.sum(ledger.slip_angle[within] * work) / work.sum()
+        return float(ledger.slip_angle_max[within].max()), float(mean)
 
     def history(self, n: int) -> GridHistory:
         """Return the impact at n evenly spaced times."""
@@ -162,42 +190,35 @@ class HalfspaceSolution:
 
     def at(self, time: Field) -> GridHistory:
         """Return the impact at times, linear between the steps."""
-        return GridHistory(
-            time, *(np.interp(time, self.column("time"), c) for c in self._columns())
-        )
-
-    def turning(self, n: int) -> Turning:
-        """Return the spin about the normal at n evenly spaced times, and what goes with it."""
-        time = np.linspace(0.0, self.duration, n)
-        names = ("turn_velocity", "moment", "velocity_across")
-        return Turning(*(np.interp(time, self.column("time"), self.column(name)) for name in names))
+        ledger, kappa, of_normal = self.ledger, self.materials.kappa, 2.0 * motion.NORMAL_RATE
+        energy = kappa * of_normal * self.chi  # of psi^2/2 in those of the tangential motion
+        none = np.zeros(ledger.time.size)
+        columns = {
+            "penetration": ledger.depth,
+            "speed": ledger.approach,
+            "psi": kappa * ledger.velocity,
+            "displacement": kappa * ledger.displacement,
+            "force": ledger.tangential_force,
+            "stick_radius": ledger.stick_radius,
+            "contact_radius": ledger.contact_radius,
+            "stored": energy * ledger.tangential_stored,
+            "dissipated": energy * np.cumsum(ledger.lost),
+            "shear_lost": none,
+            "normal_force": ledger.normal_force,
+            "normal_stored": of_normal * ledger.normal_stored,
+            "normal_lost": none,
+            "slip_angle": ledger.slip_angle,
+            "slip_angle_max": ledger.slip_angle_max,
+            "spin": ledger.turn_velocity,
+            "moment": ledger.moment,
+            "velocity_across": ledger.velocity_across,
+        }
+        sampled = {name: np.interp(time, ledger.time, each) for name, each in columns.items()}
+        return GridHistory(time=time, **sampled)
 
     def snapshot(self, time: float) -> Snapshot:
         """Return the kept step that ends nearest to a time."""
         return min(self.snapshots, key=lambda kept: abs(kept.entry.time - time))
-
-    def _columns(self) -> tuple[Field, ...]:
-        """Return all columns of a history but the time, in its units."""
-        kappa = self.materials.kappa
-        of_normal = 2.0 * motion.NORMAL
-        energy = kappa * of_normal * self.chi  # of psi^2/2 in those of the tangential motion
-        return (
-            self.column("depth"),
-            self.column("approach"),
-            kappa * self.column("velocity"),
-            kappa * self.column("displacement"),
-            self.column("tangential_force"),
-            self.column("stick_radius"),
-            self.column("contact_radius"),
-            energy * self.column("tangential_stored"),
-            energy * np.cumsum(self.column("lost")),
-            np.zeros(len(self.ledger)),
-            self.column("normal_force"),
-            of_normal * self.column("normal_stored"),
-            np.zeros(len(self.ledger)),
-            self.column("slip_angle"),
-            self.column("slip_angle_max"),
-        )
 
 
 def solve(
@@ -217,7 +238,7 @@ def solve(
     """
     mirrors = Mirrors(x=materials.beta == 0.0, y=spin.speed == 0.0)
     patch = Patch.across(resolution.elements, materials, mirrors)
-    rows: list[LedgerEntry] = []
+    rows: list[LedgerEntry[float]] = []
     snapshots: list[Snapshot] = []
     every = ceil(max(resolution) / SNAPSHOTS)
     motions = motion.move(patch, np.array([psi, 0.0]), chi, resolution.steps, spin)
@@ -230,8 +251,25 @@ def solve(
             snapshots.append(Snapshot(rows[-1], now.step, slip_velocity))
         if progress is not None:
             progress(_steps_until(now, resolution) - _steps_until(before, resolution))
+    ledger = LedgerEntry(*np.array(rows).T)
+    max_force = float(ledger.normal_force.max())
     return HalfspaceSolution(
-        psi, chi, materials, spin, resolution, np.array(rows), tuple(snapshots), patch
+        psi,
+        chi,
+        psi_out=materials.kappa * float(ledger.velocity[-1]),
+        spin_out=float(ledger.turn_velocity[-1]),
+        restitution=-float(ledger.approach[-1]),
+        duration=float(ledger.time[-1]),
+        max_penetration=float(ledger.depth.max()),
+        max_force=max_force,
+        max_radius=float(ledger.contact_radius.max()),
+        max_pressure=float(max_force ** (1.0 / 3.0)),
+        materials=materials,
+        spin=spin,
+        resolution=resolution,
+        ledger=ledger,
+        snapshots=tuple(snapshots),
+        patch=patch,
     )
 
 

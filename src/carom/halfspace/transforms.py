@@ -7,10 +7,10 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from carom.halfspace.influence import Field
-
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 Spectrum = NDArray[np.complex128] | Field
-DENSE = 96  # elements up to which a product with a matrix is faster than a cosine transform
+DENSE_ELEMENTS = 96  # up to which a product with a matrix is faster than a cosine transform
 
 
 class Mirrors(NamedTuple):
@@ -89,7 +89,7 @@ class Transform:
 
 def _waves(field: Spectrum, length: int, axis: int, odd: bool) -> Spectrum:
     """Return the cosines or sines of a field along an axis, padded to so many."""
-    if field.shape[axis] > DENSE:
+    if field.shape[axis] > DENSE_ELEMENTS:
         transform = scipy.fft.dst if odd else scipy.fft.dct
         return np.asarray(transform(field, 2, length, axis))
     forward, _ = _matrices(field.shape[axis], length, odd)
@@ -98,7 +98,7 @@ def _waves(field: Spectrum, length: int, axis: int, odd: bool) -> Spectrum:
 
 def _samples(spectrum: Spectrum, kept: int, axis: int, odd: bool) -> Spectrum:
     """Return the field of cosines or sines along an axis, as much of it as is kept."""
-    if kept > DENSE:
+    if kept > DENSE_ELEMENTS:
         inverse = scipy.fft.idst if odd else scipy.fft.idct
         field = inverse(spectrum, 2, axis=axis)
         return np.asarray(field[..., :kept] if axis == -1 else field[..., :kept, :])

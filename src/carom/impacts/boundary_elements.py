@@ -9,21 +9,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.bodies.kinematics import Tangential, normal_inertia
-from carom.bodies.pairs import Pair, with_friction
+from carom.bodies.pairs import Pair, Scales, with_friction
 from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless import solution as theory
 from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
-from carom.halfspace.ledger import LedgerEntry
-from carom.halfspace.motion import NormalSpin
-from carom.halfspace.refinement import Resolution, refinement_error
-from carom.halfspace.solution import HalfspaceSolution, solve
+from carom.halfspace.motion import LedgerEntry, NormalSpin
+from carom.halfspace.solution import HalfspaceSolution, Resolution, refinement_error, solve
 from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import WEAK_COUPLING, judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted
 
@@ -115,7 +114,7 @@ class HalfspaceImpact(ImpactResult):
         Along the axis of positive `spin`. Unlike bodies that spin about the normal veer off.
         """
         unit = self.pair.kappa * self.scales.tangential_speed
-        return float(self.solution.column("velocity_across")[-1]) * unit
+        return float(self.solution.ledger.velocity_across[-1]) * unit
 
     @property
     def psi_out_error(self) -> float:
@@ -165,7 +164,7 @@ class HalfspaceImpact(ImpactResult):
                 finding._replace(holds=None, verdict=f"{finding.verdict}; {BY_THEORY}")
                 for finding in strength
             )
-        assumed = judge_contact(self.pair, self.normal_speed, self.duration, strength)
+        assumed = judge_contact(self, strength)
         return Validity((*assumed, *judge_errors(self.psi_out_error, self.energy_error)))
 
     def scalars(self) -> dict[str, float]:
@@ -180,12 +179,13 @@ class HalfspaceImpact(ImpactResult):
         """Return what to cite for this result, as BibTeX."""
         return bibtex(*ELEMENTS)
 
-    def fields(self, time: Value) -> xr.Dataset:
+    @known_keywords
+    def fields(self, at: Value) -> xr.Dataset:
         """Return tractions, zones and slip velocities on the grid, at one of the stored steps.
 
         Parameters
         ----------
-        time : float or str
+        at : float or str
             Time since the first touch in s, 0 to `duration`; the nearest of some 60 stored steps is
             taken.
 
@@ -204,16 +204,13 @@ class HalfspaceImpact(ImpactResult):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> coarse = carom.BoundaryElements(elements=16, steps=75)
         >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", method=coarse)
         >>> patch = hit.fields(0.6 * hit.duration)
         >>> bool((abs(patch.traction_y) > 0.0).any())
         True
         """
-        shot = self.solution.snapshot(self._instant(time) / self.scales.time)
+        shot = self.solution.snapshot(self._instant(at) / self.scales.time)
         step, grid = shot.step, self.solution.patch.grid
         friction, unit = self.pair.friction, self._pressure_unit
         traction = friction * unit * grid.whole_vector(step.state.traction)
@@ -241,7 +238,7 @@ class HalfspaceImpact(ImpactResult):
         """E* d_max/a_max in Pa: Hertz's largest pressure is 2/pi of it."""
         return 0.5 * np.pi * self.scales.pressure
 
-    def _numbers(self, entry: LedgerEntry) -> dict[str, float]:
+    def _numbers(self, entry: LedgerEntry[float]) -> dict[str, float]:
         scales, kappa = self.scales, self.pair.kappa
         return {
             "friction": self.pair.friction,
@@ -260,18 +257,16 @@ class HalfspaceImpact(ImpactResult):
 
     def _columns(self, n: int) -> dict[str, Any]:
         history = self.solution.history(n)
-        angles = {"slip_angle": history.slip_angle, "slip_angle_max": history.slip_angle_max}
-        return super()._columns(n) | angles | (self._turning(n) if self.normal_spin else {})
-
-    def _turning(self, n: int) -> dict[str, Any]:
-        """Return the columns that spin about the normal adds."""
-        turn = self.solution.turning(n)
-        spin = turn.speed * self._spin_unit
+        columns = super()._columns(n)
+        columns |= {"slip_angle": history.slip_angle, "slip_angle_max": history.slip_angle_max}
+        if not self.normal_spin:
+            return columns
+        spin = history.spin * self._spin_unit
         moment = self.pair.friction * self._pressure_unit * self.scales.radius**3
-        across = self.pair.kappa * self.scales.tangential_speed * turn.velocity_across
-        return {
+        across = self.pair.kappa * self.scales.tangential_speed * history.velocity_across
+        return columns | {
             "normal_spin": spin,
-            "frictional_moment": turn.moment * moment,
+            "frictional_moment": history.moment * moment,
             "contact_velocity_across": across,
             "normal_spin_kinetic_energy": 0.5 * normal_inertia(self.pair) * spin**2,
         }
@@ -282,7 +277,7 @@ class HalfspaceImpact(ImpactResult):
 
 def solve_by_elements(
     pair: Pair,
-    normal_speed: float,
+    scales: Scales,
     motion: Tangential,
     normal_spin: float,
     method: BoundaryElements,
@@ -293,12 +288,12 @@ def solve_by_elements(
     if pair.chi > LARGEST_CHI:
         allowed = f"boundary elements solve chi up to {LARGEST_CHI:g}; leave method out"
         raise refusal("chi", pair.chi, allowed)
-    psi = pair.psi(motion.contact_velocity(pair), normal_speed)
+    psi = pair.psi(motion.contact_velocity(pair), scales.speed)
     if not abs(psi) <= LARGEST_PSI:
         allowed = f"boundary elements solve psi_1 up to {LARGEST_PSI:g}; leave method out"
         raise refusal("psi_1", psi, allowed)
     materials = Materials(pair.kappa, pair.dundurs_beta, pair.friction)
-    spin = spin_about_normal(pair, normal_speed, normal_spin)
+    spin = spin_about_normal(pair, scales, normal_spin)
     if not abs(spin.speed) <= LARGEST_SPIN:
         most = f"{LARGEST_SPIN * abs(normal_spin / spin.speed):.3g} rad/s here"
         allowed = f"boundary elements solve up to {most}, {LARGEST_SPIN:g} mu V_1/a_max"
@@ -307,17 +302,21 @@ def solve_by_elements(
     grids = (fine.half.half, fine.half, fine)
     total = sum(grid.steps for grid in grids)
     with advancing("solving by boundary elements", total, progress, unit="steps") as advance:
-        *coarse, found = (
+        *coarse, solution = (
             solve(psi, pair.chi, materials, grid, spin=spin, progress=advance) for grid in grids
         )
-    coarser = coarse[0].psi_out, coarse[1].psi_out
     return HalfspaceImpact(
-        pair, normal_speed, *motion, found, coarser=coarser, normal_spin=normal_spin
+        pair,
+        scales.speed,
+        *motion,
+        solution,
+        scales=scales,
+        coarser=(coarse[0].psi_out, coarse[1].psi_out),
+        normal_spin=normal_spin,
     )
 
 
-def spin_about_normal(pair: Pair, normal_speed: float, normal_spin: float) -> NormalSpin:
+def spin_about_normal(pair: Pair, scales: Scales, normal_spin: float) -> NormalSpin:
     """Return a spin about the normal as boundary elements take it; 0 without friction."""
-    radius = pair.scales(normal_speed).radius
-    speed = normal_spin * radius / (pair.friction * normal_speed)
-    return NormalSpin(speed, pair.normal_mass * radius**2 / normal_inertia(pair))
+    speed = normal_spin * scales.radius / (pair.friction * scales.speed)
+    return NormalSpin(speed, pair.normal_mass * scales.radius**2 / normal_inertia(pair))

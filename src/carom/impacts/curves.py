@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.rebounds import rebound, regime_borders
+from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
 from carom.impacts.map_borders import border_variables
 from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset
@@ -32,6 +31,9 @@ REGIMES = (
     "gross slip through maximum penetration, then microslip",
     "gross slip throughout",
 )
+TOLERANCE = 1e-6  # of points of a border
+COARSE = 1e-3  # the same with losses, as such an impact takes a hundred times as long
+MORE, COARSE_MORE = 20.0, 0.5  # impacts to refine borders, to those that find them on the grid
 BORDER = {"units": "1", "long_name": "psi_in at which the regime changes"}
 
 
@@ -64,7 +66,7 @@ def borders(chi: float) -> tuple[float, float, float]:
 
 @known_keywords
 def curve(
-    chi: float | Sequence[float], psi: ArrayLike, *, losses: ScaleFreeLaw | None = None
+    chi: float | Sequence[float], psi_1: ArrayLike, *, losses: ScaleFreeLaw | None = None
 ) -> xr.Dataset:
     """Return psi_2 and restitutions against psi_1, one row per chi, as a labelled dataset.
 
@@ -76,8 +78,8 @@ def curve(
     ----------
     chi : float or sequence of float
         Positive; one row for each.
-    psi : array_like
-        psi_1.
+    psi_1 : array_like
+        psi_1 of each column.
     losses : KelvinVoigt, optional
         What the impact loses energy to: a restitution e is given.
 
@@ -91,7 +93,7 @@ def curve(
     Raises
     ------
     InputError
-        If a chi is not positive, psi is empty, the points are more than a million, or the losses
+        If a chi is not positive, psi_1 is empty, the points are more than a million, or the losses
         depend on the speed.
 
     Examples
@@ -102,13 +104,13 @@ def curve(
     >>> carom.curve(1.44, [6.0], losses=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
     array([[0.528]])
     """
-    chis, incoming = _axes(chi, psi)
+    chis, incoming = _axes(chi, psi_1)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     outgoing = rebound(nonzero, rows, losses=losses)
     contact = outgoing / nonzero
     wide, border = ("chi", "psi_in"), regime_borders(chis, _restitution(losses))
-    told: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
+    attributes: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
     return labelled_dataset(
         {
             "psi_out": (wide, np.where(incoming == 0.0, 0.0, outgoing)),
@@ -125,16 +127,16 @@ def curve(
             "psi_in": incoming,
             "regime_border": ("regime_border", list(REGIMES[1:]), {}),
         },
-        {"title": "rebound curve"} | told,
+        {"title": "rebound curve"} | attributes,
     )
 
 
-def _axes(chi: Any, psi: Any) -> tuple[Array, Array]:
+def _axes(chi: Any, psi_1: Any) -> tuple[Array, Array]:
     """Return the values along both axes, or raise InputError; also if the points are too many."""
-    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
+    chis, incoming = positive_line("chi", chi), finite_line("psi_1", psi_1)
     if chis.size * incoming.size > MOST:
-        given = f"{chis.size} values of chi times {incoming.size} of psi"
-        raise refusal("psi", given, f"at most {MOST:,} points are solved at once")
+        points = f"{chis.size} values of chi times {incoming.size} of psi_1"
+        raise refusal("psi_1", points, f"at most {MOST:,} points are solved at once")
     return chis, incoming
 
 
@@ -148,18 +150,25 @@ def _restitution(losses: ScaleFreeLaw | None) -> float:
 
 @known_keywords
 def regime_map(
-    psi: ArrayLike, chi: ArrayLike, *, losses: ScaleFreeLaw | None = None, progress: Progress = None
+    psi_1: ArrayLike,
+    chi: ArrayLike,
+    *,
+    losses: ScaleFreeLaw | None = None,
+    progress: Progress = None,
 ) -> xr.Dataset:
     """Return which phases follow which for every psi_1 and chi, and the borders between regimes.
 
     Phases are those of the exact impact (Maw, Barber & Fawcett 1976). Beyond psi_1 =
-    2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are curves
-    through points that are found by bisection along lines of constant psi_1 or chi, of the given
-    values and between them. A region smaller than a cell of these lines may be missed.
+    2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are outlines of
+    an image of sequences, finer than the given values, through points that are found by bisection
+    along its lines. It is finest, to a thousandth of an axis, where three regimes meet, so that
+    strips between two others are followed to their ends. A regime between the given values that
+    is nowhere wider than a thirtieth of an axis, a twentieth with losses, may be missed; what was
+    met and is too narrow for an outline is among sequence_met.
 
     Parameters
     ----------
-    psi, chi : array_like
+    psi_1, chi : array_like
         Values along either axis; chi positive.
     losses : KelvinVoigt, optional
         What the impacts lose energy to: a restitution is given.
@@ -175,12 +184,15 @@ def regime_map(
         sign of slip, the commonest first; and the restitution. Borders between regimes: points
         border_psi, border_chi (border_point) in order, each on curve border_number, with an error
         of at most border_tolerance; border_left, border_right (border_curve), the sequences on
-        either side of a curve, seen along its points.
+        either side of a curve, seen along its points. Outlines of the regions: points outline_psi,
+        outline_chi (outline_point) in order, each on outline_number; outline_sequence (outline),
+        the sequence inside; outline_region, the same for a region and the holes in it. Sequences
+        that any impact on the way had: sequence_met (met).
 
     Raises
     ------
     InputError
-        If a chi is not positive, a psi not finite, either is empty, or the points are more than a
+        If a chi is not positive, a psi_1 not finite, either is empty, or the points are more than a
         million.
 
     Examples
@@ -190,7 +202,7 @@ def regime_map(
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -
     """
-    chis, incoming = _axes(chi, psi)
+    chis, incoming = _axes(chi, psi_1)
     e = _restitution(losses)
     sequences, rows = Sequences(losses, e), []
     with advancing("computing the map of regimes", len(chis), progress, unit="rows") as advance:
@@ -212,6 +224,11 @@ def regime_map(
             ),
             "restitution": e,
             **border_variables(incoming, chis, met, sequences, progress),
+            "sequence_met": (
+                "met",
+                np.array([name for name in sequences.names if name], dtype=np.str_),
+                {"long_name": "sequence of phases of one impact of the map or more"},
+            ),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},

@@ -12,14 +12,14 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, Scales
 from carom.contacts.contact import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers, checked_law
-from carom.dimensionless.lossy.marched_solution import MarchedSolution
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
+from carom.dimensionless.lossy.springs.solution import MarchedSolution
+from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
 from carom.impacts.peaks import judge_strength, peaks_dataset, struck_bodies
@@ -61,11 +61,10 @@ class Impact(ImpactResult, InContact):
     @property
     def validity(self) -> Validity:
         """Whether the assumptions of the theory hold, as numbers with limits and verdicts."""
-        found: tuple[Finding, ...] = ()
-        if isinstance(self.solution, LossySolution):
-            found = (judge_losses(self.solution.losses, self.normal_restitution, self.pair.chi),)
-        given = self.pair, self.normal_speed, self.duration, self.psi_in
-        return judge(*given, self._strength, found, self.normal_spin)
+        if not isinstance(self.solution, LossySolution):
+            return judge(self, self._strength)
+        losses = judge_losses(self.solution.losses, self.normal_restitution, self.pair.chi)
+        return judge(self, self._strength, (losses,))
 
     @cached_property
     def _strength(self) -> tuple[Finding, ...]:
@@ -87,10 +86,8 @@ class Impact(ImpactResult, InContact):
 
     def _contact(self, at: Any) -> Contact:
         drift = 0.0 if isfinite(self.psi_in) else self.contact_velocity
-        inputs = {"inputs": self.inputs()}
-        return contact_in_impact(
-            self.pair, self.normal_speed, drift, self.solution, self._instant(at), inputs
-        )
+        instant, inputs = self._instant(at), {"inputs": self.inputs()}
+        return contact_in_impact(self.pair, self.scales, drift, self.solution, instant, inputs)
 
     def wear(
         self,
@@ -139,10 +136,6 @@ class Impact(ImpactResult, InContact):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> worn = hit.wear(coefficient="1e-13 m^2/N")
         >>> round(float(worn.max_friction_work), 1), worn.friction_work.units
         (4515.6, 'J/m^2')
@@ -190,8 +183,6 @@ class Impact(ImpactResult, InContact):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
         >>> glass = carom.material("glass", flaw_size="20 um")
         >>> pair = carom.Pair(ball, carom.HalfSpace(material=glass), friction=0.2)
         >>> peaks = carom.impact(pair, speed=2.0, angle="30 deg").peaks().sel(body="second")
@@ -226,10 +217,6 @@ class Impact(ImpactResult, InContact):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> [line for line in hit.cite().splitlines() if line.startswith("@")]
         ['@software{carom,', '@article{barber1979,', '@article{maw1976,']
         """
@@ -246,31 +233,31 @@ class Impact(ImpactResult, InContact):
 
 
 def solve_exactly(
-    pair: Pair,
-    normal_speed: float,
-    motion: Tangential,
-    losses: LossLaw | None,
-    normal_spin: float = 0.0,
+    pair: Pair, scales: Scales, motion: Tangential, losses: LossLaw | None, normal_spin: float = 0.0
 ) -> Impact:
     """Return an impact solved within the theory; see `carom.impact`."""
-    psi = pair.psi(motion.contact_velocity(pair), normal_speed)
-    solution = _solution(pair, normal_speed, psi if isfinite(psi) else 0.0, losses)
-    return Impact(pair, normal_speed, *motion, solution, losses, normal_spin=normal_spin)
+    psi = pair.psi(motion.contact_velocity(pair), scales.speed)
+    solution = _solution(pair, scales, psi if isfinite(psi) else 0.0, losses)
+    return Impact(
+        pair, scales.speed, *motion, solution, losses, scales=scales, normal_spin=normal_spin
+    )
 
 
 def _solution(
-    pair: Pair, normal_speed: float, psi: float, losses: LossLaw | None
+    pair: Pair, scales: Scales, psi: float, losses: LossLaw | None
 ) -> Solution | LossySolution:
-    found: Solution | LossySolution
+    solution: Solution | LossySolution
     if losses is None:
-        found = solve(psi, pair.chi)
+        solution = solve(psi, pair.chi)
     else:
-        loss, *numbers = checked_law(losses, "loss")(pair, normal_speed)
+        loss, *numbers = checked_law(losses).loss(pair, scales)
         if any(map(np.ndim, numbers)):
             raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
-        found = solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))
-    if found.status is not Status.SOLVED:
+        solution = solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))
+    if solution.status is not Status.SOLVED:
         name, value = ("chi", pair.chi) if losses is None else ("losses", losses)
-        what = f"the impact at psi_1 = {psi:g}, chi = {pair.chi:g} is {found.status.message}"
-        raise refusal(name, value, what)
-    return found
+        message = solution.status.message
+        raise refusal(
+            name, value, f"the impact at psi_1 = {psi:g}, chi = {pair.chi:g} is {message}"
+        )
+    return solution

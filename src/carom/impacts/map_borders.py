@@ -1,47 +1,228 @@
-"""The borders between regimes on a map of psi_1 and chi, as variables of its dataset."""
+"""The regions of a map of psi_1 and chi and the borders between them, as variables of its dataset.
 
-from typing import Any
+An image of sequences, finer than the map where three regions meet, is solved where they differ;
+contourpy outlines its regions, and bisection finds where outlines cross lines of the image.
+"""
+
+from collections.abc import Callable, Iterator
+from itertools import groupby
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt, label
 
-from carom.impacts.border_curves import border_curves
 from carom.impacts.sequences import Sequences
 from carom.io.progress import Progress, advancing
+from carom.plots.outlines import (
+    JUNCTION,
+    KEPT,
+    MEETING,
+    RIM,
+    Labels,
+    Ring,
+    changes,
+    lattice,
+    outlines,
+)
 from carom.quantities.arrays import Array
 
-TOLERANCE = 1e-6  # of points of a border
-COARSE = 1e-3  # the same with losses, as such an impact takes a hundred times as long
-MORE, COARSE_MORE = 20.0, 0.5  # impacts to refine borders, to those that find them on the grid
+Tell: TypeAlias = Callable[[Array, Array], Labels]
+
+FINER = 2.0  # than the tolerance: brackets of borders, which may be slanted
+SHARE = 0.49  # of the way to the next line: halfway, where values may be special
+ENOUGH = 40  # lines on which borders are found
+
+
+class Fineness(NamedTuple):
+    """How many lines an image has along psi_1 and chi at least, and the error of its borders.
+
+    Where regions meet, lines are as close as `closest`, a share of an axis. Pieces of regions with
+    fewer points than `smallest` are left out: beads of narrow strips.
+    """
+
+    lines: tuple[int, int]
+    closest: float
+    smallest: int
+    tolerance: float
+
+
+ELASTIC = Fineness((48, 30), 1e-3, 24, 1e-6)
+LOSSY = Fineness((30, 20), 1e-3, 12, 1e-3)  # such an impact takes a hundred times as long
 
 
 def border_variables(
-    psi: Array, chi: Array, numbers: NDArray[np.int64], sequences: Sequences, progress: Progress
+    psi: Array, chi: Array, numbers: Labels, sequences: Sequences, progress: Progress
 ) -> dict[str, Any]:
     """Return the borders on a map whose sequences have these numbers, shape (chi, psi)."""
     (x, columns), (y, rows) = (np.unique(line, return_index=True) for line in (psi, chi))
-    plain = sequences.losses is None
-    tolerance, more = (TOLERANCE, MORE) if plain else (COARSE, COARSE_MORE)
+    fineness = ELASTIC if sequences.losses is None else LOSSY
     shown = False if callable(progress) else progress  # which counts the rows of the map
-    with advancing("finding the borders of the regimes", None, shown, unit="impacts") as advance:
+    rings: list[Ring] = []
+    if min(x.size, y.size) > 1:
+        with advancing(
+            "finding the borders of the regimes", None, shown, unit="impacts"
+        ) as advance:
 
-        def tell(psis: Array, chis: Array) -> NDArray[np.int64]:
-            found = sequences.of(psis, chis)
-            advance(psis.size)
-            return found
+            def tell(psis: Array, chis: Array) -> Labels:
+                advance(psis.size)
+                return sequences.of(psis, chis)
 
-        with np.errstate(over="ignore", invalid="ignore"):  # where values are out of all proportion
-            curves = border_curves((x, y), numbers[np.ix_(rows, columns)], tell, tolerance, more)
-    points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in curves)])
+            with np.errstate(over="ignore", invalid="ignore"):  # values out of all proportion
+                image = Image(x, y, numbers[np.ix_(rows, columns)], tell)
+                image.refine(fineness)
+                rings += outlines(image.labels, *bisected(image, fineness.tolerance))
     names = np.array(sequences.names, dtype=np.str_)
-    left, right = np.array([curve[:2] for curve in curves], dtype=np.int64).reshape(-1, 2).T
-    belongs = np.repeat(np.arange(len(curves)), [len(curve.points) for curve in curves])
+    borders = [border for ring in rings for border in _borders(ring)]
+    sides = np.array([border[:2] for border in borders], dtype=np.int64).reshape(-1, 2)
     side = "sequence of phases on the {} of a border, in the direction of its points"
     return {
-        "border_psi": ("border_point", points[:, 0]),
-        "border_chi": ("border_point", points[:, 1]),
-        "border_number": ("border_point", belongs.astype(np.int32)),
-        "border_left": ("border_curve", names[left], {"long_name": side.format("left")}),
-        "border_right": ("border_curve", names[right], {"long_name": side.format("right")}),
-        "border_tolerance": tolerance,
+        **_points("border", [points for _, _, points in borders]),
+        "border_left": ("border_curve", names[sides[:, 0]], {"long_name": side.format("left")}),
+        "border_right": ("border_curve", names[sides[:, 1]], {"long_name": side.format("right")}),
+        "border_tolerance": fineness.tolerance,
+        **_points("outline", [ring.points for ring in rings]),
+        "outline_region": ("outline", np.array([r.region for r in rings], dtype=np.int32)),
+        "outline_sequence": (
+            "outline",
+            names[[ring.label for ring in rings]],
+            {"long_name": "sequence of phases in the region of an outline"},
+        ),
     }
+
+
+def _points(kind: str, lines: list[Array]) -> dict[str, Any]:
+    points = np.concatenate([np.empty((0, 2)), *lines])
+    belongs = np.repeat(np.arange(len(lines), dtype=np.int32), [len(line) for line in lines])
+    values = {"psi": points[:, 0], "chi": points[:, 1], "number": belongs}
+    return {f"{kind}_{name}": (f"{kind}_point", line) for name, line in values.items()}
+
+
+def _borders(ring: Ring) -> Iterator[tuple[int, int, Array]]:
+    """Yield the parts of an outline along one other region, each from one of its two sides only."""
+    cuts = np.flatnonzero(np.isin(ring.beyond, (RIM, JUNCTION)))
+    turned = np.roll(np.arange(len(ring.points)), -cuts[0] if cuts.size else 0)
+    turned = np.append(turned, turned[0])
+    for beyond, run in groupby(range(len(turned)), lambda k: int(ring.beyond[turned[k]])):
+        places = list(run)
+        if beyond > ring.label:
+            first, last = places[0], places[-1]
+            first -= first > 0 and ring.beyond[turned[first - 1]] == JUNCTION
+            last += last + 1 < len(turned) and ring.beyond[turned[last + 1]] == JUNCTION
+            yield ring.label, beyond, ring.points[turned[first : last + 1]]
+
+
+class Image:
+    """Labels at columns x and rows y, some of which are whole: solved wherever labels differ.
+
+    Elsewhere those points are solved that are around meetings of three regions. The others have
+    the label of the point before them.
+    """
+
+    def __init__(self, x: Array, y: Array, labels: Labels, tell: Tell) -> None:
+        self.lines, self.labels, self.tell = [x, y], labels, tell
+        self.solved = np.ones(labels.shape, dtype=np.bool_)
+        self.whole = [np.arange(n) % max(1, n // ENOUGH) == 0 for n in (x.size, y.size)]
+
+    def refine(self, fineness: Fineness) -> None:
+        """Insert lines everywhere until there are enough, then more where three regions meet."""
+        least = [fineness.closest * np.ptp(line) for line in self.lines]
+        while True:
+            gaps, meeting = [np.diff(line) for line in self.lines], changes(self.labels) > 2
+            few = [self.lines[k].size < fineness.lines[k] for k in (0, 1)]
+            fill = [np.full(gaps[k].size, few[k]) for k in (0, 1)]
+            if not any(few):
+                fill = [meeting[1::2, 1::2].any(axis=k) & (gaps[k] > least[k]) for k in (0, 1)]
+            if not any(part.any() for part in fill):
+                break
+            for k in (0, 1):
+                new = self.lines[k][:-1] + SHARE * gaps[k]
+                self.insert(k, new[fill[k]], whole=any(few))
+            self.solve()
+        labels = without_specks(self.labels, fineness.smallest)
+        self.solved &= labels == self.labels
+        self.labels = labels
+
+    def insert(self, k: int, places: Array, whole: bool) -> None:
+        """Insert columns or rows with the labels of those before them."""
+        at = np.searchsorted(self.lines[k], places)
+        self.lines[k] = np.insert(self.lines[k], at, places)
+        self.labels = np.insert(self.labels, at, self.labels.take(at - 1, 1 - k), 1 - k)
+        self.solved = np.insert(self.solved, at, False, 1 - k)
+        self.whole[k] = np.insert(self.whole[k], at, whole)
+
+    def kept(self) -> tuple[Labels, Labels]:
+        """Return on how many edges labels change, and which of it outlines keep."""
+        count = changes(self.labels)
+        kept = np.zeros_like(count)
+        for i, j in np.ndindex(3, 3):
+            kept[i : i - 2 or None : 2, j : j - 2 or None : 2][count[1::2, 1::2] > 2] = KEPT
+        kept[::2][self.whole[1]] = kept[:, ::2][:, self.whole[0]] = KEPT
+        return count, kept
+
+    def solve(self) -> None:
+        """Solve points until all are that borders lie between where outlines keep these."""
+        while True:
+            count, kept = self.kept()
+            edges = (kept > 0) & (count > 0)
+            ends = np.zeros_like(self.solved)
+            for part, edge in ((ends, edges[::2, 1::2]), (ends.T, edges[1::2, ::2].T)):
+                part[:, :-1] |= edge
+                part[:, 1:] |= edge
+            row, column = np.nonzero(ends & ~self.solved)
+            if not row.size:
+                break
+            self.labels[row, column] = self.tell(self.lines[0][column], self.lines[1][row])
+            self.solved[row, column] = True
+
+
+def without_specks(labels: Labels, smallest: int) -> Labels:
+    """Return labels with those of what is around them where pieces of a region have few points.
+
+    The largest piece of each region stays.
+    """
+    specks = np.zeros(labels.shape, dtype=np.bool_)
+    for each in np.unique(labels):
+        pieces, _ = label(labels == each, np.ones((3, 3)))
+        sizes = np.bincount(pieces.ravel())
+        specks |= (pieces > 0) & (sizes[pieces] < min(smallest, sizes[1:].max()))
+    rows, columns = distance_transform_edt(specks, return_distances=False, return_indices=True)
+    return np.asarray(labels[rows, columns])
+
+
+def bisected(image: Image, tolerance: float) -> tuple[Array, Labels]:
+    """Return a lattice with the places of borders on whole lines and all around meetings.
+
+    Also which of its places these are, for `outlines`.
+    """
+    labels, places, (count, kept) = image.labels, lattice(*image.lines), image.kept()
+    row, column = np.nonzero((kept == KEPT) & (count == 1))
+    low, high = (
+        places[row - row % 2, column - column % 2],
+        places[row + row % 2, column + column % 2],
+    )
+    before, after = labels[row // 2, column // 2], labels[(row + 1) // 2, (column + 1) // 2]
+    sides, least = [before, after], tolerance / FINER
+    while True:
+        wide = np.flatnonzero(np.any(high - low > least * np.maximum(1.0, np.abs(low)), axis=1))
+        if not wide.size:
+            break
+        middle = 0.5 * (low[wide] + high[wide])
+        met = image.tell(*middle.T)
+        same = met == sides[0][wide]
+        third = ~same & (met != sides[1][wide])  # which may hide others, so as to meet them too
+        low, high = (
+            np.concatenate([low, middle[third]]),
+            np.concatenate([high, high[wide][third]]),
+        )
+        sides = [
+            np.concatenate([sides[0], met[third]]),
+            np.concatenate([sides[1], sides[1][wide][third]]),
+        ]
+        low[wide] = np.where(same[:, np.newaxis], middle, low[wide])
+        high[wide] = np.where(same[:, np.newaxis], high[wide], middle)
+        sides[1][wide] = np.where(same, sides[1][wide], met)
+    places[row, column] = 0.5 * (low + high)[: row.size]
+    other = sides[1][: row.size]
+    sure = image.solved[row // 2, column // 2] & image.solved[(row + 1) // 2, (column + 1) // 2]
+    kept[row, column] = np.where(sure & (other == after), KEPT, MEETING)  # a third region between
+    return places, kept

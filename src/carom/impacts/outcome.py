@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
-from carom.bodies.kinematics import Kinematics, Tangential
+from carom.bodies.kinematics import Kinematics
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, Scales, representable
+from carom.bodies.pairs import Scales, scales_fit
 from carom.bodies.shapes import describe
 from carom.quantities.elementwise import copysign, isfinite, where
 
@@ -57,36 +57,34 @@ class InTime(Solved, Protocol):
     def history(self, n: int) -> Any: ...
 
 
-def _psi_lost(pair: Pair, solution: InTime, h: Any) -> Any:
+def _psi_lost(chi: float, solution: InTime, h: Any) -> Any:
     """Return psi_1 - psi until now; in fast gross slip by its closed form, 2 chi (1 - v/V_1)."""
-    most = 2.0 * pair.chi
+    most = 2.0 * chi
     if abs(solution.psi_in) > FAST * (1.0 + most * (1.0 + solution.restitution)):
         return copysign(most, solution.psi_in) * (1.0 - h.speed)
     return solution.psi_in - h.psi
 
 
-def history_columns(
-    pair: Pair, normal_speed: float, start: Tangential, solution: InTime, n: int
-) -> dict[str, Any]:
-    """Return the impact at n times by name of column, in SI units.
+def history_columns(outcome: "Outcome", n: int) -> dict[str, Any]:
+    """Return an impact at n times by name of column, in SI units.
 
     In the frame of the centre of mass the kinetic energies of the normal motion, of the tangential
     motion of the centres and of the spins, both elastic energies, the work of friction and what
     viscosity has taken add up to a constant. Of the tangential ones friction can act on that of the
     contact point alone, (1/2) m_t V_x^2; the rest stays what it was.
     """
-    h, scales = solution.history(n), pair.scales(normal_speed)
-    slides_freely = not isfinite(pair.psi(start.contact_velocity(pair), normal_speed))
-    drift = start.contact_velocity(pair) if slides_freely else 0.0
+    pair, scales, solution = outcome.pair, outcome.scales, cast(InTime, outcome.solution)
+    h, slides_freely = solution.history(n), not isfinite(outcome.psi_in)
+    drift = outcome.contact_velocity if slides_freely else 0.0
     impulse_unit = pair.tangential_mass * scales.tangential_speed
     energy_unit = impulse_unit * scales.tangential_speed
     velocity = h.psi * scales.tangential_speed + drift
-    now = start.after(pair, impulse_unit * _psi_lost(pair, solution, h))
+    now = outcome._before.after(pair, impulse_unit * _psi_lost(pair.chi, solution, h))
     return {
         "time": h.time * scales.time,
         "penetration": h.penetration * scales.length,
         "displacement": h.displacement * scales.tangential_length + drift * h.time * scales.time,
-        "normal_velocity": h.speed * normal_speed,
+        "normal_velocity": h.speed * scales.speed,
         "contact_velocity": velocity,
         "tangential_speed": now.tangential_speed,
         "spin": now.spin,
@@ -109,27 +107,11 @@ def history_columns(
 
 @dataclass(frozen=True, eq=False)
 class Outcome(Kinematics):
-    """How two bodies leave an impact; SI units. Every field but the bodies may be an array.
+    """How two bodies leave an impact; SI units. Every field but the bodies may be an array."""
 
-    Tangential speeds are those of the first body relative to the second, positive spin adds to the
-    tangential speed of the contact point: V_x = v_t + R omega + R_2 omega_2.
-    """
-
-    tangential_speed: float
-    spin: float
-    spin2: float
     solution: Solved = field(repr=False)
     losses: LossLaw | None = None
-
-    @property
-    def _before(self) -> Tangential:
-        return Tangential(self.tangential_speed, self.spin, self.spin2)
-
-    @property
-    def fits(self) -> bool:
-        """Whether floating point holds the numbers of this impact."""
-        parts = self.tangential_speed, *self._before.carried(self.pair)
-        return representable(self.pair, self.normal_speed, self.contact_velocity, *parts)
+    scales: Scales = field(kw_only=True, repr=False)
 
     @property
     def normal_restitution(self) -> float:
@@ -182,11 +164,6 @@ class Outcome(Kinematics):
         left = self.normal_restitution**2
         return self.scales.energy * (1.0 - left)
 
-    @cached_property
-    def scales(self) -> Scales:
-        """Scales by which dimensionless results become those of this impact."""
-        return self.pair.scales(self.normal_speed)
-
     @property
     def duration(self) -> float:
         """Duration of the contact, in s."""
@@ -230,3 +207,9 @@ class Outcome(Kinematics):
             **self._before._asdict(),
             **({} if self.losses is None else {"losses": self.losses.describe()}),
         }
+
+
+def outcome_fits(outcome: Outcome) -> bool:
+    """Return whether floating point holds the numbers of an impact; an array for many."""
+    parts = outcome.tangential_speed, *outcome._before.carried(outcome.pair)
+    return scales_fit(outcome.pair, outcome.scales, outcome.contact_velocity, *parts)

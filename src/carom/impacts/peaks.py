@@ -11,12 +11,12 @@ import numpy as np
 
 from carom.bodies.materials import STRENGTHS, Material
 from carom.bodies.pairs import Pair, Scales
+from carom.dimensionless.fields.peaks import SHEAR, TENSION, VON_MISES
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
+from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.strength.cracking import cracking_width, intensity
-from carom.dimensionless.strength.peaks import SHEAR, TENSION, VON_MISES, peaks
-from carom.dimensionless.strength.searching import Contacts, Peak
+from carom.dimensionless.strength.peaks import Contacts, Peak, peaks
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.labels import Finding, labelled_dataset
 from carom.quantities.glossary import GLOSSARY, PEAKS
@@ -73,8 +73,8 @@ class StruckBody:
 
     def peak(self, name: str) -> Peak:
         """Return a peak of stress by its name in `MEASURES`, in SI units."""
-        found = peaks(self.contacts, self.material.poisson, (MEASURES[name],))[0]
-        return self._told(found, self.scales.pressure)
+        peak = peaks(self.contacts, self.material.poisson, (MEASURES[name],))[0]
+        return self._in_units(peak, self.scales.pressure)
 
     def intensity(self) -> Peak:
         """Return the largest stress intensity at flaws up to `flaw_size`, z the depth of the flaw.
@@ -84,8 +84,8 @@ class StruckBody:
         flaw, width = self.bears("flaw_size"), self.scales.radius
         if not (flaw > 0.0 and self.judges_flaws):
             return Peak(*(nan,) * 5)
-        found = intensity(self.contacts, self.material.poisson, flaw / width)
-        return self._told(found, self.scales.pressure * sqrt(pi * width))
+        peak = intensity(self.contacts, self.material.poisson, flaw / width)
+        return self._in_units(peak, self.scales.pressure * sqrt(pi * width))
 
     @property
     def judges_flaws(self) -> bool:
@@ -123,10 +123,10 @@ class StruckBody:
     def _share(self, name: str, strength: float) -> float:
         return self.peak(name).value / strength if strength > 0.0 else nan
 
-    def _told(self, found: Peak, unit: float) -> Peak:
+    def _in_units(self, peak: Peak, unit: float) -> Peak:
         width = self.scales.radius
-        place = self.side * found.x * width + 0.0, found.y * width, found.z * width
-        return Peak(found.value * unit, *place, found.time * self.scales.time)
+        place = self.side * peak.x * width + 0.0, peak.y * width, peak.z * width
+        return Peak(peak.value * unit, *place, peak.time * self.scales.time)
 
 
 def growth(ratio: float) -> float:
@@ -157,7 +157,7 @@ def peaks_dataset(
     for body in bodies.values():
         for name, value in _numbers(body):
             columns.setdefault(name, []).append(value)
-    known = {name: ("body", np.array(v)) for name, v in columns.items() if not np.all(np.isnan(v))}
+    known = {name: values for name, values in columns.items() if not np.all(np.isnan(values))}
     words = list(bodies)
     yields = any(ratio > 1.0 for ratio in columns["yield_ratio"])
     depth = next(iter(bodies.values())).searched_depth
@@ -165,7 +165,7 @@ def peaks_dataset(
     notes += [UPPER_BOUND] * yields + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
     missing = "; ".join(f"{name} body: {_missing(body)}" for name, body in bodies.items())
     return labelled_dataset(
-        {**known, "searched_depth": depth},
+        {name: ("body", values) for name, values in known.items()} | {"searched_depth": depth},
         {"body": ("body", words, {"long_name": "body"})},
         {
             "title": "largest stresses of an impact",
@@ -179,9 +179,9 @@ def peaks_dataset(
 def _numbers(body: StruckBody) -> Iterator[tuple[str, float]]:
     for name in MEASURES:
         yield from _places(name, body.peak(name))
-    found = body.intensity()
-    yield from _places("stress_intensity", found._replace(z=0.0 * found.z))
-    yield "critical_flaw", found.z
+    peak = body.intensity()
+    yield from _places("stress_intensity", peak._replace(z=0.0 * peak.z))
+    yield "critical_flaw", peak.z
     for name in RATIOS:
         yield name, getattr(body, name)()
 
@@ -233,14 +233,14 @@ def _values(rows: dict[str, dict[str, float]]) -> dict[tuple[str, str], str]:
     """Return the known peaks by body and name as texts, all stresses in one unit."""
     texts: dict[tuple[str, str], str] = {}
     for unit in dict.fromkeys(GLOSSARY[name].unit for name in PEAKS):
-        found = {
+        values = {
             (body, name): row[name]
             for body, row in rows.items()
             for name in PEAKS
             if GLOSSARY[name].unit == unit and not isnan(row.get(name, nan))
         }
-        numbers, prefixed = shared(found.values(), unit, 4)
-        texts |= {key: f"{number} {prefixed}" for key, number in zip(found, numbers, strict=True)}
+        numbers, prefixed = shared(values.values(), unit, 4)
+        texts |= {key: f"{number} {prefixed}" for key, number in zip(values, numbers, strict=True)}
     return texts
 
 
@@ -256,15 +256,15 @@ def _line(name: str, row: dict[str, float], value: str) -> str:
 def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
     """Return whether the bodies of an impact bear it: yield with friction, tension, toughness."""
     findings = []
-    for name, (told, needed) in RATIOS.items():
+    for name, (label, needed) in RATIOS.items():
         lacks = {which: _lacking(body, needed) for which, body in bodies.items()}
-        known = {which: getattr(bodies[which], name)() for which in bodies if not lacks[which]}
-        known = {which: ratio for which, ratio in known.items() if isfinite(ratio)}
+        ratios = {which: getattr(bodies[which], name)() for which in bodies if not lacks[which]}
+        ratios = {which: ratio for which, ratio in ratios.items() if isfinite(ratio)}
         partly = any(0 < len(names) < len(needed) for names in lacks.values())
-        if known:
-            findings.append(_finding(name, told, known, bodies))
+        if ratios:
+            findings.append(_finding(name, label, ratios, bodies))
         elif name == "yield_ratio" or partly or not all(lacks.values()):
-            findings.append(Finding(told, nan, 1.0, None, _why_not(needed, lacks)))
+            findings.append(Finding(label, nan, 1.0, None, _why_not(needed, lacks)))
     return tuple(findings)
 
 
@@ -284,17 +284,17 @@ def _why_not(needed: tuple[str, ...], lacks: dict[str, list[str]]) -> str:
 
 
 def _finding(
-    name: str, told: str, known: dict[str, float], bodies: dict[str, StruckBody]
+    name: str, label: str, ratios: dict[str, float], bodies: dict[str, StruckBody]
 ) -> Finding:
-    which, ratio = max(known.items(), key=lambda one: one[1])
-    broken = [body for body, share in known.items() if share > 1.0]
+    which, ratio = max(ratios.items(), key=lambda one: one[1])
+    broken = [body for body, share in ratios.items() if share > 1.0]
     depth = bodies[which].searched_depth
-    several = len(broken or known) == 2
+    several = len(broken or ratios) == 2
     whose = "both bodies" if several else f"the {(broken or [which])[0]} body"
     if depth > 0.0 and not broken:
         below = f"known only below a depth of {text(depth, 'm', 3)}"
         words = f"the stresses in {whose} are {below}; the surface is not judged"
-        return Finding(told, ratio, 1.0, None, words)
+        return Finding(label, ratio, 1.0, None, words)
     good, bad = VERDICTS[name]
     words = (bad if broken else good).format(whose, "" if several else "s")
-    return Finding(told, ratio, 1.0, not broken, words)
+    return Finding(label, ratio, 1.0, not broken, words)

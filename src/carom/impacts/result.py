@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.outcome import RESULTS, InTime, Outcome, history_columns
-from carom.impacts.spectrum import Source, read_frequencies, spectrum_dataset
-from carom.io.labels import MARKS, Validity, labelled
+from carom.impacts.spectrum import read_frequencies, spectrum_dataset
+from carom.io.labels import MARKS, Validity, labelled, phases_at
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -97,10 +97,11 @@ class ImpactResult(Outcome, Result):
         """Whether the assumptions hold: numbers with their limits and verdicts."""
 
     def history(self, n: int = 200) -> xr.Dataset:
-        """Return the impact at n times: a dataset with forces, velocities, radii, energies.
+        """Return the impact at n times: a table of forces, velocities, radii, energies, phases.
 
         The times are evenly spaced from the first touch to the last; maximum compression of elastic
-        bodies is in the middle, at half of `duration`.
+        bodies is in the middle, at half of `duration`. Phases and numbers of the whole impact are
+        in `to_dataset`.
 
         Parameters
         ----------
@@ -110,7 +111,10 @@ class ImpactResult(Outcome, Result):
         Returns
         -------
         xarray.Dataset
-            Along `time` in s; the attributes of each variable tell its unit and meaning.
+            All along `time` in s, so that `to_dataframe()` has a row for each instant: what the
+            bodies do, and the phase then, phase_kind, phase_sign, phase_start and phase_end in s.
+            Only friction and max_pressure are single numbers, as figures need them. The attributes
+            of each variable tell its unit and meaning.
 
         Raises
         ------
@@ -119,15 +123,16 @@ class ImpactResult(Outcome, Result):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> history = carom.impact(pair, speed=2.0, angle="30 deg").history(5)
+        >>> history = hit.history(5)
         >>> history.normal_force.units, history.normal_force.shape
         ('N', (5,))
+        >>> history.to_dataframe().phase_kind.tolist()
+        ['gross slip', 'gross slip', 'slip', 'slip', 'gross slip']
         """
         columns = self._columns(counted("n", n, 2))
-        return labelled(columns, self.scalars(), self.phases, self.inputs(), self._phase_columns())
+        columns |= phases_at(columns["time"], self.phases)
+        numbers = {"friction": self.pair.friction, "max_pressure": self.max_pressure}
+        return labelled(columns, numbers, (), self.inputs())
 
     def spectrum(
         self,
@@ -175,27 +180,15 @@ class ImpactResult(Outcome, Result):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> spectrum = hit.spectrum(max_frequency="100 kHz")
         >>> round(float(spectrum.normal_notch_frequency) * hit.duration, 4)  # sin^1.5: 1.75
         1.804
         """
         asked = read_frequencies(frequencies, max_frequency, n, self.duration)
-        radius = self.pair.first.radius
-        source = Source(self.solution, self.scales, radius)
-        impulse = self.pair.normal_mass * self.normal_speed * (1.0 + self.normal_restitution)
-        more = {
-            "max_force": self.max_force,
-            "normal_impulse": impulse,
-            "tangential_impulse": self.tangential_impulse,
-        }
-        return spectrum_dataset(source, asked, more, self.inputs())
+        return spectrum_dataset(self, asked)
 
     def _columns(self, n: int) -> dict[str, Any]:
-        return history_columns(self.pair, self.normal_speed, self._before, self.solution, n)
+        return history_columns(self, n)
 
     def _phase_columns(self) -> dict[str, list[float]]:
         angles = self.slip_angles
@@ -233,10 +226,11 @@ class ImpactResult(Outcome, Result):
         Returns
         -------
         xarray.Dataset
-            Along `time` in s, as `history` has it; along `phase` kind, sign, start and end in s;
-            the numbers of the result without a dimension.
+            Along `time` in s the course of the impact, as `history` has it; along `phase` kind,
+            sign, start and end in s; the numbers of the result without a dimension.
         """
-        return self.history(400)
+        angles = self._phase_columns()
+        return labelled(self._columns(400), self.scalars(), self.phases, self.inputs(), angles)
 
     def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
         return plots.plot_impact(dataset, **look)
@@ -296,10 +290,7 @@ class ImpactResult(Outcome, Result):
 
         Examples
         --------
-        >>> import carom, tempfile
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> import tempfile
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     hit.animate(f"{folder}/hit.gif", frames=2).name
         'hit.gif'

@@ -1,27 +1,25 @@
 """Which phases an impact goes through, as one line of words, and a number for each such line."""
 
-from collections.abc import Iterable
-from functools import cached_property
-from itertools import pairwise
+from collections.abc import Callable, Iterable
+from functools import lru_cache, partial
+from itertools import groupby, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
-from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
-from carom.dimensionless.elastic.record import AT_B, AT_V, KIND, KIND_SIGN, Record, new_record
+from carom.dimensionless.elastic.record import AT_B, AT_V, KIND, KIND_SIGN, new_record
 from carom.dimensionless.lossy.law import ScaleFreeLaw
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.threads import in_blocks
-from carom.dimensionless.rebounds import regime_borders
-from carom.dimensionless.solution import SHORTEST, solve
+from carom.dimensionless.rebounds import LINEAR_PSI, STEP_TOLERANCE, regime_borders
+from carom.dimensionless.solution import SHORTEST_PHASE, solve
 from carom.dimensionless.states import KIND_NAMES
 from carom.quantities.arrays import Array
 
 SIGNS = {0: "", 1: " +", -1: " -"}
 NEAR = 1e-6  # in speed: phases that may be too short to be told
-BLOCK = 64  # impacts with losses that a thread takes at once
+BLOCK = 64  # impacts that a thread takes at once
 
 
 class Sequences:
@@ -43,48 +41,50 @@ class Sequences:
         solved = np.flatnonzero(~slides).tolist()
         for place, name in zip(solved, self._solved(psi[~slides], chi[~slides]), strict=True):
             names[place] = name
-        found = [self.numbers.setdefault(name, len(self.numbers)) for name in names]
-        return np.array(found, dtype=np.int64)
+        numbers = [self.numbers.setdefault(name, len(self.numbers)) for name in names]
+        return np.array(numbers, dtype=np.int64)
 
     def _solved(self, psi: Array, chi: Array) -> list[str]:
-        if self.losses is None:
-            pairs = zip(psi.tolist(), chi.tolist(), strict=True)
-            return [self._elastic(one, other) for one, other in pairs]
         names = [""] * psi.size
 
         def block(part: slice) -> None:
-            for place in range(*part.indices(psi.size)):
-                names[place] = self._lossy(float(psi[place]), float(chi[place]))
+            name = _elastic() if self.losses is None else partial(_lossy, self.losses)
+            names[part] = map(name, psi[part].tolist(), chi[part].tolist())
 
-        in_blocks(block, psi.size, BLOCK, 1, None)
+        in_blocks(block, psi.size, BLOCK, BLOCK if self.losses is None else 1, None)
         return names
 
-    def _lossy(self, psi: float, chi: float) -> str:
-        solution = solve(psi, chi, losses=self.losses)
-        if solution.status is not Status.SOLVED:
-            return ""
-        return in_words((phase.kind, phase.sign) for phase in solution.phases)
 
-    @cached_property
-    def _room(self) -> tuple[Work, Record]:
-        return new_work(), new_record(False)
+def _lossy(losses: ScaleFreeLaw, psi: float, chi: float) -> str:
+    solution = solve(psi, chi, losses=losses)
+    if solution.status is not Status.SOLVED:
+        return ""
+    return in_words((phase.kind, phase.sign) for phase in solution.phases)
 
-    def _elastic(self, psi: float, chi: float) -> str:
-        """Return the phases that `solve` tells, without what else it makes."""
-        work, record = self._room
+
+def _elastic() -> Callable[[float, float], str]:
+    """Return what names the phases that `solve` tells, without what else that makes."""
+    work, record = new_work(), new_record(False)
+
+    def name(psi: float, chi: float) -> str:
         record.counts[:] = 0
-        if run_phases(max(abs(psi), LINEAR) if psi else 0.0, chi, TOLERANCE, work, record):
+        if run_phases(max(abs(psi), LINEAR_PSI) if psi else 0.0, chi, STEP_TOLERANCE, work, record):
             return ""
         rows = record.changes[: record.counts[2]].tolist()
         mirror = -1 if np.signbit(psi) else 1
-        found: list[tuple[str, int]] = []
-        for row, after in pairwise(rows):
-            if abs(row[AT_V] - after[AT_V]) < NEAR and lasts(row, after) <= SHORTEST:
-                continue
-            phase = KIND_NAMES[Kind(int(row[KIND]))], mirror * int(row[KIND_SIGN])
-            if not found or found[-1] != phase:
-                found.append(phase)
-        return in_words(found)
+        phases = [
+            (int(row[KIND]), mirror * int(row[KIND_SIGN]))
+            for row, after in pairwise(rows)
+            if abs(row[AT_V] - after[AT_V]) >= NEAR or lasts(row, after) > SHORTEST_PHASE
+        ]
+        return _elastic_words(tuple(phase for phase, _ in groupby(phases)))
+
+    return name
+
+
+@lru_cache(1024)
+def _elastic_words(phases: tuple[tuple[int, int], ...]) -> str:
+    return in_words((KIND_NAMES[Kind(kind)], sign) for kind, sign in phases)
 
 
 def lasts(row: list[float], after: list[float]) -> float:

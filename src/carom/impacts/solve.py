@@ -10,15 +10,15 @@ from carom.bodies.pairs import Pair, check_second_spin, checked_pair, checked_sc
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import checked_type, refusal
 from carom.quantities.units import Value, finite
 
 if TYPE_CHECKING:
     from carom.impacts.boundary_elements import BoundaryElements, HalfspaceImpact
 
 
-class MotionInputs(TypedDict, total=False):
-    """How two bodies meet, by the names of `impact`."""
+class Inputs(TypedDict, total=False):
+    """How two bodies meet and what they lose, by the names of `impact`."""
 
     speed: Value | None
     angle: Value | None
@@ -27,35 +27,16 @@ class MotionInputs(TypedDict, total=False):
     spin: Value
     spin2: Value
     normal_spin: Value
+    losses: LossLaw | None
+    progress: Progress
 
 
 @overload
-def impact(
-    pair: Pair,
-    *,
-    losses: LossLaw | None = None,
-    method: Literal["exact"] = "exact",
-    progress: Progress = None,
-    **motion: Unpack[MotionInputs],
-) -> Impact: ...
+def impact(pair: Pair, *, method: Literal["exact"] = ..., **inputs: Unpack[Inputs]) -> Impact: ...
 @overload
 def impact(
-    pair: Pair,
-    *,
-    losses: None = None,
-    method: Literal["halfspace"] | BoundaryElements,
-    progress: Progress = None,
-    **motion: Unpack[MotionInputs],
+    pair: Pair, *, method: Literal["halfspace"] | BoundaryElements, **inputs: Unpack[Inputs]
 ) -> HalfspaceImpact: ...
-@overload
-def impact(
-    pair: Pair,
-    *,
-    losses: LossLaw | None = None,
-    method: str | BoundaryElements,
-    progress: Progress = None,
-    **motion: Unpack[MotionInputs],
-) -> Impact | HalfspaceImpact: ...
 @known_keywords
 def impact(
     pair: Pair,
@@ -140,27 +121,23 @@ def impact(
     check_second_spin(pair, spin2, spins=second_spin != 0.0)
     motion = Tangential(tangential, first_spin, second_spin)
     velocity = motion.contact_velocity(pair)
-    checked_scales(pair, approaching, velocity, tangential, *motion.carried(pair))
+    scales = checked_scales(pair, approaching, velocity, tangential, *motion.carried(pair))
     if isinstance(method, str) and method == "exact":
-        return solve_exactly(pair, approaching, motion, losses, about_normal)
+        return solve_exactly(pair, scales, motion, losses, about_normal)
     elements = _elements(method, losses)
     from carom.impacts.boundary_elements import solve_by_elements
 
-    return solve_by_elements(pair, approaching, motion, about_normal, elements, progress)
+    return solve_by_elements(pair, scales, motion, about_normal, elements, progress)
 
 
 def _elements(method: str | BoundaryElements, losses: LossLaw | None) -> BoundaryElements:
     from carom.impacts.boundary_elements import BoundaryElements
 
     named = isinstance(method, str) and method == "halfspace"
+    allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
     elements = BoundaryElements() if named else method
-    if not isinstance(elements, BoundaryElements):
-        allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
-        raise refusal("method", method, allowed)
+    elements = checked_type("method", elements, BoundaryElements, allowed)
     if losses is not None:
-        raise refusal(
-            "losses",
-            losses,
-            "boundary elements solve elastic bodies only; leave losses or method out",
-        )
+        allowed = "boundary elements solve elastic bodies only; leave losses or method out"
+        raise refusal("losses", losses, allowed)
     return elements

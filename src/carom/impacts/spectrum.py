@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from functools import partial
 from math import isnan
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.pairs import Scales
-from carom.dimensionless.numerics.corners import corners, widest
-from carom.dimensionless.numerics.fourier import Pulse, sampled
-from carom.impacts.outcome import InTime
+from carom.dimensionless.numerics.spectra import Pulse, corners, sampled, widest
+from carom.impacts.outcome import InTime, Outcome
 from carom.io.labels import attributes, labelled_dataset
 from carom.quantities.arrays import Array, numbers
 from carom.quantities.prefixes import text
@@ -27,37 +25,28 @@ NO_NOTCH = f"the amplitude has no minimum up to {WIDTH:g} over the duration"
 MOST, FARTHEST = 20_000, 1000.0  # the most that there may be, likewise
 
 
-class Source(NamedTuple):
-    """An impact as the source of spectra: solved, its scales, and the radius of the first body."""
+def forces(hit: Outcome, time: Array) -> Array:
+    """Return normal and tangential force in N, a row each, at times in s."""
+    scales, solution = hit.scales, cast(InTime, hit.solution)
+    states = solution.at(np.clip(time / scales.time, 0.0, solution.duration))
+    units = scales.force, scales.tangential_force
+    return np.stack([states.normal_force * units[0], states.force * units[1]])
 
-    solution: InTime
-    scales: Scales
-    radius: float
 
-    @property
-    def duration(self) -> float:
-        """Duration of the contact, in s."""
-        return self.solution.duration * self.scales.time
-
-    def forces(self, time: Array) -> Array:
-        """Return normal and tangential force in N, a row each, at times in s."""
-        found = self.solution.at(np.clip(time / self.scales.time, 0.0, self.solution.duration))
-        scales = self.scales
-        return np.stack([found.normal_force * scales.force, found.force * scales.tangential_force])
-
-    def pulse(self, highest: float) -> Pulse:
-        """Return both forces ready for their spectra up to a highest frequency in Hz."""
-        ends = [instant for phase in self.solution.phases for instant in (phase.start, phase.end)]
-        instants = np.unique([0.0, *ends, self.solution.duration]) * self.scales.time
-        return sampled(self.forces, instants, highest)
+def pulse_of(hit: Outcome, highest: float) -> Pulse:
+    """Return both forces ready for their spectra up to a highest frequency in Hz."""
+    solution = cast(InTime, hit.solution)
+    ends = [instant for phase in solution.phases for instant in (phase.start, phase.end)]
+    instants = np.unique([0.0, *ends, solution.duration]) * hit.scales.time
+    return sampled(partial(forces, hit), instants, highest)
 
 
 def read_frequencies(
-    given: ArrayLike | None, highest: Value | None, count: int | None, duration: float
+    frequencies: ArrayLike | None, highest: Value | None, count: int | None, duration: float
 ) -> Array:
     """Return frequencies in Hz: those given, or evenly spaced from zero; or raise InputError."""
     most = FARTHEST / duration
-    if given is None:
+    if frequencies is None:
         top = WIDTH / duration if highest is None else positive("max_frequency", highest)
         number = COUNT if count is None else counted("n", count, 2, MOST)
         if top > most:
@@ -66,9 +55,9 @@ def read_frequencies(
     if highest is not None or count is not None:
         raise InputError("frequencies: give them, or max_frequency and n, not both")
     allowed = "must be a list of numbers in Hz, zero or positive and finite"
-    values = np.atleast_1d(numbers("frequencies", given, allowed, "Hz"))
+    values = np.atleast_1d(numbers("frequencies", frequencies, allowed, "Hz"))
     if values.ndim != 1 or not values.size:
-        raise refusal("frequencies", given, allowed)
+        raise refusal("frequencies", frequencies, allowed)
     if values.size > MOST:
         raise InputError(f"frequencies: {values.size:,} are too many; give at most {MOST:,}")
     bad = ~((values >= 0.0) & (values < np.inf))
@@ -84,13 +73,11 @@ def _too_high(most: float) -> str:
     return f"{known}, {FARTHEST:g} over the duration of the contact"
 
 
-def spectrum_dataset(
-    source: Source, frequencies: Array, more: Mapping[str, float], inputs: Mapping[str, Any]
-) -> xr.Dataset:
-    """Return the spectra of the forces along `frequency`, their corners, and more numbers."""
-    pulse = source.pulse(float(frequencies.max()))
-    normal, tangential = pulse.transform(frequencies)
-    spectra = {"normal": normal, "tangential": tangential, "moment": source.radius * tangential}
+def spectrum_dataset(hit: Outcome, frequencies: Array) -> xr.Dataset:
+    """Return the spectra of the forces along `frequency`, their corners, and what they are of."""
+    normal, tangential = pulse_of(hit, float(frequencies.max())).transform(frequencies)
+    moment = hit.pair.first.radius * tangential
+    spectra = {"normal": normal, "tangential": tangential, "moment": moment}
     columns = {
         f"{name}_spectrum{part}": ("frequency", values)
         for name, spectrum in spectra.items()
@@ -100,25 +87,32 @@ def spectrum_dataset(
             ("_imag", spectrum.imag),
         )
     }
-    numbers = {"duration": source.duration, **more}
-    found = {}
-    for name, value in corner_frequencies(source).items():
+    reversal = 1.0 + hit.normal_restitution
+    numbers = {
+        "duration": hit.duration,
+        "max_force": hit.max_force,
+        "normal_impulse": hit.pair.normal_mass * hit.normal_speed * reversal,
+        "tangential_impulse": hit.tangential_impulse,
+    }
+    corner_variables = {}
+    for name, value in corner_frequencies(hit).items():
         why = NO_NOTCH if name == "normal_notch_frequency" else "there is no tangential force"
-        found[name] = (), value, attributes(name) | ({"comment": why} if isnan(value) else {})
+        comment = {"comment": why} if isnan(value) else {}
+        corner_variables[name] = (), value, attributes(name) | comment
     return labelled_dataset(
-        {**columns, **numbers, **found},
+        {**columns, **numbers, **corner_variables},
         {"frequency": frequencies},
-        {"title": "spectra of the forces of an oblique impact", "inputs": inputs},
+        {"title": "spectra of the forces of an oblique impact", "inputs": hit.inputs()},
     )
 
 
-def corner_frequencies(source: Source) -> dict[str, float]:
+def corner_frequencies(hit: Outcome) -> dict[str, float]:
     """Return the corner frequencies of both forces by name, in Hz."""
-    duration = source.duration
-    pulse = source.pulse(WIDTH / duration)
+    duration = hit.duration
+    pulse = pulse_of(hit, WIDTH / duration)
     reach = np.maximum(widest(pulse, duration, FARTHEST / duration), WIDTH / duration)
     if reach.max() > WIDTH / duration:
-        pulse = source.pulse(float(reach.max()))
+        pulse = pulse_of(hit, float(reach.max()))
     normal, tangential = (corners(pulse, row, duration, float(reach[row])) for row in range(2))
     return {
         "normal_corner_frequency": normal.corner,

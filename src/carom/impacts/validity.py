@@ -12,6 +12,7 @@ from carom.dimensionless.neglected import (
     rebound_error,
     spin_error,
 )
+from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding, Validity
 
 YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 1985, 6.1)
@@ -24,55 +25,46 @@ FULL = "the full contact in three dimensions"
 
 
 def judge(
-    pair: Pair,
-    normal_speed: float,
-    duration: float,
-    psi: float,
-    strength: tuple[Finding, ...],
-    losses: tuple[Finding, ...] = (),
-    normal_spin: float = 0.0,
+    hit: ImpactResult, strength: tuple[Finding, ...], losses: tuple[Finding, ...] = ()
 ) -> Validity:
     """Return the findings on an impact; `strength` are those on what the bodies bear."""
     coupling = _judged(
         "Dundurs beta",
-        pair.dundurs_beta,
+        hit.pair.dundurs_beta,
         WEAK_COUPLING,
         "normal and tangential contact do not couple",
         "the materials are unlike, and this answer neglects their coupling",
     )
-    spin = pair, normal_speed, psi, normal_spin
-    spinning = (_judge_spin(*spin, bool(losses)),) if normal_spin else ()
-    close = _judge_rebound(pair, psi, bool(losses), bool(normal_spin))
-    contact = judge_contact(pair, normal_speed, duration, strength)
-    return Validity((*contact, *losses, coupling, *spinning, close))
+    spinning = (_judge_spin(hit, bool(losses)),) if hit.normal_spin else ()
+    contact = judge_contact(hit, strength)
+    return Validity((*contact, *losses, coupling, *spinning, _judge_rebound(hit, bool(losses))))
 
 
-def _judge_rebound(pair: Pair, psi: float, loses: bool, spins: bool) -> Finding:
+def _judge_rebound(hit: ImpactResult, loses: bool) -> Finding:
     """Return the finding on what slip off the motion and coupling may do to psi_2."""
-    name, numbers = "error of psi_2", (pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
-    if pair.friction == 0.0 or not isfinite(psi):
+    pair, name = hit.pair, "error of psi_2"
+    numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
+    if pair.friction == 0.0 or not isfinite(hit.psi_in):
         nothing = "without friction the theory neglects nothing"
         return Finding(name, 0.0, CLOSE_REBOUND, True, nothing)
     if outside := not_studied(*numbers):
         return _unknown(name, f"{outside}; method='halfspace' solves the full contact")
-    error = float(rebound_error(*numbers, psi))
+    error = float(rebound_error(*numbers, hit.psi_in))
     if loses:
         return _unknown(name, f"with losses; for elastic bodies it is at most {error:.2g}")
-    but = "apart from the spin about the normal, " if spins else ""
+    but = "apart from the spin about the normal, " if hit.normal_spin else ""
     good = f"{but}psi_2 is at most this far from {FULL}, by a study of such impacts"
     bad = f"{but}psi_2 may be this far from {FULL}, which method='halfspace' solves"
     return _judged(name, error, CLOSE_REBOUND, good, bad)
 
 
-def _judge_spin(
-    pair: Pair, normal_speed: float, psi: float, normal_spin: float, loses: bool
-) -> Finding:
+def _judge_spin(hit: ImpactResult, loses: bool) -> Finding:
     """Return the finding on what spin about the normal, which the theory leaves out, may do."""
-    name, cure = "error of psi_2 by normal spin", "method='halfspace' solves for it"
-    if pair.friction == 0.0 or not isfinite(psi):
+    pair, name = hit.pair, "error of psi_2 by normal spin"
+    cure = "method='halfspace' solves for it"
+    if pair.friction == 0.0 or not isfinite(hit.psi_in):
         return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction this spin does not matter")
-    radius = pair.scales(normal_speed).radius
-    spin = abs(normal_spin) * radius / (pair.friction * normal_speed)
+    spin = abs(hit.normal_spin) * hit.scales.radius / (pair.friction * hit.normal_speed)
     outside = not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
     if spin > SPIN.most:
         outside = f"spin of {spin:.3g} mu V_1/a_max is above {SPIN.most:g}"
@@ -82,7 +74,7 @@ def _judge_spin(
         return _unknown(name, f"{outside}; {cure}")
     good = "the spin about the normal, which the theory neglects, hardly matters"
     bad = f"the theory neglects the spin about the normal; {cure}"
-    error = float(spin_error(pair.chi, psi, spin))
+    error = float(spin_error(pair.chi, hit.psi_in, spin))
     return _judged(name, error, CLOSE_REBOUND, good, bad)
 
 
@@ -96,8 +88,8 @@ def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding
     ratio = losses.parameter**-2.5
     off = f"off by up to {YIELDED:g}"
     studied = ratio <= FAST * (1.0 + 1e-9)
-    known = f"psi_2 is {off}" if studied else f"the error was not studied above {FAST:g}"
-    words = f"the yielded contact is modelled by springs that obey Coulomb's law; {known}"
+    error = f"psi_2 is {off}" if studied else f"the error was not studied above {FAST:g}"
+    words = f"the yielded contact is modelled by springs that obey Coulomb's law; {error}"
     return Finding("V_1/V_y", ratio, FAST, None, words)
 
 
@@ -114,15 +106,13 @@ def _others(loss: int, restitution: float, chi: float) -> str:
     return f"psi_2 of other solids of this e differs by up to {most:.2g}"
 
 
-def judge_contact(
-    pair: Pair, normal_speed: float, duration: float, strength: tuple[Finding, ...]
-) -> tuple[Finding, ...]:
+def judge_contact(hit: ImpactResult, strength: tuple[Finding, ...]) -> tuple[Finding, ...]:
     """Return the findings on values that are hardly meant, a small contact, strength, slowness."""
-    scales, transits = (pair.scales(normal_speed), duration / max(_transit(pair), 1e-300))
+    transits = hit.duration / max(_transit(hit.pair), 1e-300)
     slow = transits >= SLOW_CONTACT
     small = _judged(
         "a_max/R*",
-        scales.radius / pair.effective_radius,
+        hit.scales.radius / hit.pair.effective_radius,
         SMALL_CONTACT,
         "the contact is small compared with the bodies",
         f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most",
@@ -133,7 +123,7 @@ def judge_contact(
         else f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
     )
     waves = Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
-    return *doubts(pair), small, *strength, waves
+    return *doubts(hit.pair), small, *strength, waves
 
 
 def _unknown(name: str, why: str) -> Finding:

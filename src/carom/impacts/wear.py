@@ -60,9 +60,9 @@ class Rubbing(NamedTuple):
     def most(self) -> tuple[float, float]:
         """Return the largest value anywhere in the contact, and its distance from the centre."""
         everywhere = self.mean + np.abs(self.lateral)
-        found = largest(self.inner, everywhere[np.searchsorted(self.radii, self.inner)])
+        smooth = largest(self.inner, everywhere[np.searchsorted(self.radii, self.inner)])
         i = int(everywhere.argmax())
-        return max(found, (float(everywhere[i]), float(self.radii[i])))
+        return max(smooth, (float(everywhere[i]), float(self.radii[i])))
 
 
 def largest(radii: Array, values: Array) -> tuple[float, float]:
@@ -89,19 +89,19 @@ def wear_of(
     dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, None)
     r, angle = np.hypot(at[..., 0], at[..., 1]), 2.0 * np.arctan2(at[..., 1], at[..., 0])
     distance = np.linspace(0.0, hit.max_radius, count)
-    found = rubbing(hit, np.concatenate((distance, r.ravel())))
+    worn = rubbing(hit, np.concatenate((distance, r.ravel())))
 
     def read(values: Array, where: Array) -> Array:
-        return values[np.searchsorted(found.radii, where)]
+        return values[np.searchsorted(worn.radii, where)]
 
-    mean = read(found.mean, distance)
-    seen = read(found.mean, r) - read(found.lateral, r) * np.cos(angle)
-    most, place = found.most()
+    mean = read(worn.mean, distance)
+    seen = read(worn.mean, r) - read(worn.lateral, r) * np.cos(angle)
+    most, place = worn.most()
     variables = {
         "mean_friction_work": ("distance", hit.pair.friction * mean),
         "friction_work": (dims, hit.pair.friction * seen),
         "dissipated_energy": hit.dissipated_energy,
-        "work_error": found.error,
+        "work_error": worn.error,
         "max_friction_work": hit.pair.friction * most,
         "max_wear_radius": place,
         "max_radius": hit.max_radius,
@@ -112,16 +112,16 @@ def wear_of(
             "mean_wear_depth": ("distance", per_load * mean),
             "wear_depth": (dims, per_load * seen),
             "max_wear_depth": per_load * most,
-            "worn_volume": per_load * found.total,
+            "worn_volume": per_load * worn.total,
             "wear_coefficient": per_load,
         }
     attributes = {"title": "wear of the contact by one impact", "inputs": hit.inputs()}
     return labelled_dataset(variables, {"distance": distance, **coords}, attributes)
 
 
-def read_coefficient(given: Value) -> float:
+def read_coefficient(coefficient: Value) -> float:
     """Return a coefficient of wear in m^2/N, or raise InputError."""
-    return not_negative("coefficient", given, "m^2/N")
+    return not_negative("coefficient", coefficient, "m^2/N")
 
 
 def rubbing(hit: ImpactResult, radii: Array) -> Rubbing:

@@ -38,8 +38,8 @@ def with_doi(doi: str) -> str:
       doi = {10.1000/182},
     }
     """
-    known = (entry for entry in _entries().values() if f"doi = {{{doi}}}" in entry)
-    return next(known, f"@misc{{data,\n  doi = {{{doi}}},\n}}\n")
+    entries = (entry for entry in _entries().values() if f"doi = {{{doi}}}" in entry)
+    return next(entries, f"@misc{{data,\n  doi = {{{doi}}},\n}}\n")
 
 
 @cache

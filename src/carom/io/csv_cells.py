@@ -22,7 +22,7 @@ COMMENT = re.compile(r"#\s*([A-Za-z]\w*)\s*:\s*(.*)")
 SPREADSHEET_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
 SEPARATORS = ",;\t"
 NAMED_SEPARATOR = re.compile(rf"sep=([{SEPARATORS}])\s*", re.IGNORECASE)  # Excel's first line
-BLOCK = 1 << 16  # rows that are texts at a time, before their numbers are
+BLOCK_ROWS = 1 << 16  # rows that are texts at a time, before their numbers are
 MOST_COLUMNS = 1000
 MOST_ROWS = 10_000_000
 LONGEST_LINE = 1_000_000  # characters
@@ -103,7 +103,7 @@ def _read(file: _CsvFile, fewest: int) -> tuple[list[Column], UserTable]:
     _check_heads(file, heads, fewest)
     parts: list[list[Any]] = [[] for _ in heads]
     with advancing("reading the table", None, unit="rows") as advance:
-        while block := list(islice(rows, BLOCK)):
+        while block := list(islice(rows, BLOCK_ROWS)):
             lines = file.lines[-len(block) :]
             if len(file.lines) - 1 - len(block) != sum(map(len, parts[0])):
                 raise file.refusal("it is not CSV; a text in quotes extends over several lines")

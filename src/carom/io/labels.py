@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from carom.io.version import __version__
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.shown import Printed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,7 +39,8 @@ class Finding(NamedTuple):
         return self.name if isnan(self.value) else f"{self.name} = {self.value:.3g}"
 
 
-class Validity(NamedTuple):
+@dataclass(frozen=True)
+class Validity(Printed):
     """All findings on one impact."""
 
     findings: tuple[Finding, ...]
@@ -59,6 +62,11 @@ def flags(meanings: Sequence[str], first: int = 0) -> dict[str, Any]:
 
 
 SIGNS = flags(("slip along -x", "stick", "slip along +x"), first=-1)
+OF_PHASES = {
+    "phase_kind": {"long_name": "kind of phase"},
+    "phase_sign": SIGNS,
+    "phase_cause": {"long_name": "what ended the phase"},
+}
 
 
 def labelled_dataset(
@@ -94,11 +102,6 @@ def labelled_dataset(
     )
 
 
-def is_ours(source: object) -> bool:
-    """Tell whether the attribute `source` of a dataset says that Carom has made it."""
-    return str(source).startswith("carom ")
-
-
 def labelled(
     columns: Mapping[str, ArrayLike],
     scalars: Mapping[str, float],
@@ -107,11 +110,13 @@ def labelled(
     phase_columns: Mapping[str, ArrayLike] | None = None,
 ) -> "xr.Dataset":
     """Return a history as a dataset: columns along time, more of them along phase, and numbers."""
-    along_time: dict[str, Any] = {name: ("time", values) for name, values in columns.items()}
-    along_phase = {name: ("phase", values) for name, values in (phase_columns or {}).items()}
+    along_time = {name: _along("time", name, values) for name, values in columns.items()}
+    known = _rows(phases) | {"phase_cause": [phase.cause for phase in phases]} if phases else {}
+    known |= phase_columns or {}
+    along_phase = {name: _along("phase", name, values) for name, values in known.items()}
     time = along_time.pop("time")
     return labelled_dataset(
-        along_time | dict(scalars) | _phase_variables(phases) | along_phase,
+        along_time | dict(scalars) | along_phase,
         {"time": time},
         {"title": f"oblique impact of {spheres('losses' in inputs)}", "inputs": inputs},
     )
@@ -122,15 +127,24 @@ def spheres(loses: bool) -> str:
     return "spheres with losses" if loses else "elastic spheres"
 
 
-def _phase_variables(phases: "Sequence[Phase]") -> dict[str, Any]:
-    signs = np.array([phase.sign for phase in phases], dtype=np.int8)
+def _along(dim: str, name: str, values: Any) -> tuple[Any, ...]:
+    return (dim, values, OF_PHASES[name]) if name in OF_PHASES else (dim, values)
+
+
+def _rows(phases: "Sequence[Phase]") -> dict[str, Any]:
+    """Return kind, sign, start and end of phases, by column."""
     return {
-        "phase_kind": ("phase", [p.kind for p in phases], {"long_name": "kind of phase"}),
-        "phase_sign": ("phase", signs, SIGNS),
-        "phase_start": ("phase", [p.start for p in phases]),
-        "phase_end": ("phase", [p.end for p in phases]),
-        "phase_cause": ("phase", [p.cause for p in phases], {"long_name": "what ended the phase"}),
+        "phase_kind": np.array([phase.kind for phase in phases]),
+        "phase_sign": np.array([phase.sign for phase in phases], dtype=np.int8),
+        "phase_start": np.array([phase.start for phase in phases]),
+        "phase_end": np.array([phase.end for phase in phases]),
     }
+
+
+def phases_at(times: Any, phases: "Sequence[Phase]") -> dict[str, Any]:
+    """Return the phase at each time, by column; an instant of change belongs to the later phase."""
+    which = np.searchsorted([phase.start for phase in phases[1:]], times, side="right")
+    return {name: values[which] for name, values in _rows(phases).items()}
 
 
 def attributes(name: str) -> dict[str, str]:
@@ -139,12 +153,17 @@ def attributes(name: str) -> dict[str, str]:
     return {"units": entry.unit, "long_name": entry.meaning, "symbol": entry.symbol}
 
 
+def pure(meaning: str) -> dict[str, str]:
+    """Return the attributes of a pure number."""
+    return {"units": "1", "long_name": meaning}
+
+
 def _variable(name: str, entry: Any) -> tuple[Any, Any, dict[str, Any]]:
     if isinstance(entry, tuple):
         dims, values, *more = entry
     else:
         dims, values, more = (name,) if np.ndim(entry) else (), entry, []
-    known: dict[str, Any] = attributes(name) if name in GLOSSARY or not more else {}
+    attrs: dict[str, Any] = attributes(name) if name in GLOSSARY or not more else {}
     if dims in (name, (name,)):
-        known |= AXES.get(name, {})
-    return dims, np.asarray(values), known | dict(*more)
+        attrs |= AXES.get(name, {})
+    return dims, np.asarray(values), attrs | dict(*more)

@@ -18,10 +18,10 @@ from typing import IO, Any
 
 from carom.quantities.refusals import InputError, refusal
 
-DESCRIPTORS = ("/dev/fd", "/proc/self/fd")  # folders in which a name is an open file
-STREAMED = (".csv", ".png", ".gif", ".h")  # formats of what goes into a stream without an ending
-PATIENCE = 5.0  # seconds that somebody has to open the other end of a pipe
-LINKS = 40  # that are followed, as the system does
+DESCRIPTOR_FOLDERS = ("/dev/fd", "/proc/self/fd")  # in which a name is an open file
+STREAM_FORMATS = (".csv", ".png", ".gif", ".h")  # if it has no ending
+PIPE_SECONDS = 5.0  # that somebody has to open the other end of a pipe
+MOST_LINKS = 40  # that are followed, as the system does
 
 
 def checked_path(what: str, path: str | Path, kind: str = "file") -> Path:
@@ -49,20 +49,20 @@ def opened(path: Path, mode: str = "r", **how: Any) -> Any:
     """Return an open file; raises OSError as `open`, and for a pipe that has no other end."""
     if not path.is_fifo():
         return path.open(mode, **how)
-    found: list[IO[Any]] = []
+    files: list[IO[Any]] = []
 
     def wait() -> None:
         with suppress(OSError):
-            found.append(path.open(mode, **how))
+            files.append(path.open(mode, **how))
 
     waiting = Thread(target=wait, daemon=True)
     waiting.start()
-    waiting.join(PATIENCE)
-    if found:
-        return found[0]
+    waiting.join(PIPE_SECONDS)
+    if files:
+        return files[0]
     os.close(os.open(path, os.O_RDWR | os.O_NONBLOCK))  # lets the thread go
     waiting.join()
-    for file in found:
+    for file in files:
         file.close()
     raise OSError(errno.ENXIO, "nobody opens the other end of this pipe")
 
@@ -82,7 +82,7 @@ def checked_output(path: str | Path, endings: Sequence[str]) -> Path:
 
 def ending_of(target: Path, endings: Sequence[str]) -> str:
     """Return the ending that tells the format: a stream may have none, e.g. /dev/stdout."""
-    return target.suffix.lower() or next(each for each in endings if each in STREAMED)
+    return target.suffix.lower() or next(each for each in endings if each in STREAM_FORMATS)
 
 
 def is_stream(target: Path) -> bool:
@@ -145,8 +145,8 @@ def _opened(target: Path) -> Any:
 
 def _descriptor(target: Path) -> int | None:
     """Return the number of an open file that is meant by names like /dev/stdout, /dev/fd/63."""
-    folders = {os.path.realpath(folder) for folder in DESCRIPTORS}
-    for _ in range(LINKS):
+    folders = {os.path.realpath(folder) for folder in DESCRIPTOR_FOLDERS}
+    for _ in range(MOST_LINKS):
         if target.name.isdecimal() and os.path.realpath(target.parent) in folders:
             return int(target.name)
         try:

@@ -15,11 +15,11 @@ from carom.quantities.refusals import refusal
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
-Told = Callable[[int, int], object]  # is told how many are done, and of how many
-Progress = bool | Told | None  # what functions take: whether a bar is shown, or who is told
+Listener = Callable[[int, int], object]  # takes how many are done, and of how many
+Progress = bool | Listener | None  # what functions take: whether a bar is shown, or who listens
 Advance = Callable[[int], object]  # what work calls with how many more are done
 
-PATIENCE = 2.0  # seconds before a bar appears
+SECONDS_BEFORE_BAR = 2.0
 _shown = Lock()  # one bar at a time: what is part of other work has none
 
 
@@ -95,9 +95,9 @@ def _unseen(_: int) -> None:
     pass
 
 
-def _tell(told: Told, work: _Work, more: int) -> None:
+def _tell(listener: Listener, work: _Work, more: int) -> None:
     work.advance(more)
-    told(work.done, work.total or 0)
+    listener(work.done, work.total or 0)
 
 
 @contextmanager
@@ -122,7 +122,7 @@ def _showing(where: Place, work: _Work) -> Iterator[Advance]:
 
 def _paint(where: Place, work: _Work, over: Event) -> None:
     """Draw the bar again and again, from when the patience ends until the work is over."""
-    if over.wait(PATIENCE):
+    if over.wait(SECONDS_BEFORE_BAR):
         return
     bar = _bar(where, work)
     task = bar.add_task(work.what, total=work.total, completed=work.done)

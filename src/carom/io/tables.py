@@ -12,16 +12,15 @@ import numpy as np
 
 from carom.io.csv_cells import MOST_COLUMNS, read_csv
 from carom.io.paths import checked_path
-from carom.io.user_table import ALIASES, Column, UserTable, spelled
+from carom.io.user_table import ALIASES, GAP, Column, UserTable, spelled
 from carom.quantities.arrays import along_the_same, floats
 from carom.quantities.refusals import InputError, nearest, refusal
-from carom.quantities.texts import LONGEST, UNCHANGED
-from carom.quantities.units import REAL, factor_of, told_unit, two_units
+from carom.quantities.texts import LONGEST_TEXT, UNCHANGED
+from carom.quantities.units import REAL_KINDS, factor_of, two_units, without_unit
 
-KEPT = ("case", "code", "doi", "law")  # attributes of a dataset that are comments of a file
+COMMENT_ATTRIBUTES = ("case", "code", "doi", "law")  # of a dataset; comments of a file
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
-GAP = "-"  # a cell of what was not measured
-RAW = (str, bytes, bytearray, memoryview)  # sequences that are no lists
+TEXT_TYPES = (str, bytes, bytearray, memoryview)  # sequences that are no lists
 
 
 def read_table(
@@ -46,10 +45,10 @@ def read_table(
     if isinstance(source, UserTable) and not columns:
         return source
     if isinstance(source, str | Path):
-        as_given, table = read_csv(what, checked_path(what, source), fewest)
+        source_columns, table = read_csv(what, checked_path(what, source), fewest)
     else:
-        as_given, table = _of_object(what, source)
-    named = _renamed([column.head for column in as_given], _checked_columns(columns), what)
+        source_columns, table = _of_object(what, source)
+    named = _renamed([column.head for column in source_columns], _checked_columns(columns), what)
     for name, count in Counter(name for name, _ in named).items():
         if count > 1:
             words = "two columns have this name; leave one of them out"
@@ -58,7 +57,7 @@ def read_table(
         raise InputError(f"{what}: no rows; give names of columns, and numbers below them")
     cells = {
         name: column._replace(unit=_one_unit(name, unit, column.unit))
-        for (name, unit), column in zip(named, as_given, strict=True)
+        for (name, unit), column in zip(named, source_columns, strict=True)
     }
     return replace(table, cells=cells)
 
@@ -67,7 +66,8 @@ def _of_object(what: str, source: Any) -> tuple[list[Column], UserTable]:
     """Return the columns of what is no file by their heads, and a table of its rows."""
     comments: dict[str, str] = {}
     if hasattr(source, "data_vars"):
-        comments = {name: str(source.attrs[name]) for name in KEPT if name in source.attrs}
+        there = filter(source.attrs.__contains__, COMMENT_ATTRIBUTES)
+        comments = {name: str(source.attrs[name]) for name in there}
         columns = list(_of_dataset(source))
     else:
         columns = [_column(str(name), cells) for name, cells in _by_name(what, source).items()]
@@ -128,7 +128,7 @@ def _renamed(heads: list[str], columns: Mapping[str, str], what: str) -> list[tu
 
 def _parts(head: str) -> tuple[str, str]:
     """Return what stands before and in the brackets of a head."""
-    match = HEAD.fullmatch(head) if len(head) <= LONGEST else None
+    match = HEAD.fullmatch(head) if len(head) <= LONGEST_TEXT else None
     return (match[1], (match[2] or match[3] or "").strip()) if match else (head, "")
 
 
@@ -144,9 +144,9 @@ def _one_unit(name: str, one: Any, other: Any) -> Any:
 
 def _column(name: str, values: Any, *, gaps: bool = False) -> Column:
     """Return a column of a user's; a gap is what is masked, with `gaps` what is no number, too."""
-    plain, unit = told_unit(name, values)
+    plain, unit = without_unit(name, values)
     cells: Any = None
-    if isinstance(plain, Sequence) and not isinstance(plain, RAW):
+    if isinstance(plain, Sequence) and not isinstance(plain, TEXT_TYPES):
         cells = list(plain)
     elif _depth(plain) == 1:
         cells = _of_array(name, plain, gaps)
@@ -157,15 +157,15 @@ def _column(name: str, values: Any, *, gaps: bool = False) -> Column:
 
 def _depth(value: Any) -> int:
     """Return how many dimensions an array has, 1 for lists, 0 for anything else."""
-    shape = () if isinstance(value, RAW) else getattr(value, "shape", ())
+    shape = () if isinstance(value, TEXT_TYPES) else getattr(value, "shape", ())
     return 1 if isinstance(value, list | tuple) else len(shape) if isinstance(shape, tuple) else 0
 
 
 def _of_array(name: str, values: Any, gaps: bool) -> Any:
     """Return an array of numbers, or a list of whatever else there is; with gaps, a list."""
-    real = getattr(getattr(values, "dtype", None), "kind", "") in REAL
+    real = getattr(getattr(values, "dtype", None), "kind", "") in REAL_KINDS
     array = np.asanyarray(values)
-    if real and array.dtype.kind not in REAL:  # with pandas' own sign of what is missing
+    if real and array.dtype.kind not in REAL_KINDS:  # with pandas' own sign of what is missing
         array = np.asarray(values, dtype=np.float64)
     if array.dtype.kind == "V":  # of records
         return None

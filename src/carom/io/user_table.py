@@ -2,24 +2,37 @@
 
 import json
 from collections import Counter
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
+from math import nan, pi
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.quantities.arrays import Array
-from carom.quantities.faults import Faults
-from carom.quantities.refusals import InputError, clipped, nearest
-from carom.quantities.units import finite_or_text
+from carom.quantities.arrays import Array, in_unit
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.refusals import Faults, InputError, clipped, nearest
+from carom.quantities.symbols import meant
+from carom.quantities.texts import UNCHANGED
+from carom.quantities.units import PURE_UNITS, WHY_POSITIVE, factor_of, finite_or_text, number
 
 Mask = NDArray[np.bool_]
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
 CASE = "# case:"  # begins a comment that holds the bodies as JSON
-SHOWN = 5  # rows that a message names
+MOST_NAMED_ROWS = 5  # rows that a message names
+GAP = "-"  # a cell of what was not measured
+ERROR = "_error"  # ends the name of a column of standard deviations
+CORRECT_OR_DELETE = "correct or delete it"
+EMPTY = ("", "nan")
+HEIGHTS = ("drop_height", "rebound_height")  # which are measured in cm and mm as well
+HIGHEST_DROP = 3.0  # m, of a drop that is given without a unit
+LEAST_SIMILARITY = 0.8  # from which a column is taken for a misspelt one
+UNITS_IN_NAMES = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}
 
 
 class Column(NamedTuple):
@@ -138,8 +151,8 @@ def named(word: str, rows: Iterable[int], total: int = 0) -> str:
     texts = [str(row) for row in rows]
     if len(texts) == total > 1:
         return f"every {word}"
-    if len(texts) > SHOWN + 1:
-        texts = [*texts[:SHOWN], f"{len(texts) - SHOWN} more"]
+    if len(texts) > MOST_NAMED_ROWS + 1:
+        texts = [*texts[:MOST_NAMED_ROWS], f"{len(texts) - MOST_NAMED_ROWS} more"]
     if len(texts) < 2:
         return " ".join([word, *texts])
     return f"{word}s {', '.join(texts[:-1])} and {texts[-1]}"
@@ -152,3 +165,172 @@ def _with_unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
             words = f"it is given twice after '{CASE}'; leave one of them out"
             raise InputError(f"{clipped(name)}: {words}")
     return dict(pairs)
+
+
+def in_units(
+    table: UserTable, names: Iterable[str], gaps: Collection[str] = (), faults: Faults | None = None
+) -> UserTable:
+    """Return a table with those columns in SI units whose names are known; the others are NaN.
+
+    Columns without a unit are SI; heights of drops in files need one. In columns of `gaps`, and of
+    their errors, a cell "-" stands for what was not measured: NaN.
+
+    Adds to the faults, which are raised as InputError if they are not given, a cell that is not a
+    number, a unit that does not fit, an error that has no unit where its column has one, angles
+    that cannot be in rad, and speeds of bodies that do not approach.
+
+    Examples
+    --------
+    >>> from carom.io.user_table import in_units
+    >>> from carom.io.tables import read_table
+    >>> table = read_table({"angle [deg]": [0.0, 60.0], "spin_out [rpm]": ["-", -600]})
+    >>> given = in_units(table, ("angle", "spin_out"), gaps=("spin_out",))
+    >>> given["angle"].round(4), given["spin_out"].round(2)
+    (array([0.    , 1.0472]), array([   nan, -62.83]))
+    """
+    columns = {name: np.full(len(table), nan) for name in table.names}
+    read = replace(table, columns=columns, faults=faults or Faults())
+    wanted = {*names}
+    for name in filter(wanted.__contains__, table.names):
+        try:
+            _check_error_unit(name, table)
+            columns[name] = _column(name, table, entry(name) in gaps)
+        except InputError as error:
+            read.faults.add(str(error))
+        else:
+            _check_values(name, read)
+    return read
+
+
+def with_errors(names: Iterable[str]) -> tuple[str, ...]:
+    """Return names of columns, and of the columns of their standard deviations.
+
+    Examples
+    --------
+    >>> from carom.io.user_table import with_errors
+    >>> with_errors(["angle", "spin_out"])
+    ('angle', 'angle_error', 'spin_out', 'spin_out_error')
+    """
+    return tuple(each for name in names for each in (name, name + ERROR))
+
+
+def others(table: UserTable, names: Iterable[str], faults: Faults | None = None) -> tuple[str, ...]:
+    """Return the columns that are not known and mean nothing here, for a user to be told.
+
+    Adds to the faults, which are raised as InputError if they are not given, one that is likely to
+    be a known one misspelt, with the nearest, and an error without its column.
+
+    Examples
+    --------
+    >>> from carom.io.user_table import others
+    >>> from carom.io.tables import read_table
+    >>> others(read_table({"angle": [0.1], "run": [1]}), ["angle", "spin_out"])
+    ('run',)
+    """
+    names, faults = list(names), faults or Faults()
+    unknown = tuple(name for name in table.names if name not in names)
+    for name in unknown:
+        if hint := _likely(name, names):
+            faults.add(f"{name}: unknown column; did you mean {hint!r}?")
+    for name in table.names:
+        if entry(name) not in table.names and name not in unknown:
+            faults.add(f"{name}: its column {entry(name)!r} is missing")
+    return unknown
+
+
+def entry(name: str) -> str:
+    """Return the name in the glossary of what a column holds, be it values or their errors.
+
+    Examples
+    --------
+    >>> from carom.io.user_table import entry
+    >>> entry("spin_out"), entry("spin_out_error")
+    ('spin_out', 'spin_out')
+    """
+    return name.removesuffix(ERROR)
+
+
+def _likely(name: str, names: list[str]) -> str:
+    """Return the head of a known column that another one stands for, or nothing."""
+    plain = name.lower().replace(" ", "_").replace("-", "_")
+    unit = next((end for end in UNITS_IN_NAMES if plain.endswith(end)), "")
+    plain = plain.removesuffix(unit)
+    end = ERROR if plain.endswith(ERROR) else ""
+    plain = plain.removesuffix(ERROR)
+    stands = meant(plain, names) or plain
+    close = get_close_matches(stands + end, names, n=1, cutoff=LEAST_SIMILARITY)
+    return spelled(close[0]) + (f" [{UNITS_IN_NAMES[unit]}]" if unit else "") if close else ""
+
+
+def _check_error_unit(name: str, table: UserTable) -> None:
+    """Raise InputError for an error whose unit can only be guessed."""
+    whole = entry(name)
+    unit = str(table.cells[whole].unit) if whole in table.cells else ""
+    if name != whole and unit not in ("", *PURE_UNITS) and not str(table.cells[name].unit):
+        raise InputError(f"{name}: no unit, but {whole} is in {unit}; write '{name} [{unit}]'")
+
+
+def _check_values(name: str, table: UserTable) -> None:
+    """Add to the faults what cannot be, as it is of another unit, or of bodies that part."""
+    values, unit = table[name], str(table.cells[name].unit)
+    if name in WHY_POSITIVE:
+        table.refuse(name, values <= 0.0, f"must be positive{WHY_POSITIVE[name]}")
+    if entry(name) in HEIGHTS:
+        cells = table.cells[name].cells
+        bare = not isinstance(cells, list) or any(
+            str(cell).strip()[-1:].isdigit() for cell in cells
+        )
+        if bare and not unit and (table.word == "line" or np.any(np.abs(values) > HIGHEST_DROP)):
+            heads = " or ".join(f"'{name} [{each}]'" for each in ("m", "cm", "mm"))
+            table.faults.add(f"{name}: no unit, and heights may be in m, cm or mm; write {heads}")
+    if name in GLOSSARY and GLOSSARY[name].unit == "rad":
+        allowed = "must be below pi/2, 90 deg, from the normal"
+        if not unit:
+            allowed += f"; for degrees write '{name} [deg]' at the head of the column"
+        elif unit in ("rad", "radian", "radians"):
+            allowed += f"; the head of the column says {unit}; for degrees write '{name} [deg]'"
+        table.refuse(name, np.abs(values) >= 0.5 * pi, allowed)
+
+
+def _column(name: str, table: UserTable, open_ended: bool) -> Array:
+    """Return a column in SI units, or raise InputError for what is not a number in it."""
+    _, cells, unit, _ = table.column(name)
+    gap = np.zeros(len(cells), dtype=bool)
+    if open_ended and isinstance(cells, list):
+        gap[:] = [isinstance(cell, str) and cell.strip() == GAP for cell in cells]
+        cells = [nan if empty else cell for cell, empty in zip(cells, gap, strict=True)]
+    values, reason = column_in_si(spelled(name), GLOSSARY[entry(name)].unit, unit, cells)
+    missing = ~np.isfinite(values) & ~gap
+    if missing.any():
+        todo = f"write '{GAP}' where nothing was measured" if open_ended else CORRECT_OR_DELETE
+        message = f"not a number in {table.named(missing)}; {reason or todo}"
+        raise InputError(f"{spelled(name)}: {message}")
+    return values
+
+
+def column_in_si(name: str, si: str, unit: Any, cells: Any) -> tuple[Array, str]:
+    """Return a column in SI units, NaN where there is no number, and what is wrong there first.
+
+    A bare number is in the unit of the column, SI if that is empty; a cell may have its own.
+
+    Raises InputError if the unit of the column does not fit.
+
+    Examples
+    --------
+    >>> from carom.io.user_table import column_in_si
+    >>> column_in_si("radius", "m", "mm", [5, "6", "0.7 cm", ""])[0]
+    array([0.005, 0.006, 0.007,   nan])
+    """
+    own = factor_of(name, unit, si) if str(unit) else UNCHANGED
+    with suppress(InputError):  # where a number overflows, it is sought
+        if isinstance(cells, np.ndarray):
+            return in_unit(name, cells, own), ""
+    values, reason = np.full(len(cells), nan), ""
+    for i, cell in enumerate(cells):
+        if cell is None or (isinstance(cell, str | float) and str(cell).strip().lower() in EMPTY):
+            continue
+        try:
+            values[i] = number(name, cell, si, own)
+        except InputError as error:
+            reason = reason or str(error)
+    return values, reason

@@ -12,15 +12,13 @@ from numpy.polynomial import chebyshev
 
 from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair
-from carom.dem.base import Law
-from carom.dem.status import Codes
+from carom.dem.base import Codes, Law
 from carom.dimensionless import rebound_tables as tables
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import scale_free
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.patches import Patches
-from carom.dimensionless.rebounds import rebound, regime_borders
+from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
 from carom.io.citations import IMPACT, VISCOUS, bibtex
 from carom.io.progress import advancing
 from carom.laws.portable import applied, lost

@@ -24,9 +24,14 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from carom.dimensionless.elastic import phases, record as elastic
+from carom.dimensionless.lossy import layout
+from carom.dimensionless.lossy.viscoelastic import work
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
+from carom.dimensionless.lossy.viscoelastic.record import new_record
 from carom.dimensionless.numerics.kernels import ENTRIES, INSTALL, VARIABLE
 from carom.dimensionless.numerics.shared_library import CONTENTS, FOLDER, PACKAGE, digest
-from carom.native.c_header import kernels_h
+from carom.dimensionless.rebounds import NEARLY_ELASTIC
 
 HERE = Path(__file__).parent
 INCLUDE = PACKAGE / "include"
@@ -37,6 +42,8 @@ FLAGS = ("-O2", "-std=c11", "-fPIC", "-shared", "-fvisibility=hidden")
 ENDINGS = {"darwin": ".dylib", "win32": ".dll"}
 GENERIC = {0: "generic", 1: "x86-64", 2: "x86-64-v2", 3: "x86-64-v3", 4: "x86-64-v4"}
 CACHE = "CAROM_BUILD_CACHE"  # of the environment: a folder
+ELASTIC = "carom_dimensionless_rebounds_fill"
+LOSSY = "carom_dimensionless_lossy_viscoelastic_impacts_fill"
 
 
 class NotBuilt(Exception):
@@ -47,23 +54,21 @@ def build(folder: Path, levels: Sequence[int] = ()) -> None:
     """Write the libraries and what they hold into a folder, or raise NotBuilt."""
     modules = entry_modules()
     files = source_files()
-    known = digest(files)
+    sources = digest(files)
     libraries = []
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
         for level in levels or [processor_level(Path(scratch))]:
-            path = _kept(known, modules, level, Path(scratch))
+            path = _kept(sources, modules, level, Path(scratch))
             checksum = sha256(path.read_bytes()).hexdigest()
             libraries.append({"file": path.name, "level": level, "sha256": checksum})
             _put(path, folder)
-    signatures = {
-        name: str(each) for kernel in ENTRIES for name, each in kernel.signatures().items()
-    }
+    signatures = (each for kernel in ENTRIES for each in kernel.signatures().items())
     contents = {
         "compiled_by": f"numba {_numba()}",
-        "sources": known,
+        "sources": sources,
         "files": [path.relative_to(PACKAGE).as_posix() for path in files],
-        "signatures": signatures,
+        "signatures": {name: str(each) for name, each in signatures},
         "libraries": libraries,
     }
     (folder / CONTENTS).write_text(json.dumps(contents, indent=1) + "\n", encoding="utf-8")
@@ -82,13 +87,9 @@ def entry_modules() -> list[str]:
 
 def source_files() -> list[Path]:
     """Return the files of the package that kernels can take anything from: all that is imported."""
-    found = {Path(each.__file__) for each in _own_modules() if each.__file__}
-    return sorted(path for path in found if path.suffix == ".py")
-
-
-def _own_modules() -> list[Any]:
-    own = [module for name, module in sys.modules.items() if name.split(".")[0] == "carom"]
-    return [module for module in own if getattr(module, "__file__", None)]
+    own = (module for name, module in sys.modules.items() if name.split(".")[0] == "carom")
+    files = {Path(getattr(module, "__file__", None) or "") for module in own}
+    return sorted(path for path in files if path.suffix == ".py")
 
 
 def processor_level(scratch: Path) -> int:
@@ -98,9 +99,9 @@ def processor_level(scratch: Path) -> int:
     return int(ctypes.CDLL(str(path)).carom_processor_level())
 
 
-def _kept(known: str, modules: Sequence[str], level: int, scratch: Path) -> Path:
+def _kept(sources: str, modules: Sequence[str], level: int, scratch: Path) -> Path:
     """Return the library for a level, built now or before."""
-    recipe = [known, digest(OWN_FILES), str(level), _numba(), version("llvmlite")]
+    recipe = [sources, digest(OWN_FILES), str(level), _numba(), version("llvmlite")]
     name = f"libcarom{'' if level == 0 else f'-{level}'}{_ending()}"
     folder = kept_in() / sha256(" ".join(recipe).encode()).hexdigest()[:16]
     if (folder / name).is_file():
@@ -111,6 +112,33 @@ def _kept(known: str, modules: Sequence[str], level: int, scratch: Path) -> Path
         folder.mkdir(parents=True, exist_ok=True)
         _put(scratch / name, folder)
     return scratch / name
+
+
+def kernels_h() -> str:
+    """Return what the functions in C must know of kernels: shapes of scratch arrays, codes."""
+    defined = {
+        "CAROM_ELASTIC": ELASTIC,
+        "CAROM_LOSSY": LOSSY,
+        "CAROM_ELASTIC_SCRATCH": _shapes((*phases.new_work(), *elastic.new_record(False))),
+        "CAROM_LOSSY_SCRATCH": _shapes((*work.new_work(), *new_record(False))),
+        "CAROM_NUMBERS": layout.NUMBERS,
+        "CAROM_PSI_OUT": layout.PSI_OUT,
+        "CAROM_RESTITUTION": layout.RESTITUTION,
+        "CAROM_NEARLY_ELASTIC": NEARLY_ELASTIC,
+        "CAROM_TOLERANCE": TOLERANCE,
+        "CAROM_MESSAGES": _braces(f'"{status.message}"' for status in phases.Status),
+    }
+    lines = (f"#define {name} {value}" for name, value in defined.items())
+    declared = (f"int {name}(const int64_t *words);" for name in (ELASTIC, LOSSY))
+    return "\n".join(("#include <stdint.h>", "", *lines, "", *declared, ""))
+
+
+def _shapes(arrays: Iterable[Any]) -> str:
+    return _braces(f"{{{each.ndim}, {_braces(map(str, each.shape))}}}" for each in arrays)
+
+
+def _braces(texts: Iterable[str]) -> str:
+    return f"{{{', '.join(texts)}}}"
 
 
 def _numba() -> str:
@@ -168,18 +196,14 @@ def _shared_out(modules: Iterable[str], workers: int) -> list[list[str]]:
 def _size(names: Sequence[str]) -> int:
     """Return how much code of kernels lies in the folder of some modules."""
     folder = Path(sys.modules[names[0]].__file__ or "").parent
-    return sum(
-        len(text)
-        for path in folder.glob("*.py")
-        for text in [path.read_bytes()]
-        if b"@kernel" in text
-    )
+    texts = [path.read_bytes() for path in folder.glob("*.py")]
+    return sum(len(text) for text in texts if b"@kernel" in text)
 
 
 def _link(target: Path, parts: Sequence[Path]) -> None:
     """Make a shared library of files in C and object files, with headers beside the target."""
     own = os.environ.get("CC", "").split()
-    compiler = own or [found for name in COMPILERS if (found := shutil.which(name))][:1]
+    compiler = own or [*filter(None, map(shutil.which, COMPILERS))][:1]
     if not compiler:
         raise NotBuilt("there is no C compiler; install one, and then carom again")
     folders = [f"-I{folder}" for folder in (INCLUDE, target.parent)]
@@ -192,10 +216,9 @@ def _run(command: Sequence[str], environment: Any) -> None:
             command, env=environment, cwd=PACKAGE.parent, check=True, capture_output=True, text=True
         )
     except (OSError, subprocess.CalledProcessError) as error:
-        told = str(getattr(error, "stderr", "") or error).strip().splitlines()
-        raise NotBuilt(
-            f"{Path(command[0]).name} has failed: {told[-1] if told else error}"
-        ) from None
+        lines = str(getattr(error, "stderr", "") or error).strip().splitlines()
+        why = lines[-1] if lines else error
+        raise NotBuilt(f"{Path(command[0]).name} has failed: {why}") from None
 
 
 def _ending() -> str:

@@ -70,54 +70,54 @@ def _module(name: str, compiled: Any, signature: Signature) -> Any:
     arguments = tuple(_arguments(signature))
     wrapper = numba.njit(**OPTIONS)(_wrapper(compiled, signature))
     wrapper.compile(arguments)
-    found = wrapper.overloads[arguments]
-    module = numba_internals.module_of(found).clone()
-    module.link_in(_c_function(name, found, arguments))
+    inner = wrapper.overloads[arguments]
+    module = numba_internals.module_of(inner).clone()
+    module.link_in(_c_function(name, inner, arguments))
     return module
 
 
-def _c_function(name: str, found: Any, arguments: tuple[Any, ...]) -> Any:
+def _c_function(name: str, compiled: Any, arguments: tuple[Any, ...]) -> Any:
     """Return the module of a C function of a block of arguments; not 0 if the kernel has raised."""
-    kind = found.target_context.call_conv.get_function_type(types.none, arguments)
+    kind = compiled.target_context.call_conv.get_function_type(types.none, arguments)
     module = ir.Module(name)
     module.data_layout = numba_internals.data_layout()
-    inner = ir.Function(module, kind, found.fndesc.llvm_func_name)
+    inner = ir.Function(module, kind, compiled.fndesc.llvm_func_name)
     word = ir.IntType(64)
     outer = ir.Function(module, ir.FunctionType(ir.IntType(32), [word.as_pointer()]), name)
     builder = ir.IRBuilder(outer.append_basic_block())
-    given = [builder.alloca(each.pointee) for each in kind.args[:2]]
+    values = [builder.alloca(each.pointee) for each in kind.args[:2]]
     for i, (wanted, each) in enumerate(zip(arguments, kind.args[2:], strict=True)):
         place = builder.gep(outer.args[0], [word(i)])
         if isinstance(wanted, types.CPointer):  # a result, which lies in the block itself
-            given.append(builder.bitcast(place, each))
+            values.append(builder.bitcast(place, each))
         elif wanted == types.voidptr:
-            given.append(builder.inttoptr(builder.load(place), each))
+            values.append(builder.inttoptr(builder.load(place), each))
         else:
-            given.append(builder.load(builder.bitcast(place, each.as_pointer())))
-    builder.ret(builder.call(inner, given))
+            values.append(builder.load(builder.bitcast(place, each.as_pointer())))
+    builder.ret(builder.call(inner, values))
     return llvm.parse_assembly(str(module))
 
 
 def _arguments(signature: Signature) -> list[Any]:
-    found: list[Any] = []
+    kinds: list[Any] = []
     for kind in signature.leaves():
         if isinstance(kind, ArrayType):
-            found += [types.voidptr, *[types.int64] * kind.ndim]
+            kinds += [types.voidptr, *[types.int64] * kind.ndim]
         else:
-            found.append(NUMBERS[kind])
-    return found + [types.CPointer(NUMBERS[kind]) for kind in signature.results]
+            kinds.append(NUMBERS[kind])
+    return kinds + [types.CPointer(NUMBERS[kind]) for kind in signature.results]
 
 
 def _wrapper(compiled: Any, signature: Signature) -> Callable[..., None]:
     """Return a function of addresses, shapes and numbers that calls a kernel."""
     names: dict[str, Any] = {"__name__": "carom.wrapper", "kernel": compiled, "carray": carray}
     taken: list[str] = []
-    given = [_expression(kind, names, taken) for kind in signature.parameters.values()]
+    arguments = [_expression(kind, names, taken) for kind in signature.parameters.values()]
     outs = [f"out{i}" for i in range(len(signature.results))]
-    values = ["found"] if signature.single else [f"found[{i}]" for i in range(len(outs))]
+    values = ["result"] if signature.single else [f"result[{i}]" for i in range(len(outs))]
     lines = [
         f"def wrapper({', '.join((*taken, *outs))}):",
-        f"    found = kernel({', '.join(given)})",
+        f"    result = kernel({', '.join(arguments)})",
         *(f"    carray({out}, 1)[0] = {value}" for out, value in zip(outs, values, strict=False)),
     ]
     exec("\n".join(lines), names)

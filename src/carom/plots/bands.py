@@ -48,12 +48,13 @@ class PhaseSpan(NamedTuple):
 
 
 def phases(dataset: Any) -> list[PhaseSpan]:
-    """Return the phases that a dataset holds, none if it is not that of an impact."""
+    """Return the phases of an impact that a dataset tells, once or at each instant; else none."""
     if "phase_kind" not in dataset:
         return []
     columns = (dataset[f"phase_{name}"].values for name in PhaseSpan._fields)
     rows = zip(*columns, strict=True)
-    return [PhaseSpan(str(k), int(s), float(a), float(b)) for k, s, a, b in rows]
+    spans = (PhaseSpan(str(k), int(s), float(a), float(b)) for k, s, a, b in rows)
+    return list(dict.fromkeys(spans))
 
 
 def shade(axis: Axes, start: float, end: float, band: Band) -> None:

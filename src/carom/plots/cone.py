@@ -37,29 +37,8 @@ def plot_cone(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     The parts of an impact are marked by phase; arrows point on in time. A load path of two
     directions is drawn along the contact, F_y against F_x in units of mu F_z.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `Impact.history` or `LoadPath.to_dataset` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 86 mm wide, of one axis.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
-
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> axis = carom.plots.plot_cone(hit.history(50)).axes[0]
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['gross slip', 'stick', 'slip']
@@ -100,11 +79,9 @@ def _draw_circle(dataset: xr.Dataset) -> Figure:
     for ends in _apart(_arrows(points, ARROWS)):
         _arrow(axis, ends, PATHS["load path"]["color"])
     _mark_ends(axis, points)
-    axis.set_aspect("equal")
-    axis.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    axis.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    axis.set_xlabel(r"$F_x/\mu F_z$")
-    axis.set_ylabel(r"$F_y/\mu F_z$")
+    ticks = [-1.0, -0.5, 0.0, 0.5, 1.0]
+    axis.set(aspect="equal", xticks=ticks, yticks=ticks)
+    axis.set(xlabel=r"$F_x/\mu F_z$", ylabel=r"$F_y/\mu F_z$")
     legend_above(axis, 4)
     return figure
 

@@ -9,14 +9,13 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 
 from carom.plots import style
 from carom.plots.bands import moment, phases
-from carom.plots.drawing import Drawable, check_look, checked_dataset
+from carom.plots.drawing import Drawable, checked_dataset, documented, looking
 from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
 from carom.plots.legends import legend_outside
-from carom.plots.look import WIDTH, Look, quiet
+from carom.plots.look import WIDTH, Look
 from carom.plots.patch import patch_panel
 from carom.plots.profiles import profile_panel
 from carom.quantities.refusals import InputError, refusal
@@ -34,6 +33,7 @@ BARS = (1.0, 2.0, 5.0)  # lengths of the scale bar, times powers of ten
 BAR = 0.5  # its longest, in radii of the largest contact
 
 
+@documented
 def plot_contact(
     history: Drawable,
     frames: Iterable[xr.Dataset] | None = None,
@@ -55,13 +55,6 @@ def plot_contact(
         What `Impact.fields` returns, on a grid, at the instants to be shown, from 1 to 9.
     count : int, optional
         How many instants are chosen, by default six, or as many as the width has room for.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 178 mm wide: a column for each instant, and the force below them.
 
     Raises
     ------
@@ -70,16 +63,11 @@ def plot_contact(
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> figure = carom.plots.plot_contact(hit, count=3)
     >>> len(figure.axes)  # patches, profiles below them, the force, and the key to the colours
     8
     """
-    check_look(look, "plot_contact", ("history", "frames", "count"))
-    with style.style(**look), quiet():
+    with looking(look, "plot_contact", ("history", "frames", "count")):
         course, shown = _read(history, frames, count)
         return _draw(course, shown)
 
@@ -164,7 +152,8 @@ def _draw(course: xr.Dataset, shown: list[xr.Dataset]) -> Figure:
     for i, fields in enumerate(shown):
         shading = _patch(patches[i], fields, course, scale, reach, largest)
         profile_panel(below[i], fields, reach, scale)
-        _letter(patches[i], ascii_lowercase[i])
+        at_corner: Any = {"transform": patches[i].transAxes, "va": "top", "weight": "bold"}
+        patches[i].text(0.0, 1.0, ascii_lowercase[i], **at_corner)
         below[i].tick_params(labelleft=i == 0)
     below[0].set_ylabel(style.label("traction_x", unit))
     below[0].set_ylim(-ROOM * largest * scale, ROOM * largest * scale)
@@ -172,7 +161,6 @@ def _draw(course: xr.Dataset, shown: list[xr.Dataset]) -> Figure:
     more: Any = {"extend": "both" if over else "neither"}
     bar = figure.colorbar(shading, ax=patches, aspect=18, pad=0.01, shrink=0.9, **more)
     bar.set_label(style.label("traction_x", unit))
-    bar.outline.set_linewidth(0.6)
     forces_panel(force, course)
     _mark(force, course, shown)
     legend_outside(figure, phase_handles(course), 5)
@@ -191,10 +179,6 @@ def _patch(
     return shading
 
 
-def _letter(axis: Axes, letter: str) -> None:
-    axis.text(0.0, 1.0, letter, transform=axis.transAxes, va="top", weight="bold")
-
-
 def _scale_bar(axis: Axes, reach: float, unit: str) -> None:
     """Draw a length of one significant digit below the first patch."""
     length, unit = style.prefixed(reach, unit)
@@ -205,9 +189,7 @@ def _scale_bar(axis: Axes, reach: float, unit: str) -> None:
     axis.plot([left, left + bar], [low, low], color=style.BLACK, lw=1.5, clip_on=False)
     text = f"{bar:g}\u00a0{unit}"
     note: Any = {"xytext": (0, 2), "textcoords": "offset points", "fontsize": "small"}
-    axis.annotate(text, (left, low), **note).set_path_effects(
-        [withStroke(linewidth=2.0, foreground="white")]
-    )
+    style.stroke_white(axis.annotate(text, (left, low), **note))
 
 
 def _mark(axis: Axes, course: xr.Dataset, shown: list[xr.Dataset]) -> None:
@@ -219,5 +201,4 @@ def _mark(axis: Axes, course: xr.Dataset, shown: list[xr.Dataset]) -> None:
         place = float(fields["time"]) * scale, float(fields["tangential_force"]) * force
         axis.plot(*place, "o", color=style.BLACK, ms=4.0, zorder=5)
         near: Any = {"xytext": (3, 3), "textcoords": "offset points", "weight": "bold"}
-        mark = axis.annotate(letter, place, zorder=6, **near)
-        mark.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+        style.stroke_white(axis.annotate(letter, place, zorder=6, **near))

@@ -1,14 +1,15 @@
 """What every function that draws shares: results or datasets as input, refusals, size and style."""
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, nullcontext
 from functools import wraps
-from inspect import signature
+from inspect import cleandoc, signature
 from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 import numpy as np
 
 from carom.plots import style
-from carom.plots.look import Look, quiet
+from carom.plots.look import Look, into, quiet
 from carom.quantities.refusals import InputError, hint
 
 P = ParamSpec("P")
@@ -18,6 +19,25 @@ Drawable: TypeAlias = Any  # a dataset, or the result that makes it
 Take: TypeAlias = Callable[[Any, Any], Any]  # makes a dataset of a result, at an instant
 
 LOOK = tuple(Look.__annotations__)
+SEVERAL_TEXT = (
+    "xarray.Dataset, result, or list or dictionary of them",
+    "\n    The keys of a dictionary name the impacts in the legend.",
+)
+LOOK_TEXT = """**look : width, font_size, style, ax
+    Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`. What
+    has one panel is drawn into `ax`, Axes of your own, if you give them."""
+AT_TEXT = """at : float or str, optional
+    Of a result: the time in s of an impact, by default that of the largest normal force, or the
+    step of a load path, by default the last."""
+FIGURE_TEXT = """matplotlib.figure.Figure
+    The figure, as wide as one column of a paper, 86 mm, or two, 178 mm."""
+IMPACT_TEXT = """>>> import carom
+>>> ball = carom.Sphere(radius="5 mm", material="steel")
+>>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+>>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+"""
+REFUSED_TEXT = """InputError
+    If the dataset is another one."""
 
 
 def draws(
@@ -43,12 +63,13 @@ def draws(
         def read(given: Any, at: Any) -> Any:
             return checked_dataset(_dataset(given, take, at), f"{name} draws {what}", needed, dims)
 
-        @wraps(draw)
+        kind, more = SEVERAL_TEXT if several else ("xarray.Dataset or result", "")
+        described = f"{first} : {kind}\n    {what[0].upper()}{what[1:]}.{more}"
+
+        @wraps(documented(draw, described))
         def checked(*args: P.args, **kwargs: P.kwargs) -> T:
             given: dict[str, Any] = parameters.bind(*args, **kwargs).arguments
-            look: Any = given.pop("look", {})
-            check_look(look, name, parameters.parameters)
-            with style.style(**look), quiet():
+            with looking(given.pop("look", {}), name, parameters.parameters):
                 try:
                     if several and isinstance(given[first], list | tuple | dict):
                         pairs = _named(given[first], name)
@@ -67,12 +88,48 @@ def draws(
     return decorate
 
 
-def check_look(look: Any, name: str, known: Iterable[str]) -> None:
-    """Refuse keywords that a function which draws does not know."""
-    words = [*(word for word in known if word != "look"), *LOOK]
+@contextmanager
+def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
+    """Let a function draw in the style that is wanted, or into a user's Axes as these are.
+
+    Keywords that it does not know are refused.
+    """
+    words = [*(word for word in parameters if word != "look"), *LOOK]
     for word in look:
         if word not in LOOK:
             raise InputError(f"{word}: no keyword of {name}; {hint(word, words)}")
+    axes = look.get("ax")
+    wanted = {word: value for word, value in look.items() if word != "ax" and value is not None}
+    if axes is not None and "width" in wanted:
+        raise InputError("width: the figure that ax belongs to has its own; leave one of both out")
+    own = nullcontext() if axes is not None and not wanted else style.style(**wanted)
+    with own, into(axes), quiet():
+        yield
+
+
+def documented(draw: Callable[P, T], drawn: str = "") -> Callable[P, T]:
+    """Add to the docstring of a function that draws what all of them take, return and refuse.
+
+    `drawn` describes the first parameter, if the docstring does not. Examples that draw an impact,
+    `hit`, begin with one.
+    """
+    text, _, examples = cleandoc(draw.__doc__ or "").partition("\nExamples\n--------\n")
+    text, _, raises = text.partition("\nRaises\n------\n")
+    text, _, returns = text.partition("\nReturns\n-------\n")
+    text, _, parameters = text.partition("\nParameters\n----------\n")
+    begin = IMPACT_TEXT if "(hit" in examples else ""
+    described = drawn if drawn.split(" :")[0] + " :" not in parameters else ""
+    at = AT_TEXT if "at" in signature(draw).parameters else ""
+    every = (described, parameters.strip(), at, LOOK_TEXT)
+    sections = (
+        text.rstrip(),
+        "Parameters\n----------\n" + "\n".join(filter(None, every)),
+        f"Returns\n-------\n{returns.strip() or FIGURE_TEXT}",
+        f"Raises\n------\n{raises.strip() or REFUSED_TEXT}",
+        f"Examples\n--------\n{begin}{examples}" if examples else "",
+    )
+    draw.__doc__ = "\n\n".join(sections).rstrip() + "\n"
+    return draw
 
 
 def _dataset(given: Any, take: str | Take, at: Any) -> Any:

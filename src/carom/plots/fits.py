@@ -1,4 +1,4 @@
-"""A fit to measured rebounds: data, curves, residuals; and samples of its parameters."""
+"""A fit: of rebounds or of normal drops, data, curves, residuals; samples of its parameters."""
 
 from typing import Any, Unpack
 
@@ -24,6 +24,11 @@ LAW_STYLES: dict[str, Any] = {
     "rigid Coulomb": {"color": style.VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},
     "Walton": {"color": style.BLUE, "lw": 0.9, "ls": (0, (1.5, 1)), "zorder": 3},
 }
+LOSS_STYLES: dict[str, Any] = {
+    "constant": {"color": style.GREEN, "ls": (0, (1.5, 1))},
+    "KelvinVoigt": {"color": style.BLUE, "ls": (0, (5, 1.5))},
+    "ElasticPlastic": {"color": style.VERMILION, "ls": "-"},
+}
 
 
 @draws(
@@ -35,13 +40,6 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Error bars are standard deviations, with the part that comes from the motion before; the band is
     that of the parameters, to first order. Regimes of the exact law are shaded.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `carom.fit(...)` returns, or its `to_dataset()`.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Examples
     --------
@@ -73,17 +71,42 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     return figure
 
 
+@draws(
+    "a fit of normal impacts, what carom.fit(...).to_dataset() returns",
+    *("restitution", "normal_speed", "loss_speed", "loss_restitution"),
+)
+def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
+    """Draw measured restitutions against normal speed, and the laws of losses fitted to them.
+
+    Error bars are standard deviations; of the laws the one that is likeliest comes first.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots.fits import plot_drops
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> drops = {"drop_height": [0.1, 0.2, 0.4, 0.8], "rebound_height": [0.06, 0.1, 0.17, 0.29]}
+    >>> len(plot_drops(carom.fit(drops, pair=pair).to_dataset()).axes)
+    1
+    """
+    figure, axis = style.single_axis()
+    for law in dataset["loss_law"].values:
+        curve = dataset["loss_restitution"].sel(loss_law=law)
+        axis.plot(dataset["loss_speed"], curve, lw=1.1, label=str(law), **LOSS_STYLES[str(law)])
+    axis.errorbar(
+        *(dataset["normal_speed"], dataset["restitution"], dataset["restitution_error"]),
+        **style.POINTS,
+        label="measured",
+    )
+    axis.set(xlabel=style.label("normal_speed"), ylabel=style.label("normal_restitution"))
+    axis.legend(loc="best")
+    return figure
+
+
 @draws("samples of parameters, what carom.fit(...).posterior() returns", "sample", along="sample")
 def plot_corner(samples: Drawable, **look: Unpack[Look]) -> Figure:
-    """Draw samples of the posterior, parameter by parameter and pair by pair.
-
-    Parameters
-    ----------
-    samples : xarray.Dataset
-        What `carom.fit(...).posterior()` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-    """
+    """Draw samples of the posterior, parameter by parameter and pair by pair."""
     corner = extra("corner", "a corner plot", "fit")
     names = [str(name) for name in samples.data_vars if name != "chi"]  # not beside kappa
     side = max(style.SINGLE, 45.0 * len(names))

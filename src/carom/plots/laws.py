@@ -56,23 +56,6 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     A row holds up to five different rebounds on the left and, in the same colours, their largest
     errors as bars on the right; the dark part is the root mean square.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `carom.verify.rank(...).to_dataset()` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
-
     Examples
     --------
     >>> import carom
@@ -173,17 +156,8 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
 
     Parameters
     ----------
-    dataset : xarray.Dataset
-        What `carom.verify.error_map` returns.
     limit : float, optional
         End of the colour scale; by default the largest |error|.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
 
     Raises
     ------

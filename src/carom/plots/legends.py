@@ -1,5 +1,6 @@
 """Legends above axes and figures, in as many columns as there is room: they cover no data."""
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -8,10 +9,11 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
-from carom.plots.look import RC
+from carom.plots.look import AXES, RC, own_figure
 
 SPARE = 1.03  # letters on a screen are wider than their outlines
 SPACES = ("handlelength", "handletextpad", "columnspacing", "borderpad")  # of a legend
+HINTS = 1.1  # by which text can be wider on a screen than its outlines
 MARGIN = 5.0  # beside axes, for their labels, in sizes of the font
 
 
@@ -23,15 +25,21 @@ def legend_above(axis: Axes, columns: int, **options: Any) -> None:
     handles = options.pop("handles", None) or axis.get_legend_handles_labels()[0]
     grid = axis.get_subplotspec()
     across = grid.get_gridspec().ncols / len(grid.colspan) if grid else 1
-    figure: Any = axis.figure
-    room = figure.get_figwidth() * 72.0 / across - MARGIN * RC["font.size"]
+    room = own_figure(axis).get_figwidth() * 72.0 / across - MARGIN * RC["font.size"]
     columns = fitting_columns(handles, columns, room, **options)
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (-0.02, 1.0)}
     axis.legend(handles=handles, ncols=columns, **place, **options)
 
 
 def legend_outside(figure: Figure, handles: list[Any], columns: int, **options: Any) -> None:
-    """Put a legend above all axes of a figure, in as many columns as there is room."""
+    """Put a legend above all axes of a figure, in as many columns as there is room.
+
+    Above a user's Axes, if that is what is drawn into.
+    """
+    axis = AXES.get()
+    if axis is not None:
+        legend_above(axis, columns, handles=handles, **options)
+        return
     columns = fitting_columns(handles, columns, 72.0 * figure.get_figwidth(), **options)
     figure.legend(handles=handles, loc="outside upper center", ncols=columns, **options)
 
@@ -39,11 +47,8 @@ def legend_outside(figure: Figure, handles: list[Any], columns: int, **options: 
 def fitting_columns(handles: list[Any], most: int, room: float, **options: Any) -> int:
     """Return how many columns of a legend fit into a width in points."""
     settings = {n: options.get(n, RC[f"legend.{n}"]) for n in SPACES}
-    size = FontProperties(size=options.get("fontsize", RC["legend.fontsize"]))
-    em = size.get_size_in_points()
-    widths = [
-        TextPath((0, 0), h.get_label() or " ", prop=size).get_extents().width for h in handles
-    ]
+    em = font_size(options.get("fontsize", RC["legend.fontsize"]))
+    widths = [TextPath((0, 0), h.get_label() or " ", size=em).get_extents().width for h in handles]
     beside = em * (settings["handlelength"] + settings["handletextpad"])
     for columns in range(min(most, len(handles)), 1, -1):
         wide = [part.max() for part in np.array_split(widths, columns)]
@@ -51,3 +56,32 @@ def fitting_columns(handles: list[Any], most: int, room: float, **options: Any) 
         if SPARE * (sum(wide) + beside * len(wide) + spaces) <= room:
             return columns
     return 1
+
+
+def font_size(size: str | float) -> float:
+    """Return the size of a font in points, of that of `small` text, for instance."""
+    return FontProperties(size=size).get_size_in_points()
+
+
+def text_width(text: str, size: str | float = "small") -> float:
+    """Return how wide a line of text may be, in points."""
+    family = str(RC["font.family"])
+    words = [_em_width(word, family) for word in text.split(" ")]
+    spaces = (len(words) - 1) * _em_width(" ", family)
+    return HINTS * font_size(size) * (sum(words) + spaces)
+
+
+@lru_cache(1024)
+def _em_width(word: str, family: str) -> float:
+    """Return how wide a word is in a family of fonts, in sizes of the font."""
+    ends = [TextPath((0, 0), text, size=100.0).get_extents().x1 for text in ("||", f"|{word}|")]
+    return float(ends[1] - ends[0]) / 100.0
+
+
+def wrapped(text: str, room: float) -> str:
+    """Return small text on lines that are no wider than some points."""
+    lines = [""]
+    for word in text.split(" "):
+        longer = f"{lines[-1]} {word}".strip()
+        lines = [*lines[:-1], longer] if text_width(longer) <= room else [*lines, word]
+    return "\n".join(lines)

@@ -13,6 +13,7 @@ from typing import Any, TypedDict
 import matplotlib
 import matplotlib.style
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
@@ -60,11 +61,13 @@ class Look(TypedDict, total=False):
 
     width : the whole figure in mm. font_size : of labels, in points. style : what goes on top of
     Carom's own style: the name of a style of matplotlib, a style file, or settings (rcParams).
+    ax : a user's own Axes, which a figure of one panel is drawn into.
     """
 
     width: float | None
     font_size: float | None
     style: str | Path | Mapping[str, Any] | None
+    ax: Axes | None
 
 
 def _read(name: str, given: Any, limits: tuple[float, float], unit: str) -> float:
@@ -89,12 +92,13 @@ def carom_settings() -> dict[str, Any]:
 LOCK = RLock()
 WIDTH: ContextVar[float | None] = ContextVar("width", default=None)
 SETTINGS: ContextVar[dict[str, Any] | None] = ContextVar("settings", default=None)
+AXES: ContextVar[Axes | None] = ContextVar("axes", default=None)
 
 
 def settings(look: Look) -> dict[str, Any]:
     """Return the settings of the style that is in use, Carom's by default, with more on top."""
     for word in look:
-        if word not in Look.__annotations__:
+        if word not in Look.__annotations__ or word == "ax":
             raise TypeError(f"style() got an unexpected keyword argument {word!r}")
     size = look.get("font_size")
     wanted: Any = look.get("style")
@@ -163,6 +167,24 @@ class Drawing(Figure):
         stream = BytesIO()
         self.savefig(stream, format="png", dpi=SCREEN)
         return stream.getvalue()
+
+
+@contextmanager
+def into(axes: Axes | None) -> Iterator[None]:
+    """Let the next figure be drawn into a user's Axes, if there are any, as they are."""
+    if axes is not None and getattr(axes, "name", None) != "rectilinear":
+        raise refusal("ax", axes, "must be Axes of matplotlib with x and y")
+    kept = AXES.set(axes)
+    try:
+        yield
+    finally:
+        AXES.reset(kept)
+
+
+def own_figure(axes: Axes) -> Figure:
+    """Return the figure that Axes belong to, maybe by way of figures in it."""
+    figure: Any = axes.figure
+    return figure if isinstance(figure, Figure) else own_figure(figure)
 
 
 @contextmanager

@@ -7,7 +7,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle
-from matplotlib.patheffects import withStroke
 
 from carom.plots import style
 from carom.plots.bands import moment, slip_band
@@ -44,20 +43,8 @@ def plot_patch(
 
     Parameters
     ----------
-    dataset : xarray.Dataset or result
-        Fields on a grid of x and y.
     variable : str
         What the shading tells: "traction_x" or "pressure".
-    at : float or str, optional
-        Of a result: the time in s of an impact, by default that of the largest normal force, or the
-        step of a load path, by default the last.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
 
     Raises
     ------
@@ -66,10 +53,6 @@ def plot_patch(
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> carom.plots.plot_patch(hit.fields("21 us")).axes[0].get_title().splitlines()[1]
     'longest arrow: 277\\xa0mm/s'
     """
@@ -82,8 +65,7 @@ def plot_patch(
     scale, unit = style.prefixed(dataset[variable].values, style.unit_of(dataset, variable))
     colours = style.colours(variable, dataset[variable].values * scale)
     shading = patch_panel(axis, dataset, variable, scale, **colours)
-    bar = figure.colorbar(shading, ax=axis, label=style.label(variable, unit), pad=0.02, aspect=28)
-    bar.outline.set_linewidth(0.6)
+    figure.colorbar(shading, ax=axis, label=style.label(variable, unit), pad=0.02, aspect=28)
     axis.set_title(title)
     return figure
 
@@ -147,8 +129,7 @@ def _draw_zones(axis: Axes, contact: float, stick: float, hatch: str, ink: str) 
 
 
 def _name_stick(axis: Axes, word: str) -> None:
-    text = axis.text(0.0, 0.0, word, ha="center", va="center")
-    text.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+    style.stroke_white(axis.text(0.0, 0.0, word, ha="center", va="center"))
 
 
 class Arrows(NamedTuple):

@@ -12,7 +12,7 @@ from carom.plots import style
 from carom.plots.bands import STICK, Band, moment, shade, slip_band
 from carom.plots.drawing import Drawable, at_instant, draws
 from carom.plots.legends import legend_above
-from carom.plots.look import Look
+from carom.plots.look import AXES, Look
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError
 
@@ -30,21 +30,6 @@ def plot_profiles(dataset: Drawable, *, at: Any = None, **look: Unpack[Look]) ->
 
     Of a profile along the radius also the memory: g = -dq/ds, and the deflection q of the springs.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        Fields on a grid or at points of the line y = 0, or a contact's radial profile.
-    at : float or str, optional
-        Of a result: the time in s of an impact, by default that of the largest normal force, or the
-        step of a load path, by default the last.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 86 mm wide, of three axes for a profile along the radius, else of one.
-
     Raises
     ------
     InputError
@@ -52,10 +37,6 @@ def plot_profiles(dataset: Drawable, *, at: Any = None, **look: Unpack[Look]) ->
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> len(carom.plots.plot_profiles(hit.radial("21 us")).axes)
     3
     """
@@ -76,8 +57,11 @@ def plot_profiles(dataset: Drawable, *, at: Any = None, **look: Unpack[Look]) ->
         _memory(axes[1, 0], line, place)
         _deflection(axes[2, 0], line, place)
     axes[-1, 0].set_xlabel(style.label(name, unit))
-    figure.suptitle(moment(dataset))
-    figure.align_ylabels()
+    if AXES.get() is None:
+        figure.suptitle(moment(dataset))
+        figure.align_ylabels()
+    else:
+        axes[0, 0].get_legend().set_title(moment(dataset))
     return figure
 
 

@@ -1,7 +1,7 @@
 """The map of regimes over psi_1 and chi: regions in colours, each with its sequence of phases."""
 
 from collections import Counter
-from itertools import groupby
+from itertools import chain, groupby
 from typing import Any, NamedTuple, Unpack
 
 import matplotlib
@@ -12,18 +12,26 @@ from matplotlib.patches import Patch, PathPatch
 
 from carom.plots import style
 from carom.plots.drawing import Drawable, draws
-from carom.plots.legends import fitting_columns
-from carom.plots.look import Look
-from carom.plots.placing import Placed, middle
+from carom.plots.legends import fitting_columns, font_size, wrapped
+from carom.plots.look import AXES, Look
 from carom.plots.regimes import draw_borders
-from carom.plots.region_labels import SMALLEST, find_labels, in_letters, signed, wrapped
-from carom.plots.regions import Region, frame_of, regions
+from carom.plots.region_labels import (
+    PITCH,
+    SMALLEST,
+    Label,
+    Labels,
+    find_labels,
+    in_letters,
+    signed,
+)
+from carom.plots.regions import Region, area, limits, regions
 from carom.quantities.arrays import Array
 
 HUES = {"gross slip +": "Oranges", "gross slip -": "Blues"}
 OTHER = "Greys"  # of what ends in stick or a slip ring, as few impacts do
 PALEST, DARKEST = 0.08, 0.62  # of the colours of a map of matplotlib
 MANY = 5  # reversals of slip, of which the colour is the darkest at least
+NAMED = "sequence_met", "sequence_name", "border_left", "border_right"  # of which all are listed
 KEY = (
     "G gross slip, S stick, s slip in a ring around a stick region; "
     "+ and \u2212: sign of the slip velocity"
@@ -32,10 +40,12 @@ ENDS = "ends in {}, reversals of slip:"
 SHORT = "Colours: the last phase, and how often slip reverses. Labels:"
 EDGE: Any = {"ec": "0.2", "lw": 0.4}
 SPACING: Any = {"handlelength": 1.6, "handletextpad": 0.5, "columnspacing": 1.0}
+ABOVE = 1.1  # where the key to a user's Axes begins, above the names of borders
 UNDER = 0.8  # of the way from the middle of a label to its edge: where a leader line ends
+UNSEEN = 1e-6  # of the area of the largest region: colours that the key leaves out
 LISTED = 40  # sequences below a map, of those that are not marked
 TALL = 0.42  # the map, in widths of the figure
-POINT = 25.4 / 72.0  # in mm
+MARGIN = 11.0  # of text beside a figure's edges, in points
 
 
 class Group(NamedTuple):
@@ -63,24 +73,8 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     The colour of a region shows how the impact ends and how often slip reverses. Its label is the
     sequence of phases in letters, at the end of a line where it has no room inside, or a number
     that is explained below the map. Regions narrower than 0.2 mm are listed there. A dataset
-    without borders, of an older version, is drawn by its cells.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        What `carom.regime_map` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 178 mm wide by default.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
+    without outlines is drawn by its borders, to a thousandth of its width, if it is of version 0.2,
+    else by its points.
 
     Examples
     --------
@@ -90,19 +84,20 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ['$\\\\psi_1 = $$4\\\\chi-1$', 'G+']
     """
     figure, axis = style.single_axis(width=style.DOUBLE, height=TALL * style.DOUBLE + 30.0)
-    found, frame = regions(dataset), frame_of(dataset)
+    found = regions(dataset)
     colours = _colours({group_of(region.name) for region in found if region.name})
     for region in found:
         face = colours[group_of(region.name)] if region.name else "white"
         hatch = None if region.name else "xxxx"
         axis.add_patch(PathPatch(region.path(), fc=face, hatch=hatch, **EDGE))
-    axis.set(xlim=(frame.left, frame.right), ylim=(frame.bottom, frame.top))
+    axis.set(xlim=limits(dataset, "psi_in"), ylim=limits(dataset, "chi"))
     axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi"))
     draw_borders(axis, float(dataset.get("restitution", 1.0)))
-    to_mm = _laid_out(figure, axis)[1]
-    wide = [n for n, region in enumerate(found) if middle(region, to_mm).width >= SMALLEST]
-    _add_key(figure, sorted({group_of(found[n].name) for n in wide if found[n].name}), colours)
-    _label_regions(figure, axis, found, wide)
+    least = UNSEEN * area(found[0].rings[0])
+    shown = {group_of(one.name) for one in found if one.name and area(one.rings[0]) > least}
+    _add_key(figure, sorted(shown), colours)
+    lists = [dataset[name].values.tolist() for name in NAMED if name in dataset]
+    _label_regions(figure, axis, found, list(dict.fromkeys(chain.from_iterable(lists))))
     return figure
 
 
@@ -117,7 +112,7 @@ def _colours(groups: set[Group]) -> dict[Group, Any]:
 
 def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> None:
     """Add what colours and letters mean: a row for each ending, a column for each number."""
-    room = 25.4 * figure.get_figwidth() - 4.0
+    room = _room(figure)
     counts = sorted({group.reversals for group in groups})
     endings = sorted({group.ending for group in groups})
     blank: Any = {"fc": "none", "ec": "none"}
@@ -128,36 +123,43 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
         handles.append(Patch(label=str(group.reversals), **face))
         blanks += [] if group in groups else handles[-1:]
     columns, key = len(counts) + 1, KEY
-    if fitting_columns(handles, columns, room / POINT, **SPACING) < columns:
+    if fitting_columns(handles, columns, room, **SPACING) < columns:
         key = f"{SHORT} {KEY}"
         handles = [
             Patch(fc=colours[group], label=f"{signed(group.ending)}, {group.reversals}", **EDGE)
             for group in groups
         ]
-        columns = fitting_columns(handles, 4, room / POINT, **SPACING)
+        columns = fitting_columns(handles, 4, room, **SPACING)
     for handle in blanks:
         handle.set_label(" ")
     place: Any = {"loc": "outside upper left", "alignment": "left", "title_fontsize": "small"}
     title = wrapped(key, room)
-    figure.legend(handles=handles, ncols=columns, title=title, **place, **SPACING)
+    if AXES.get() is not None:
+        place |= {"loc": "lower left", "bbox_to_anchor": (0.0, ABOVE)}
+    where: Any = AXES.get() or figure
+    where.legend(handles=handles, ncols=columns, title=title, **place, **SPACING)
 
 
-def _label_regions(figure: Figure, axis: Axes, found: list[Region], wide: list[int]) -> None:
+def _label_regions(figure: Figure, axis: Axes, found: list[Region], names: list[str]) -> None:
     """Write the sequence of every wide region into it or beside it; list others below the map."""
-    seen = {found[n].name for n in wide}
-    unmarked = Counter(region.name for region in found if region.name not in seen)
     lines = [np.asarray(line.get_xydata()) for line in axis.lines]
-    _list(figure, [], unmarked, [])
-    size, _ = _laid_out(figure, axis)
-    target = TALL * 25.4 * figure.get_figwidth()
-    figure.set_figheight(figure.get_figheight() + (target - size[1]) / 25.4)
+    _set_height(figure, axis)
     size, to_mm = _laid_out(figure, axis)
-    labels = find_labels(found, wide, lines, to_mm, size)
-    _list(figure, labels.numbered, unmarked, labels.lost)
+    labels = find_labels(found, lines, to_mm, size)
+    drawn = {region.name for region in found}
+    labels.narrow.extend(name for name in names if name not in drawn)
+    _list(figure, labels)
     for label in labels.placed.values():
         _write(axis, label, np.array(size))
-    size, _ = _laid_out(figure, axis)
-    figure.set_figheight(figure.get_figheight() + (target - size[1]) / 25.4)
+    _set_height(figure, axis)
+
+
+def _set_height(figure: Figure, axis: Axes) -> None:
+    """Make a figure as high as its map needs, and what is around it."""
+    if AXES.get() is not None:
+        return
+    wanted, (_, height) = TALL * figure.get_figwidth(), _laid_out(figure, axis)[0]
+    figure.set_figheight(figure.get_figheight() + wanted - height / 25.4)
 
 
 def _laid_out(figure: Figure, axis: Axes) -> tuple[tuple[float, float], Array]:
@@ -170,18 +172,33 @@ def _laid_out(figure: Figure, axis: Axes) -> tuple[tuple[float, float], Array]:
     return (float(size[0]), float(size[1])), np.array([factor, -low * factor])
 
 
-def _list(figure: Figure, numbered: list[str], narrow: Counter[str], lost: list[str]) -> None:
+def _list(figure: Figure, labels: Labels) -> None:
     """Write below the map what numbers mean, and which sequences are not marked, and why."""
-    room = 25.4 * figure.get_figwidth() - 4.0
-    parts = ["; ".join(f"{k}\u00a0=\u00a0{_tied(name)}" for k, name in enumerate(numbered, 1))]
-    reasons = f"narrower than {SMALLEST:g} mm", "without room"
-    for reason, names in zip(reasons, (narrow, Counter(lost)), strict=True):
-        counted = [_tied(n) + f"\u00a0({k}\u00a0regions)" * (k > 1) for n, k in names.items()]
+    numbered = (f"{k}\u00a0=\u00a0{_tied(name)}" for k, name in enumerate(labels.numbered, 1))
+    parts = ["; ".join(numbered)]
+    reasons = {f"narrower than {SMALLEST:g} mm": labels.narrow, "without room": labels.lost}
+    for reason, names in reasons.items():
+        counted = [
+            _tied(name) + f"\u00a0({k}\u00a0regions)" * (k > 1)
+            for name, k in Counter(names).items()
+        ]
         counted[LISTED:] = [f"and {len(counted) - LISTED} more"] if len(counted) > LISTED else []
         parts.append(f"Not marked, {reason}: {'; '.join(counted)}" if names else "")
-    text = "\n".join(wrapped(part, room) for part in parts if part)
-    if text:
+    text = "\n".join(wrapped(part, _room(figure)) for part in parts if part)
+    axis = AXES.get()
+    if text and axis is None:
         figure.supxlabel(text, x=0.01, ha="left", fontsize="small")
+        lines = PITCH * font_size("small") * (text.count("\n") + 1)
+        figure.set_figheight(
+            figure.get_figheight() + lines / 72.0
+        )  # which leaves room for a layout
+    elif text and axis is not None:
+        axis.set_xlabel(f"{axis.get_xlabel()}\n{text}", fontsize="small")
+
+
+def _room(figure: Figure) -> float:
+    """Return how wide text across a figure may be, in points."""
+    return 72.0 * figure.get_figwidth() - MARGIN
 
 
 def _tied(name: str) -> str:
@@ -189,7 +206,7 @@ def _tied(name: str) -> str:
     return "\u00a0".join(in_letters(name)) if name else "not\u00a0resolved"
 
 
-def _write(axis: Axes, label: Placed, size: Array) -> None:
+def _write(axis: Axes, label: Label, size: Array) -> None:
     """Write a label, with a line to its region if it is not inside."""
     x, y = label.at / size
     text = axis.text(
@@ -205,10 +222,10 @@ def _write(axis: Axes, label: Placed, size: Array) -> None:
         zorder=5,
     )
     text.set_in_layout(False)
-    if label.line is not None:
+    if label.start is not None:
         text.set_bbox({"boxstyle": "square,pad=0.12", "fc": "white", "ec": "none"})
-        under = label.at + UNDER * (label.line[1] - label.at)  # the box, which hides the end
-        ends = np.array([label.line[0], under]) / size
+        under = label.at + UNDER * (label.end - label.at)  # the box, which hides the end
+        ends = np.array([label.start, under]) / size
         (line,) = axis.plot(*ends.T, transform=axis.transAxes, color="black", lw=0.5, zorder=4)
         line.set(marker="o", markevery=[0], ms=1.5)
         line.set_in_layout(False)

@@ -2,20 +2,18 @@
 
 from typing import TypeAlias, Unpack
 
-import matplotlib
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch
 from matplotlib.textpath import TextPath
 
 from carom.plots import style
 from carom.plots.bands import BANDS, STICK, Band, mirrored, shade
 from carom.plots.drawing import Drawable, draws
-from carom.plots.legends import legend_above
-from carom.plots.look import Look
+from carom.plots.legends import font_size, legend_above
+from carom.plots.look import RC, Look
 from carom.quantities.arrays import Array
 
 Named: TypeAlias = tuple[str, tuple[float, float]]  # a name and the place that it is for
@@ -40,23 +38,6 @@ def plot_curve(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     Of a single chi the regimes are bands, told by how the impact begins; of several, marks on the
     lines are the borders.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        What `carom.curve` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
-
     Examples
     --------
     >>> import carom
@@ -76,8 +57,7 @@ def plot_curve(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ends = dataset["border"].values[0] if regimes and single else None
     bands = shade_regimes(axis, ends, psi.min(), psi.max())
     style.span(axis, psi)
-    axis.set_xlabel(style.label("psi_in"))
-    axis.set_ylabel(style.label("psi_out"))
+    axis.set(xlabel=style.label("psi_in"), ylabel=style.label("psi_out"))
     entries = [*lines, *bands]
     legend_above(axis, 2 if single or len(entries) < 5 else 3, handles=entries)
     return figure
@@ -134,7 +114,7 @@ def draw_borders(axis: Axes, restitution: float = 1.0) -> None:
 
 def _name_above(axis: Axes, named: list[Named]) -> None:
     """Write names over the ends of lines at the top, higher where one would be in another's way."""
-    size, lines, last = _font_size(), 0, -np.inf
+    size, lines, last = font_size(RC["font.size"]), 0, -np.inf
     for name, at in named:
         half = 0.5 * TextPath((0, 0), name, size=size).get_extents().width + 0.4 * size
         place = _points(axis, at)[0]
@@ -146,17 +126,13 @@ def _name_above(axis: Axes, named: list[Named]) -> None:
 
 def _name_beside(axis: Axes, named: list[Named]) -> None:
     """Write names beside the ends of lines at the right, the lower ones lower if need be."""
-    size, right, last = _font_size(), axis.get_xlim()[1], np.inf
+    size, right, last = font_size(RC["font.size"]), axis.get_xlim()[1], np.inf
     for name, at in named:
         place = _points(axis, at)[1]
         written = min(place, last - 1.4 * size)
         last, offset = written, (3.0, written - place)
         xy = (right, at[1])
         axis.annotate(name, xy, offset, textcoords="offset points", va="center")
-
-
-def _font_size() -> float:
-    return FontProperties(size=matplotlib.rcParams["font.size"]).get_size_in_points()
 
 
 def _points(axis: Axes, at: tuple[float, float]) -> Array:

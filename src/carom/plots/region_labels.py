@@ -1,34 +1,75 @@
 """Labels of a map's regions: sequences of phases in letters, and where each of them goes."""
 
-from functools import lru_cache
-from typing import NamedTuple
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Any, NamedTuple, TypeAlias
 
-import matplotlib
 import numpy as np
-from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import TextPath
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw
+from scipy.ndimage import distance_transform_edt, find_objects, maximum_filter, minimum_filter
 
 from carom.plots.bands import MINUS
-from carom.plots.leaders import arranged
-from carom.plots.placing import Block, Middle, Placed, Sheet, middle
+from carom.plots.legends import font_size, text_width
 from carom.plots.regions import Region
 from carom.quantities.arrays import Array
 
+Mask: TypeAlias = NDArray[np.bool_]
+
+PIXEL, PIXELS = 0.15, 1000  # mm, and how many across a large map
 SMALLEST = 0.2  # width in mm of a region that has a label
-MOST = 60  # labels
-UNSEEN = 0.02  # width in mm of one that is not even listed, if its sequence is elsewhere
-SPOTS = 5000  # places for labels with leader lines that are compared
+APART = 0.6  # of labels and of what is around them, in mm
+LEADER, LONGEST = 2.5, 40.0  # leader lines, in mm
+SPOTS = 2400  # places for labels with leader lines that are compared
+TRIALS, SWEEPS, CHANCE, IN_THE_WAY = 8, 80, 15.0, 400.0
+NUMBER, LOST = 200.0, 1000.0  # cost of a number instead of words, and of no label, in mm
+ON_BORDER = 3.0  # by how much more a leader line costs where it is on a border
+BY_OTHER, CLOSE = 6.0, 0.9  # the same for a line that is close to where another begins, in mm
+DOT = 4  # pixels around the beginning of a leader line, which labels keep clear of
+CENTRAL = 0.25  # of the distance from the middle of a region, against that from its edge
 PITCH = 1.2  # of lines of text, in sizes of the font
 MM = 25.4 / 72.0  # a point
-HINTS = 1.1  # by which text can be wider on a screen than its outlines
 LETTERS = {"gross slip": "G", "stick": "S", "slip": "s"}
 
 
-class Labels(NamedTuple):
-    """Labels by the number of their region, what has a number instead, and what has no room."""
+class Block(NamedTuple):
+    """A text on some lines, width and height in mm, upright or turned by a right angle."""
 
-    placed: dict[int, Placed]
+    text: str
+    width: float
+    height: float
+    turned: bool = False
+
+
+class Label(NamedTuple):
+    """A label, the place of its middle, and where its leader line begins, if it has one, in mm."""
+
+    block: Block
+    at: Array
+    start: Array | None = None
+
+    @property
+    def end(self) -> Array:
+        """Where a leader line meets the label."""
+        if self.start is None:
+            return self.at
+        half = 0.5 * np.array([self.block.width, self.block.height])
+        return np.clip(self.start, self.at - half, self.at + half)
+
+
+class Spot(NamedTuple):
+    """A place for a label, and what it costs, in mm of leader lines."""
+
+    cost: float
+    label: Label
+
+
+class Labels(NamedTuple):
+    """Labels by the number of their region, what numbers mean, and what is not marked, and why."""
+
+    placed: dict[int, Label]
     numbered: list[str]
+    narrow: list[str]
     lost: list[str]
 
 
@@ -44,70 +85,49 @@ def in_letters(name: str) -> list[str]:
     return signed(name).replace(" +", "+").replace(f" {MINUS}", MINUS).split(", ")
 
 
-def wrapped(text: str, room: float) -> str:
-    """Return small text on lines that are no wider than some mm."""
-    lines = [""]
-    for word in text.split(" "):
-        longer = f"{lines[-1]} {word}".strip()
-        lines = [*lines[:-1], longer] if _width(longer) <= room else [*lines, word]
-    return "\n".join(lines)
-
-
 def find_labels(
-    found: list[Region],
-    wide: list[int],
-    lines: list[Array],
-    to_mm: Array,
-    size: tuple[float, float],
+    regions: list[Region], lines: list[Array], to_mm: Array, size: tuple[float, float]
 ) -> Labels:
-    """Return where the labels of wide regions go on a map of a size in mm, clear of some lines.
+    """Return where the labels of regions go on a map of a size in mm, clear of some lines.
 
-    Inside their region, else at the end of a leader line. Where there is no room even for that, a
-    number takes the place of the sequence.
+    Inside their region, else at the end of a leader line. Where there is no room for the sequence,
+    a number takes its place.
     """
-    sheet = Sheet(found, to_mm, size)
+    sheet = Sheet(regions, to_mm, size)
     for line in lines:
         sheet.keep_off(line * to_mm[0] + to_mm[1])
-    ways = [_blocks(region.name) for region in found]
-    middles = {n: middle(found[n], to_mm) for n in wide}
-    first = sorted(wide, key=lambda n: -middles[n].width)[:MOST]
-    inside = {n: sheet.inside(n, ways[n]) for n in first}
+    names, poles = [region.name for region in regions], [sheet.pole(n) for n in range(len(regions))]
+    wide = [
+        n
+        for n, (pole, width) in enumerate(poles)
+        if width >= SMALLEST and regions[n].holds([(pole - to_mm[1]) / to_mm[0]])[0]
+    ]
+    inside = {n: sheet.inside(n, _blocks(names[n])) for n in wide}
     placed = {n: label for n, label in inside.items() if label}
-    marked = sorted(inside.keys() - placed.keys())
-    ways = [[block for block in blocks if not block.turned] for blocks in ways]
-    short: list[int] = []
-    while True:
-        outside = _beside(sheet, marked, middles, ways)
-        full = sorted(set(marked) - outside.keys() - set(short), key=lambda n: -middles[n].at[1])
-        if not full:
-            break
-        for n in full:
-            short.append(n)
-            ways[n] = [_block([str(len(short))])]
-            within = sheet.inside(n, ways[n])
-            if within:
-                placed[n] = within
-                marked.remove(n)
-    placed |= outside
-    names = list(dict.fromkeys(found[n].name for n in short if n in placed))
-    for n in set(short) & placed.keys():
-        number = _block([str(names.index(found[n].name) + 1)])
-        placed[n] = placed[n]._replace(block=number)
-    return Labels(placed, names, [found[n].name for n in wide if n not in placed])
-
-
-def _beside(
-    sheet: Sheet, marked: list[int], middles: dict[int, Middle], ways: list[list[Block]]
-) -> dict[int, Placed]:
-    """Return labels with leader lines, of the regions for which there is room."""
-    most = SPOTS // max(1, len(marked))
-    anchors = [middles[n].at for n in marked]
-    spots = [sheet.spots(k, anchors, ways[n], most) for k, n in enumerate(marked)]
-    return {
-        n: Placed(spot.block, spot.at, np.array([middles[n].at, spot.end]))
-        for n, spot in zip(marked, arranged(anchors, spots), strict=True)
-        if spot
-    }
+    for label in placed.values():
+        sheet.keep_lines_off(label)
+    marked = sorted(inside.keys() - placed.keys(), key=lambda n: -poles[n][0][1])
+    anchors = np.array([poles[n][0] for n in marked]).reshape(-1, 2)
+    number = _block(["0" * len(str(len(marked)))])
+    within = [sheet.inside(n, [number]) for n in marked]
+    sheet.keep_off_starts(anchors)
+    spots = [
+        [
+            *sheet.beside(anchors, k, _blocks(names[n])[:-1]),
+            *sheet.beside(anchors, k, [number], NUMBER),
+            *(Spot(NUMBER, label) for label in within[k : k + 1] if label),
+        ]
+        for k, n in enumerate(marked)
+    ]
+    chosen = dict(zip(marked, without_overlaps(spots), strict=True))
+    placed |= {n: label for n, label in chosen.items() if label}
+    short = [n for n in marked if n in placed and placed[n].block == number]
+    numbered = list(dict.fromkeys(names[n] for n in short))
+    for n in short:
+        placed[n] = placed[n]._replace(block=_block([str(numbered.index(names[n]) + 1)]))
+    seen = {names[n] for n in wide}
+    narrow = [name for name in names if name not in seen]
+    return Labels(placed, numbered, narrow, [names[n] for n in wide if n not in placed])
 
 
 def _blocks(name: str) -> list[Block]:
@@ -117,29 +137,175 @@ def _blocks(name: str) -> list[Block]:
         _block([" ".join(part) for part in np.array_split(letters, lines)])
         for lines in range(1, min(4, len(letters) + 1))
     ]
-    upright = [block._replace(turned=True) for block in flat[:2]]
-    return [*flat[:2], upright[0], *flat[2:], *upright[1:]]
+    upright = [Block(one.text, one.height, one.width, turned=True) for one in flat[:1]]
+    return [*flat, *upright]
 
 
 def _block(lines: list[str]) -> Block:
-    return Block("\n".join(lines), max(map(_width, lines)), PITCH * _small() * len(lines))
+    height = PITCH * font_size("small") * len(lines)
+    return Block("\n".join(lines), MM * max(map(text_width, lines)), MM * height)
 
 
-def _width(text: str) -> float:
-    """Return how wide small text is, in mm."""
-    family = str(matplotlib.rcParams["font.family"])
-    words = text.split(" ")
-    spaces = (len(words) - 1) * _em_width(" ", family)
-    return HINTS * _small() * (sum(_em_width(word, family) for word in words) + spaces)
+class Sheet:
+    """A map in pixels: which region is where, and where labels and their lines are."""
+
+    def __init__(self, regions: list[Region], to_mm: Array, size: tuple[float, float]) -> None:
+        self.pixel = max(PIXEL, size[0] / PIXELS)
+        image = Image.new("I", (int(size[0] / self.pixel), int(size[1] / self.pixel)), -1)
+        draw = ImageDraw.Draw(image)
+        for number, region in enumerate(regions):  # the largest first: holes are drawn over
+            points = (region.rings[0] * to_mm[0] + to_mm[1]) / self.pixel - 0.5
+            draw.polygon(points.ravel().tolist(), fill=number)
+        self.owner = np.asarray(image)
+        self.windows = find_objects(self.owner + 1, len(regions))
+        around = (maximum_filter(self.owner, 3), minimum_filter(self.owner, 3))
+        self.lines = np.not_equal(*around)
+        self.busy = np.zeros(self.owner.shape, dtype=np.bool_)
+
+    def keep_off(self, points: Array) -> None:
+        """Keep labels off a line through points in mm."""
+        for start, end in pairwise(points):
+            self.lines[self._along(start, end)] = True
+
+    def keep_off_starts(self, anchors: Array) -> None:
+        """Keep labels off points in mm, where leader lines begin."""
+        for column, row in (anchors / self.pixel).astype(int).tolist():
+            self.lines[max(0, row - DOT) : row + DOT, max(0, column - DOT) : column + DOT] = True
+
+    def pole(self, number: int) -> tuple[Array, float]:
+        """Return the point of a region that is farthest from its edge, and how wide it is there."""
+        window = self.windows[number]
+        if window is None:
+            return np.zeros(2), 0.0
+        depth = distance_transform_edt(np.pad(self.owner[window] == number, 1))[1:-1, 1:-1]
+        return self._place(window, depth.argmax()), self.pixel * (2.0 * depth.max() - 1.0)
+
+    def inside(self, number: int, blocks: list[Block]) -> Label | None:
+        """Place the first of some blocks that fits into a region, where it is farthest inside."""
+        window = self.windows[number]
+        free = (self.owner[window] == number) & ~self.busy[window] & ~self.lines[window]
+        depth = distance_transform_edt(np.pad(free, 1))[1:-1, 1:-1]
+        middle = np.argwhere(free).mean(axis=0) if free.any() else np.zeros(2)
+        away = np.hypot(*(np.indices(free.shape) - middle[:, np.newaxis, np.newaxis]))
+        for block in blocks:
+            fits = self._fits(free, block)
+            if fits.any():
+                best = np.where(fits, depth - CENTRAL * away, -np.inf).argmax()
+                return Label(block, self._place(window, best))
+        return None
+
+    def beside(
+        self, anchors: Array, k: int, blocks: list[Block], extra: float = 0.0
+    ) -> Iterator[Spot]:
+        """Yield places for a label in free room, at the end of a short leader line to its anchor.
+
+        Lines cost their length, more on borders and where they pass the anchors of others closely.
+        """
+        most = SPOTS // (3 * len(anchors))
+        stride = int(np.ceil((_block([""]).height + APART) / self.pixel / 2.0))
+        start, others = anchors[k], np.delete(anchors, k, axis=0)
+        for block in blocks:
+            half = 0.5 * np.array([block.width, block.height])
+            fits = np.argwhere(self._fits(~self.busy & ~self.lines, block))
+            fits = fits[np.all(fits % stride == 0, axis=1)]
+            places = (fits[:, ::-1] + 0.5) * self.pixel
+            ends = np.clip(start, places - half, places + half)
+            length = np.hypot(*(ends - start).T)
+            allowed = (length >= LEADER) & (length <= LONGEST)
+            for i in np.argsort(np.where(allowed, length, np.inf))[: min(most, allowed.sum())]:
+                line = self._along(start, ends[i])
+                if not self.busy[line].any():
+                    cost = length[i] * (1.0 + ON_BORDER * self.lines[line].mean())
+                    points = np.column_stack(line[::-1]) * self.pixel
+                    close = np.hypot(*(points[:, np.newaxis] - others).T).min(axis=-1) < CLOSE
+                    cost += BY_OTHER * close.sum() + extra
+                    yield Spot(cost, Label(block, places[i], start))
+
+    def _fits(self, free: Mask, block: Block) -> Mask:
+        size = [int(np.ceil((side + APART) / self.pixel)) for side in (block.height, block.width)]
+        return np.asarray(minimum_filter(free, size, mode="constant", cval=False))
+
+    def _place(self, window: tuple[slice, slice], index: Any) -> Array:
+        """Return the place in mm of a pixel that is counted in a window."""
+        shape = [part.stop - part.start for part in window]
+        row, column = np.unravel_index(index, shape)
+        return self.pixel * np.array([window[1].start + column + 0.5, window[0].start + row + 0.5])
+
+    def keep_lines_off(self, label: Label) -> None:
+        """Keep other labels and leader lines off a label."""
+        half = 0.5 * np.array([label.block.width, label.block.height]) + 0.5 * APART
+        low, high = ((label.at + side) / self.pixel for side in (-half, half))
+        column, row = np.maximum(0, low).astype(int)
+        self.busy[row : int(high[1]) + 1, column : int(high[0]) + 1] = True
+
+    def _along(self, start: Array, end: Array) -> tuple[Any, Any]:
+        """Return rows and columns of the pixels of a straight line."""
+        count = int(np.hypot(*(end - start)) / (0.7 * self.pixel)) + 2
+        columns, rows = (np.linspace(start, end, count) / self.pixel).astype(int).T
+        return np.clip(rows, 0, self.owner.shape[0] - 1), np.clip(
+            columns, 0, self.owner.shape[1] - 1
+        )
 
 
-def _small() -> float:
-    """Return the size of small text, in mm."""
-    return FontProperties(size="small").get_size_in_points() * MM
+def without_overlaps(spots: list[list[Spot]]) -> list[Label | None]:
+    """Return a label of each list or none, no two of which meet, at the least cost on the whole.
+
+    By simulated annealing: each in turn moves to where it costs least, by some chance elsewhere.
+    """
+    every = [spot for choice in spots for spot in choice]
+    ends = np.cumsum([0, *map(len, spots)])
+    own = [slice(*pair) for pair in pairwise(ends) if pair[0] < pair[1]]
+    if not own:
+        return [None] * len(spots)
+    meet = _meeting([spot.label for spot in every])
+    costs, rng = np.array([spot.cost for spot in every]), np.random.default_rng(0)
+    kept = [_annealed(rng, own, costs, meet) for _ in range(TRIALS)]
+    best = min(kept, key=lambda chosen: costs[chosen].sum() - LOST * len(chosen))
+    taken = {int(np.searchsorted(ends, k, side="right")) - 1: every[k].label for k in best}
+    return [taken.get(k) for k in range(len(spots))]
 
 
-@lru_cache
-def _em_width(word: str, family: str) -> float:
-    """Return how wide a word is in a family of fonts, in sizes of the font."""
-    ends = [TextPath((0, 0), text, size=100.0).get_extents().x1 for text in ("||", f"|{word}|")]
-    return float(ends[1] - ends[0]) / 100.0
+def _meeting(labels: list[Label]) -> Mask:
+    """Tell which labels overlap, or have leader lines that cross each other or a label.
+
+    A line that passes a label crosses one of its diagonals.
+    """
+    at, end = (np.array([getattr(label, name) for label in labels]) for name in ("at", "end"))
+    start = np.array([one.at if one.start is None else one.start for one in labels])
+    half = 0.5 * np.array([one.block[1:3] for one in labels])
+    meet = np.all(np.abs(at[:, np.newaxis] - at) < half[:, np.newaxis] + half + APART, axis=-1)
+    for sense in (1.0, -1.0):
+        corner = (half + 0.5 * APART) * (1.0, sense)
+        cross = _crossing(start, end, at - corner, at + corner)
+        meet |= cross | cross.T
+    return np.asarray(meet | _crossing(start, end, start, end))
+
+
+def _crossing(a: Array, b: Array, c: Array, d: Array) -> Mask:
+    """Tell which of the lines from a to b cross which of those from c to d."""
+    apart = [_sides(a, b, c) * _sides(a, b, d), (_sides(c, d, a) * _sides(c, d, b)).T]
+    return np.asarray((apart[0] < 0.0) & (apart[1] < 0.0))
+
+
+def _sides(start: Array, end: Array, points: Array) -> Array:
+    """Return on which side of lines points lie, by sign, shape (lines, points)."""
+    (x, y), (u, v) = (end - start).T, start.T
+    lines = np.stack([-y, x, y * u - x * v], axis=-1)
+    return np.asarray(lines @ np.append(points, np.ones((len(points), 1)), axis=1).T)
+
+
+def _annealed(rng: np.random.Generator, own: list[slice], costs: Array, meet: Mask) -> list[int]:
+    """Return the spots of most labels, each among its own, of which no two meet."""
+    chosen = [part.start + int(costs[part].argmin()) for part in own]
+    hits = meet[chosen].sum(axis=0)
+    for late in np.linspace(0.0, 1.0, SWEEPS):
+        chance, in_the_way = CHANCE * (1.0 - late), IN_THE_WAY * (0.2 + late)
+        for i in rng.permutation(len(own)).tolist():
+            hits -= meet[chosen[i]]
+            cost = costs[own[i]] + in_the_way * hits[own[i]]
+            cost -= chance * rng.gumbel(size=cost.size)
+            chosen[i] = own[i].start + int(cost.argmin())
+            hits += meet[chosen[i]]
+    while (often := meet[np.ix_(chosen, chosen)].sum(axis=0)).max() > 1:
+        chosen.pop(int(often.argmax()))
+    return chosen

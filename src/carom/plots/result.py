@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
 from carom import plots
+from carom.quantities.shown import Shown
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 DPI = 80
 
 
-class Result(ABC):
+class Result(Shown, ABC):
     """A result that is stored and drawn from one dataset, shown in notebooks, and cited."""
 
     @abstractmethod
@@ -65,10 +66,7 @@ class Result(ABC):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> len(carom.impact(pair, speed=2.0, angle="30 deg").plot().axes)
+        >>> len(hit.plot().axes)
         4
         """
         figure = self._draw(self.to_dataset(), **look)

@@ -35,23 +35,6 @@ def plot_score(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     their errors against time, the phases of the exact impact as bands. The legend names code and
     law, if the dataset tells them, and the largest error of each.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `carom.verify.score(...).to_dataset()` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
-
     Examples
     --------
     >>> import carom
@@ -89,8 +72,7 @@ def _points(dataset: xr.Dataset) -> Figure:
     bands = _bands(upper, dataset)
     _bands(lower, dataset)
     upper.set_ylabel(style.label("psi_out"))
-    lower.set_ylabel(r"error in $\psi_2$")
-    lower.set_xlabel(style.label("psi_in"))
+    lower.set(xlabel=style.label("psi_in"), ylabel=r"error in $\psi_2$")
     legend_outside(figure, upper.get_legend_handles_labels()[0], 2)
     if bands:
         legend_above(upper, 2, handles=bands)

@@ -35,18 +35,6 @@ def plot_spectrum(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     line at the first minimum of the normal force. The frequency zero is left out. The spectrum of
     the moment has the shape of that of the tangential force.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `Impact.spectrum` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 86 mm wide, of one axis.
-
     Raises
     ------
     InputError
@@ -54,10 +42,6 @@ def plot_spectrum(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> carom.plots.plot_spectrum(hit.spectrum()).axes[0].get_xscale()
     'log'
     """

@@ -30,18 +30,6 @@ SPEEDS = tuple(f"{name}_{body}" for name in TITLES for body in ("first", "second
 def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the speeds from which on bodies yield or crack: lines, or maps of many frictions.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        What `strength` returns: one panel for each of its speeds.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 86 mm wide with one panel and 178 mm with more.
-
     Raises
     ------
     InputError

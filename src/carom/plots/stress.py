@@ -7,7 +7,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 from carom.plots import style
@@ -33,20 +32,8 @@ def plot_stress(
 
     Parameters
     ----------
-    dataset : xarray.Dataset or result
-        Stresses on a grid of z and x.
     variable : str
         Which stress, e.g. "von_mises", "max_shear", "principal_1", "sigma_xx".
-    at : float or str, optional
-        Of a result: the time in s of an impact, by default that of the largest normal force, or the
-        step of a load path, by default the last.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
 
     Raises
     ------
@@ -55,10 +42,6 @@ def plot_stress(
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> figure = carom.plots.plot_stress(hit.stress("21 us"), "max_shear")
     >>> figure.axes[0].get_ylabel()
     '$z$\\xa0(µm)'
@@ -77,7 +60,6 @@ def plot_stress(
     shading = axis.pcolormesh(x, z, values, shading="gouraud", rasterized=True, **colours)
     bar = figure.colorbar(shading, ax=axis, location="bottom", aspect=32, pad=0.03)
     bar.set_label(style.label(variable, stress_unit))
-    bar.outline.set_linewidth(0.6)
     if np.ptp(values) > 0.0:
         contours = _contours(axis, x, z, values, colours["cmap"] == style.SIGNED_MAP)
         bar.add_lines(contours)
@@ -88,7 +70,7 @@ def plot_stress(
     _mark_contact(axis, dataset, length)
     place = column * length, row * length
     (mark,) = axis.plot(*place, "+", ms=7.0, mew=1.3, color="black", clip_on=False, zorder=5)
-    mark.set_path_effects([withStroke(linewidth=2.8, foreground="white")])
+    style.stroke_white(mark, 2.8)
     axis.set_aspect("equal")
     axis.set(xlim=(x[0], x[-1]), ylim=(z.max(), z.min()))
     axis.set(xlabel=style.label("x", unit), ylabel=style.label("z", unit))

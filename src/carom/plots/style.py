@@ -7,13 +7,16 @@ from pathlib import Path
 from typing import Any, NamedTuple, ParamSpec, TypeVar, Unpack
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
 from carom.io.files import FIGURES
 from carom.io.paths import checked_output, ending_of, replace_whole
 from carom.plots.look import (
+    AXES,
     DPI,
     FONT_SIZE,
     RC,
@@ -22,6 +25,7 @@ from carom.plots.look import (
     Drawing,
     Look,
     carom_settings,
+    own_figure,
     quiet,
     settings,
     using,
@@ -166,12 +170,17 @@ def new_figure(
     >>> (25.4 * figure.get_size_inches()).round(9), axes.shape
     (array([178., 100.]), (2, 1))
     """
+    axes = AXES.get()
+    if axes is not None and rows * columns == 1:
+        return own_figure(axes), np.array([[axes]])
     figure = blank_figure(width, height, keep_height)
     return figure, figure.subplots(rows, columns, squeeze=False, **options)
 
 
 def blank_figure(width: float, height: float, keep_height: bool = False) -> Figure:
     """Return a figure of a width and height in mm, as `new_figure` does, without axes."""
+    if AXES.get() is not None:
+        raise InputError("ax: this figure has several panels, and makes its own; leave ax out")
     wanted, letters = WIDTH.get() or width, float(RC["font.size"]) / FONT_SIZE
     height *= max(1.0 if keep_height else wanted / width, letters)
     width = wanted
@@ -272,6 +281,11 @@ def colours(name: str, values: ArrayLike) -> dict[str, Any]:
         return {"cmap": MAP}
     largest = float(np.abs(np.asarray(values, dtype=np.float64)).max(initial=0.0)) or 1.0
     return {"cmap": SIGNED_MAP, "vmin": -largest, "vmax": largest}
+
+
+def stroke_white(artist: Artist, width: float = 2.0) -> None:
+    """Draw a text or a mark on a white stroke, which sets it off from what is below."""
+    artist.set_path_effects([withStroke(linewidth=width, foreground="white")])
 
 
 def zero_line(axis: Axes) -> None:

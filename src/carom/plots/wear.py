@@ -26,30 +26,10 @@ WORK, DEPTH = "friction_work", "wear_depth"
 def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the depth of wear, or else the work of friction per area, around and over the contact.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `Impact.wear` returns, or `carom.wear_of_many` for impacts on one spot, of which there
-        is no map.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 178 mm wide with a map and 86 mm without.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
+    Of impacts on one spot, what `carom.wear_of_many` returns, there is no map.
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> carom.plots.plot_wear(hit.wear()).axes[0].get_ylabel()
     '$\\\\bar W_A$\\xa0(kJ/m²)'
     """
@@ -78,8 +58,7 @@ def _profile(axis: Axes, dataset: xr.Dataset, name: str) -> None:
         axis.set_title(f"largest at {where}" if beside else "largest in the centre")
     style.span(axis, distance)
     axis.set_ylim(bottom=0.0)
-    axis.set_xlabel(style.label("distance", unit))
-    axis.set_ylabel(_label(name, unit_of_values))
+    axis.set(xlabel=style.label("distance", unit), ylabel=_label(name, unit_of_values))
 
 
 def _map(figure: Figure, axis: Axes, dataset: xr.Dataset, name: str) -> None:
@@ -94,9 +73,7 @@ def _map(figure: Figure, axis: Axes, dataset: xr.Dataset, name: str) -> None:
     axis.set(xlabel=style.label("x", unit), ylabel=style.label("y", unit))
     reach = MARGIN * edge
     style.span(axis, np.clip(x, -reach, reach), np.clip(y, -reach, reach))
-    label = _label(name, unit_of_values)
-    bar = figure.colorbar(shading, ax=axis, label=label, pad=0.02, aspect=28)
-    bar.outline.set_linewidth(0.6)
+    figure.colorbar(shading, ax=axis, label=_label(name, unit_of_values), pad=0.02, aspect=28)
 
 
 def _label(name: str, unit: str) -> str:

@@ -11,17 +11,17 @@ from numpy.typing import ArrayLike, NDArray
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.texts import CANNOT_HOLD, UNCHANGED, Factor, Unreadable, split
-from carom.quantities.units import REAL, as_float, factor_of, is_real, number, told_unit
+from carom.quantities.units import REAL_KINDS, as_float, factor_of, is_real, number, without_unit
 
 Array = NDArray[np.float64]
 
 REALS = "give real numbers, one or an array of them"
-WIDE = 2**63  # integers that NumPy holds
-AT_ONCE = 10**8  # points of a batch
-PLACES = 1_000_000  # points of fields, which take half a minute
+INT64_END = 2**63
+MOST_POINTS = 10**8  # of a batch
+MOST_PLACES = 1_000_000  # of fields, which take half a minute
 AXES = {"x", "y", "z"}
 IN_METRES = "must be a list of finite numbers in m"
-ASCII = re.compile(r"[0-9.+\-eE \t]*")  # of which NumPy reads the numbers of the grammar alone
+ASCII_NUMBERS = re.compile(r"[0-9.+\-eE \t]*")  # NumPy reads those of the grammar alone
 
 
 class Places(NamedTuple):
@@ -43,18 +43,18 @@ class _Reading(NamedTuple):
 
 
 def numbers(
-    name: str, given: Any, allowed: str, unit: str | None = None, *, gaps: bool = False
+    name: str, values: Any, allowed: str, unit: str | None = None, *, gaps: bool = False
 ) -> Array:
     """Return real numbers in SI units as an array, or raise InputError.
 
     Texts, pint's quantities and xarray's arrays may have units of their own; `unit` is that of the
-    glossary, unless it is told, and that of bare numbers. With `gaps` what is masked is NaN.
+    glossary by default, and that of bare numbers. With `gaps` what is masked is NaN.
     """
     unit = unit or (GLOSSARY[name].unit if name in GLOSSARY else "1")
-    return _read(given, _Reading(name, unit, allowed, texts=True, gaps=gaps))
+    return _read(values, _Reading(name, unit, allowed, texts=True, gaps=gaps))
 
 
-def pure_numbers(name: str, given: Any, allowed: str = REALS) -> Array:
+def pure_numbers(name: str, values: Any, allowed: str = REALS) -> Array:
     """Return real numbers without a unit as an array, NaN where they are masked, or raise.
 
     Examples
@@ -64,28 +64,28 @@ def pure_numbers(name: str, given: Any, allowed: str = REALS) -> Array:
     >>> pure_numbers("psi", np.ma.masked_greater([0.5, 9.0], 1.0))
     array([0.5, nan])
     """
-    return _read(given, _Reading(name, "1", allowed, texts=False, gaps=True))
+    return _read(values, _Reading(name, "1", allowed, texts=False, gaps=True))
 
 
-def _read(given: Any, reading: _Reading) -> Array:
+def _read(values: Any, reading: _Reading) -> Array:
     try:
-        values = np.asarray(_bare(given, reading))
+        plain = np.asarray(_bare(values, reading))
     except InputError:
         raise
     except Exception:  # of ragged lists, and whatever arrays of other libraries raise
-        values = np.asarray(None)
-    if values.dtype.kind not in REAL and values.size:
-        raise refusal(reading.name, given, reading.allowed)
-    return floats(reading.name, values)
+        plain = np.asarray(None)
+    if plain.dtype.kind not in REAL_KINDS and plain.size:
+        raise refusal(reading.name, values, reading.allowed)
+    return floats(reading.name, plain)
 
 
 def floats(name: str, values: NDArray[Any]) -> Array:
     """Return a contiguous copy of real numbers in double precision, or raise if one overflows."""
     with np.errstate(all="ignore"):
-        found = values.astype(np.float64, order="C")
-    if values.dtype.itemsize > found.itemsize and np.any(np.isinf(found) & np.isfinite(values)):
+        doubles = values.astype(np.float64, order="C")
+    if values.dtype.itemsize > doubles.itemsize and np.any(np.isinf(doubles) & np.isfinite(values)):
         raise refusal(name, values, CANNOT_HOLD)
-    return found
+    return doubles
 
 
 def in_unit(name: str, values: Array, own: Factor) -> Array:
@@ -93,28 +93,27 @@ def in_unit(name: str, values: Array, own: Factor) -> Array:
     if own == UNCHANGED:
         return values
     with np.errstate(over="ignore"):
-        found = values * own.times / own.over
-    if np.any(np.isinf(found) & np.isfinite(values)):
+        converted = values * own.times / own.over
+    if np.any(np.isinf(converted) & np.isfinite(values)):
         raise refusal(name, values, CANNOT_HOLD)
-    return found
+    return converted
 
 
-def _bare(given: Any, reading: _Reading) -> Any:
+def _bare(values: Any, reading: _Reading) -> Any:
     """Return numbers in SI units: one, an array, or nested lists of them; None for anything else.
 
     Raises InputError for what has another unit or cannot be read.
     """
-    if type(given) is float or (type(given) is int and abs(given) < WIDE):
-        return given
-    if isinstance(given, list | tuple):
-        return [_bare(each, reading) for each in given]
-    if isinstance(given, bytes | bytearray | memoryview):
+    if type(values) is float or (type(values) is int and abs(values) < INT64_END):
+        return values
+    if isinstance(values, list | tuple):
+        return [_bare(each, reading) for each in values]
+    if isinstance(values, bytes | bytearray | memoryview):
         return None
-    plain, told = told_unit(reading.name, given, reading.unit)
-    if told is not None:  # what has a unit holds plain numbers
-        own = factor_of(reading.name, told, reading.unit)
-        held = _read(plain, reading._replace(unit="1", texts=False))
-        return in_unit(reading.name, held, own)
+    plain, unit = without_unit(reading.name, values, reading.unit)
+    if unit is not None:  # what has a unit holds plain numbers
+        own = factor_of(reading.name, unit, reading.unit)
+        return in_unit(reading.name, _read(plain, reading._replace(unit="1", texts=False)), own)
     if isinstance(plain, str):
         return number(reading.name, plain, reading.unit) if reading.texts else None
     if is_real(plain):
@@ -122,15 +121,16 @@ def _bare(given: Any, reading: _Reading) -> Any:
     if isinstance(plain, np.ma.MaskedArray):
         if not reading.gaps:
             allowed = "masked arrays are not supported; give plain arrays"
-            raise refusal(reading.name, given, f"{allowed}; {reading.allowed}")
-        return np.ma.filled(plain.astype(np.float64), np.nan) if plain.dtype.kind in REAL else None
+            raise refusal(reading.name, values, f"{allowed}; {reading.allowed}")
+        real = plain.dtype.kind in REAL_KINDS
+        return np.ma.filled(plain.astype(np.float64), np.nan) if real else None
     array = np.asarray(plain)
     if array.dtype.kind in "OU" and (array.ndim or array is plain):
         return _bare(array.tolist(), reading)
-    return array if array.dtype.kind in REAL or not array.size else None
+    return array if array.dtype.kind in REAL_KINDS or not array.size else None
 
 
-def together(given: Mapping[str, Array], most: int = AT_ONCE) -> tuple[int, ...]:
+def together(arrays: Mapping[str, Array], most: int = MOST_POINTS) -> tuple[int, ...]:
     """Return the shape to which arrays broadcast, or raise InputError; also if it is too large.
 
     Examples
@@ -140,7 +140,7 @@ def together(given: Mapping[str, Array], most: int = AT_ONCE) -> tuple[int, ...]
     >>> together({"psi": np.zeros((7, 1)), "chi": np.zeros(3)})
     (7, 3)
     """
-    names, shapes = ", ".join(given), [values.shape for values in given.values()]
+    names, shapes = ", ".join(arrays), [values.shape for values in arrays.values()]
     try:
         shape = np.broadcast_shapes(*shapes)
     except (ValueError, RuntimeError):  # RuntimeError: of more than 32 dimensions
@@ -155,7 +155,7 @@ def together(given: Mapping[str, Array], most: int = AT_ONCE) -> tuple[int, ...]
     return shape
 
 
-def along_the_same(**given: Any) -> None:
+def along_the_same(**arrays: Any) -> None:
     """Raise InputError for arrays of xarray's or pandas' whose dimensions or labels differ.
 
     Examples
@@ -167,19 +167,19 @@ def along_the_same(**given: Any) -> None:
     Traceback (most recent call last):
     carom.InputError: psi, chi: their dimensions are a and b; give arrays along the same ones
     """
-    named = {name: getattr(value, "dims", ()) for name, value in given.items()}
-    found = {name: tuple(map(str, dims)) for name, dims in named.items() if dims}
-    longest = max(found.values(), key=len, default=())
-    if any(dims != longest[-len(dims) :] for dims in found.values()):
-        words = " and ".join(dict.fromkeys(", ".join(dims) for dims in found.values()))
+    named = {name: getattr(value, "dims", ()) for name, value in arrays.items()}
+    along = {name: tuple(map(str, dims)) for name, dims in named.items() if dims}
+    longest = max(along.values(), key=len, default=())
+    if any(dims != longest[-len(dims) :] for dims in along.values()):
+        words = " and ".join(dict.fromkeys(", ".join(dims) for dims in along.values()))
         allowed = f"their dimensions are {words}; give arrays along the same ones"
-        raise InputError(f"{', '.join(found)}: {allowed}")
+        raise InputError(f"{', '.join(along)}: {allowed}")
     seen: dict[Any, tuple[str, Any]] = {}
-    for name, value in given.items():
+    for name, value in arrays.items():
         for dim, labels in _labels(value):
-            other, known = seen.setdefault((dim, len(labels)), (name, labels))
-            if not known.equals(labels):
-                ends = f"{known[0]} to {known[-1]} and {labels[0]} to {labels[-1]}"
+            other, first = seen.setdefault((dim, len(labels)), (name, labels))
+            if not first.equals(labels):
+                ends = f"{first[0]} to {first[-1]} and {labels[0]} to {labels[-1]}"
                 words = f"their labels along {dim} differ, {ends}"
                 raise InputError(f"{other}, {name}: {words}; align them, or give plain arrays")
             if 1 < len(labels) <= len(AXES) and {*labels} <= AXES and [*labels] != sorted(labels):
@@ -203,7 +203,7 @@ def plain_numbers(texts: Sequence[str]) -> Array | None:
     >>> plain_numbers(["1.5", " -2e3"]), plain_numbers(["1.5", "1_000"])
     (array([ 1.5e+00, -2.0e+03]), None)
     """
-    if not texts or ASCII.fullmatch("".join(texts)) is None:
+    if not texts or ASCII_NUMBERS.fullmatch("".join(texts)) is None:
         return None
     try:
         values = np.array(texts, dtype=np.float64)
@@ -214,12 +214,12 @@ def plain_numbers(texts: Sequence[str]) -> Array | None:
     return values
 
 
-def scattered(name: str, given: ArrayLike, columns: int) -> Array:
+def scattered(name: str, values: ArrayLike, columns: int) -> Array:
     """Return points as an array of shape (n, columns), or raise InputError."""
     allowed = f"must be finite numbers in m, of shape (n, {columns})"
-    if isinstance(given, str):
-        raise refusal(name, given, allowed)
-    points = numbers(name, given, allowed, "m")
+    if isinstance(values, str):
+        raise refusal(name, values, allowed)
+    points = numbers(name, values, allowed, "m")
     if points.ndim != 2 or points.shape[1] != columns or points.shape[0] == 0:
         raise refusal(name, points, allowed)
     if not np.all(np.isfinite(points)):
@@ -230,22 +230,22 @@ def scattered(name: str, given: ArrayLike, columns: int) -> Array:
 
 def finite_line(
     name: str,
-    given: ArrayLike,
+    values: ArrayLike,
     allowed: str = "must be a list of finite numbers",
     *,
     above: float = -np.inf,
 ) -> Array:
     """Return one finite number or more as an array of shape (n,), or raise InputError."""
-    values = np.atleast_1d(numbers(name, given, allowed))
-    bad = ~(np.isfinite(values) & (values > above))
-    if values.size == 0 or values.ndim > 1 or bad.any():
-        raise refusal(name, values[bad][0].item() if bad.any() else given, allowed)
-    return values
+    line = np.atleast_1d(numbers(name, values, allowed))
+    bad = ~(np.isfinite(line) & (line > above))
+    if line.size == 0 or line.ndim > 1 or bad.any():
+        raise refusal(name, line[bad][0].item() if bad.any() else values, allowed)
+    return line
 
 
-def positive_line(name: str, given: ArrayLike) -> Array:
+def positive_line(name: str, values: ArrayLike) -> Array:
     """Return one positive number or more as an array of shape (n,), or raise InputError."""
-    return finite_line(name, given, "must be one or more positive finite numbers", above=0.0)
+    return finite_line(name, values, "must be one or more positive finite numbers", above=0.0)
 
 
 def places(
@@ -259,18 +259,18 @@ def places(
     Raises InputError if both are given, or one cannot be used.
     """
     if points is not None:
-        if any(given is not None for given in grid.values()):
+        if any(values is not None for values in grid.values()):
             wanted = " and ".join(grid)
             raise refusal("points", f"points with {wanted}", f"give a grid by {wanted}, or points")
         at = scattered("points", points, len(space))
         return Places(("point",), {name: ("point", at[:, i]) for i, name in enumerate(space)}, at)
     lines = {
-        name: default[name] if given is None else finite_line(name, given, IN_METRES)
-        for name, given in grid.items()
+        name: default[name] if values is None else finite_line(name, values, IN_METRES)
+        for name, values in grid.items()
     }
-    if prod(values.size for values in lines.values()) > PLACES:
+    if prod(values.size for values in lines.values()) > MOST_PLACES:
         sizes = " by ".join(f"{values.size}" for values in lines.values())
-        raise refusal(" and ".join(grid), f"{sizes} points", f"at most {PLACES:,} are allowed")
+        raise refusal(" and ".join(grid), f"{sizes} points", f"at most {MOST_PLACES:,} are allowed")
     columns = dict(zip(lines, np.meshgrid(*lines.values()), strict=True))
     zero = np.zeros_like(next(iter(columns.values())))
     at = np.stack([columns.get(name, zero) for name in space], axis=-1)

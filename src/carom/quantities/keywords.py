@@ -5,14 +5,15 @@ from functools import wraps
 from inspect import Parameter, signature
 from typing import ParamSpec, TypeVar
 
+from carom.old_names import renamed
 from carom.quantities.refusals import InputError, hint
 
-Given = ParamSpec("Given")
-Found = TypeVar("Found")
+Parameters = ParamSpec("Parameters")
+Result = TypeVar("Result")
 
 
-def known_keywords(function: Callable[Given, Found]) -> Callable[Given, Found]:
-    """Return a function that refuses keywords it does not know with the name that is meant.
+def known_keywords(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    """Return a function that refuses keywords it does not know, and values without their name.
 
     Examples
     --------
@@ -23,17 +24,28 @@ def known_keywords(function: Callable[Given, Found]) -> Callable[Given, Found]:
     >>> slide(mu=0.2)
     Traceback (most recent call last):
     carom.InputError: mu: no keyword of slide; write friction
+    >>> slide(0.2)
+    Traceback (most recent call last):
+    carom.InputError: slide: takes these by name; write friction=0.2
     """
     parameters = signature(function).parameters.values()
     known = [each.name for each in parameters if each.kind is not Parameter.POSITIONAL_ONLY]
+    named = [each.name for each in parameters if each.kind is Parameter.KEYWORD_ONLY]
+    most = sum(each.kind is Parameter.POSITIONAL_OR_KEYWORD for each in parameters)
     title = function.__qualname__.removesuffix(".__init__").rpartition(".")[2]
 
     @wraps(function)
-    def called(*args: Given.args, **kwargs: Given.kwargs) -> Found:
-        for name in kwargs:
-            if name not in known:
+    def called(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
+        for name in list(kwargs):
+            new = renamed(name, title, known)
+            if new not in known:
                 words = hint(name, [word for word in known if word != "self"])
                 raise InputError(f"{name}: no keyword of {title}; {words}")
+            kwargs[new] = kwargs.pop(name)
+        if most < len(args) <= most + len(named):
+            nameless = zip(named, args[most:], strict=False)
+            cure = ", ".join(f"{name}={value!r}" for name, value in nameless)
+            raise InputError(f"{title}: takes these by name; write {cure}")
         return function(*args, **kwargs)
 
     return called

@@ -73,9 +73,9 @@ def shared(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tu
     >>> shared((-6.472e-5, 0.0, 1.385e-4), "m")
     (('-64.72', '0', '138.5'), 'µm')
     """
-    given = tuple(values)
-    power, name = _suited(given, unit, digits)
-    return tuple(_number(value, power, digits) for value in given), printable(name)
+    numbers = tuple(values)
+    power, name = _suited(numbers, unit, digits)
+    return tuple(_number(value, power, digits) for value in numbers), printable(name)
 
 
 def column(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tuple[str, ...], str]:
@@ -85,12 +85,12 @@ def column(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tu
     >>> column((0.0, 1.31886e-5, 3.096e-5), "s")
     (('0.0000', '13.1886', '30.9600'), 'µs')
     """
-    given = tuple(values)
-    power, name = _suited(given, unit, digits)
-    decades = _exponent(_largest(given), digits) - power
+    numbers = tuple(values)
+    power, name = _suited(numbers, unit, digits)
+    decades = _exponent(_largest(numbers), digits) - power
     plain = FEWEST_DECADES <= decades <= MOST_DECADES
     form = f".{max(digits - 1 - decades, 0)}f" if plain else f".{digits - 1}e"
-    scaled = (Decimal(value).scaleb(-power) if plain else value for value in given)
+    scaled = (Decimal(value).scaleb(-power) if plain else value for value in numbers)
     cells = (f"{each:{form}}" if isfinite(each) else _number(float(each)) for each in scaled)
     return tuple(cells), printable(name)
 

@@ -1,18 +1,22 @@
-"""Clear refusals: one line with the argument, its value, what is allowed, what to do."""
+"""Clear refusals: one line with the argument, its value, what is allowed, what to do.
+
+Of a file all faults are said in one message, instead of one a run.
+"""
 
 from collections.abc import Iterable
 from difflib import get_close_matches
 from reprlib import Repr
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 from carom.quantities.symbols import meant, remark
 
 Kind = TypeVar("Kind")
 
-LONGEST = 120  # characters of a value that a refusal shows
+LONGEST_SHOWN = 120  # characters of a value that a refusal shows
+MOST_LISTED = 12  # faults in one message
 
 _short = Repr()
-_short.maxstring = _short.maxother = _short.maxlong = LONGEST
+_short.maxstring = _short.maxother = _short.maxlong = LONGEST_SHOWN
 
 
 class InputError(ValueError):
@@ -32,26 +36,26 @@ def refusal(name: str, value: Any, allowed: str) -> InputError:
 def clipped(text: str) -> str:
     """Return a text of users for a refusal: in one line, its end left out if it is long."""
     line = " ".join(text.split())
-    return line if len(line) <= LONGEST else f"{line[:LONGEST]}..."
+    return line if len(line) <= LONGEST_SHOWN else f"{line[:LONGEST_SHOWN]}..."
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """Return a hint at the known words that are nearest to one."""
-    found = get_close_matches(word, list(known), n=3, cutoff=0.5)
-    return f"did you mean {' or '.join(repr(name) for name in found)}?" if found else ""
+def nearest(word: str, words: Iterable[str]) -> str:
+    """Return a hint at those of these words that are nearest to one."""
+    near = get_close_matches(word, list(words), n=3, cutoff=0.5)
+    return f"did you mean {' or '.join(repr(name) for name in near)}?" if near else ""
 
 
-def hint(word: object, known: Iterable[str]) -> str:
-    """Return a hint at the known word that one stands for, at the nearest, or at all of them."""
-    known = tuple(known)
-    if name := meant(str(word), known):
+def hint(word: object, names: Iterable[str]) -> str:
+    """Return a hint at the name that a word stands for, at the nearest, or at all of them."""
+    names = tuple(names)
+    if name := meant(str(word), names):
         return f"write {remark(str(word), name)}"
-    return nearest(str(word), known) or f"known names are {', '.join(known)}"
+    return nearest(str(word), names) or f"known names are {', '.join(names)}"
 
 
-def one_of(name: str, value: Any, known: Iterable[str]) -> str:
-    """Return a text that is one of those known, or raise InputError with the nearest of them."""
-    words = tuple(known)
+def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
+    """Return a text that is one of these, or raise InputError with the nearest of them."""
+    words = tuple(choices)
     if isinstance(value, str) and value in words:
         return value
     near = nearest(value, words) if isinstance(value, str) else ""
@@ -84,3 +88,51 @@ def _shown(value: Any) -> str:
         return clipped(_short.repr(value) if isinstance(value, Iterable | int) else repr(value))
     except Exception:  # of an integer with too many digits, of a class of users
         return f"this {type(value).__name__}"
+
+
+class Faults:
+    """What is wrong with a file: collected inside its context, and told in one message after it.
+
+    Examples
+    --------
+    >>> from carom.quantities.refusals import Faults
+    >>> with Faults() as faults:
+    ...     faults.add("angle: column missing")
+    ...     faults.add("spin: not a number in line 3")
+    Traceback (most recent call last):
+    carom.InputError: 2 faults: (1) angle: column missing; (2) spin: not a number in line 3
+    """
+
+    def __init__(self) -> None:
+        self._messages: list[str] = []
+        self._collecting = False
+
+    def __enter__(self) -> Self:
+        self._collecting = True
+        return self
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        self._collecting = False
+        if isinstance(error, InputError) and str(error) != self._message():
+            self._messages.append(str(error))
+        if self._messages and (error is None or isinstance(error, Exception)):
+            raise InputError(self._message()) from None
+
+    def add(self, message: str) -> None:
+        """Collect a fault; outside of the context raise InputError."""
+        if not self._collecting:
+            raise InputError(message)
+        self._messages.append(message)
+
+    def settle(self) -> None:
+        """Raise InputError if there are faults so far, before costly work."""
+        if self._messages:
+            raise InputError(self._message())
+
+    def _message(self) -> str:
+        messages = list(dict.fromkeys(self._messages))
+        if len(messages) == 1:
+            return messages[0]
+        listed = "; ".join(f"({i}) {text}" for i, text in enumerate(messages[:MOST_LISTED], 1))
+        more = f"; and {len(messages) - MOST_LISTED} more" if len(messages) > MOST_LISTED else ""
+        return f"{len(messages)} faults: {listed}{more}"

@@ -2,58 +2,34 @@
 
 from collections.abc import Iterable
 
-SYMBOLS: dict[str, tuple[str, ...]] = {  # the first that is known where one is asked for
-    "mu": ("friction",),
-    "cof": ("friction",),
-    "E": ("young",),
-    "young_modulus": ("young",),
-    "youngs_modulus": ("young",),
-    "nu": ("poisson",),
-    "poisson_ratio": ("poisson",),
-    "poissons_ratio": ("poisson",),
-    "rho": ("density",),
-    "diameter": ("radius",),
-    "d": ("radius",),
-    "D": ("radius",),
-    "r": ("radius",),
-    "R": ("radius",),
-    "v": ("speed",),
-    "V": ("speed",),
-    "v_in": ("speed",),
-    "v_i": ("speed",),
-    "velocity": ("speed", "velocity1"),
-    "v_n": ("normal_speed",),
-    "v_t": ("tangential_speed",),
-    "v_out": ("rebound_speed",),
-    "v_r": ("rebound_speed",),
-    "theta": ("angle",),
-    "theta_i": ("angle",),
-    "theta_in": ("angle",),
-    "incident_angle": ("angle",),
-    "incidence": ("angle",),
-    "impact_angle": ("angle",),
-    "theta_r": ("rebound_angle",),
-    "theta_out": ("rebound_angle",),
-    "omega": ("spin_out", "spin", "spin1"),
-    "omega_in": ("spin",),
-    "omega_i": ("spin",),
-    "omega_out": ("spin_out",),
-    "omega_r": ("spin_out",),
-    "e": ("normal_restitution", "restitution"),
-    "e_n": ("normal_restitution", "restitution"),
-    "restitution": ("normal_restitution", "losses"),
-    "normal": ("losses",),  # its name in 0.1
-    "e_t": ("tangential_restitution",),
-    "beta": ("contact_beta",),
-    "e_c": ("contact_restitution",),
-    "psi1": ("psi_in",),
-    "psi2": ("psi_out",),
-    "sigma_y": ("yield_strength",),
-    "sigma_t": ("tensile_strength",),
-    "K_c": ("fracture_toughness",),
-    "K_Ic": ("fracture_toughness",),
-    "toughness": ("fracture_toughness",),
-    "flaw": ("flaw_size",),
+CALLED = {  # in order: of names that one word stands for, the first that there is counts
+    "friction": "mu cof",
+    "young": "E young_modulus youngs_modulus",
+    "poisson": "nu poisson_ratio poissons_ratio",
+    "density": "rho",
+    "radius": "diameter d D r R",
+    "speed": "v V v_in v_i velocity",
+    "velocity1": "velocity",
+    "normal_speed": "v_n",
+    "tangential_speed": "v_t",
+    "rebound_speed": "v_out v_r",
+    "angle": "theta theta_i theta_in incident_angle incidence impact_angle",
+    "rebound_angle": "theta_r theta_out",
+    "spin_out": "omega omega_out omega_r",
+    "spin": "omega omega_in omega_i",
+    "spin1": "omega",
+    "normal_restitution": "e e_n restitution",
+    "restitution": "e e_n",
+    "losses": "restitution normal",  # the latter is its name in 0.1
+    "tangential_restitution": "e_t",
+    "contact_beta": "beta",
+    "contact_restitution": "e_c",
+    "psi_in": "psi1",
+    "psi_out": "psi2",
+    "yield_strength": "sigma_y",
+    "tensile_strength": "sigma_t",
+    "fracture_toughness": "K_c K_Ic toughness",
+    "flaw_size": "flaw",
 }
 REMARKS = {
     "diameter": "radius, half of it",
@@ -69,8 +45,8 @@ def remark(word: str, name: str) -> str:
     return words if words.startswith(name) else name
 
 
-def meant(word: str, known: Iterable[str]) -> str:
-    """Return the known name that a word stands for, empty if there is none.
+def meant(word: str, names: Iterable[str]) -> str:
+    """Return that of these names for which a word stands, empty if there is none.
 
     Examples
     --------
@@ -78,6 +54,10 @@ def meant(word: str, known: Iterable[str]) -> str:
     >>> meant("mu", ["friction", "speed"]), meant("omega", ["angle", "spin"]), meant("x", ["spin"])
     ('friction', 'spin', '')
     """
-    wanted = SYMBOLS.get(word) or SYMBOLS.get(word.lower(), ())
-    known = set(known)
-    return next((name for name in wanted if name in known), "")
+    wanted = _named(word) or _named(word.lower())
+    there = set(names)
+    return next((name for name in wanted if name in there), "")
+
+
+def _named(word: str) -> list[str]:
+    return [name for name, words in CALLED.items() if word in words.split()]

@@ -15,8 +15,8 @@ from functools import lru_cache
 from math import inf, isinf, log10, pi
 from typing import Any, NamedTuple
 
-LONGEST = 200  # characters of a text
-TERMS = 4  # of a unit expression
+LONGEST_TEXT = 200  # characters of a text
+MOST_TERMS = 4  # of a unit expression
 CANNOT_HOLD = "floating point cannot hold it"
 
 BLANKS = " \t\u00a0\u2009\u202f"  # no-break and thin spaces, too
@@ -54,7 +54,7 @@ SPINS = "revolutions_per_minute revolutions_per_second"
 SPEEDS = "knot mile_per_hour kilometer_per_hour meter_per_second foot_per_second"
 RATIOS = "percent permille ppm"
 KINDS = (LENGTHS, MASSES, TIMES, FORCES, PRESSURES, ANGLES, SPINS, SPEEDS, RATIOS)
-UNITS = frozenset(" ".join(KINDS).split())  # pint's whole names; constants of nature are none
+PINT_NAMES = frozenset(" ".join(KINDS).split())  # pint's whole names; constants of nature are none
 COMMON = {  # of most texts: for these pint, which takes a quarter of a second, is not loaded
     "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9},
     "m/s": {"m/s": 1.0, "cm/s": 1e-2, "mm/s": 1e-3},
@@ -70,11 +70,11 @@ COMMON = {  # of most texts: for these pint, which takes a quarter of a second, 
     "m^2/N": {"m^2/N": 1.0, "mm^3/(N m)": 1e-9},
 }
 TOUGHNESS = "Pa m^0.5"  # the only unit with half a power: read as it is usually written, no other
-WEAR = "m^2/N"
+WEAR_COEFFICIENT = "m^2/N"
 ROOT = r"(?:m(?:\^0\.5|\^\(1/2\)|\^1/2|1/2|½|\*\*0\.5)|sqrt\(m\)|√m)"
 SPELT_OUT = {  # as people write them, which the grammar has no words for; sizes by what is captured
     TOUGHNESS: (re.compile(rf"([kM]?)Pa(?:[ *·.]{ROOT}|√m)"), {"": 1.0, "k": 1e3, "M": 1e6}),
-    WEAR: (
+    WEAR_COEFFICIENT: (
         re.compile(r"(m?m)(?:\^3|³|3)/(?:\(N[ *·.]?m\)|N/?m)|(1/[MG]?Pa)"),
         {"mm": 1e-9, "m": 1.0, "1/Pa": 1.0, "1/MPa": 1e-6, "1/GPa": 1e-9},
     ),
@@ -104,10 +104,10 @@ class Factor(NamedTuple):
 
     def apply(self, number: float) -> float:
         """Return a float in the other unit, or raise Unreadable if it overflows."""
-        found = number * self.times / self.over
-        if isinf(found) and not isinf(number):
+        converted = number * self.times / self.over
+        if isinf(converted) and not isinf(number):
             raise Unreadable(CANNOT_HOLD, enough=True)
-        return found
+        return converted
 
 
 UNCHANGED = Factor(1.0, 1.0)
@@ -143,17 +143,17 @@ def split(text: str) -> tuple[float, str]:
 
     Raises Unreadable, also for numbers that floating point cannot hold.
     """
-    if len(text) > LONGEST:
-        raise Unreadable(f"it is longer than {LONGEST} characters", enough=True)
+    if len(text) > LONGEST_TEXT:
+        raise Unreadable(f"it is longer than {LONGEST_TEXT} characters", enough=True)
     plain = text.strip(BLANKS)
-    found = NUMBER.match(plain)
-    if found is None:
+    match = NUMBER.match(plain)
+    if match is None:
         raise Unreadable() if plain else Unreadable("it is empty")
-    mantissa = found[1].replace(MINUS, "-")
-    value = float(f"{mantissa}e{(found[2] or found[3] or found[4] or '0').translate(LOWERED)}")
+    mantissa = match[1].replace(MINUS, "-")
+    value = float(f"{mantissa}e{(match[2] or match[3] or match[4] or '0').translate(LOWERED)}")
     if isinf(value) or (value == 0.0 and re.search("[1-9]", mantissa)):
         raise Unreadable(CANNOT_HOLD, enough=True)
-    rest = plain[found.end() :]
+    rest = plain[match.end() :]
     if rest.startswith(","):
         raise Unreadable("numbers need a decimal point, not a comma", enough=True)
     if OTHER_TIMES.match(rest):
@@ -166,10 +166,10 @@ def factor(expression: str, unit: str) -> Factor:
 
     Raises Unreadable if the expression is none, or of another kind; angles are a kind of their own.
     """
-    found = _factor(expression, unit)
-    if isinstance(found, Unreadable):
-        raise Unreadable(str(found), enough=found.enough)
-    return found
+    result = _factor(expression, unit)
+    if isinstance(result, Unreadable):
+        raise Unreadable(str(result), enough=result.enough)
+    return result
 
 
 @lru_cache(maxsize=4096)
@@ -183,11 +183,11 @@ def _factor(expression: str, unit: str) -> Factor | Unreadable:
         return Unreadable(f"{expression!r} is not a unit of fracture toughness")
     try:
         terms = _terms(expression)
-        given, wanted = _root(terms), _root(_terms("" if unit == "1" else unit))
-        if given[1] == wanted[1]:
-            found = as_factor(given[0] / wanted[0])
+        own, wanted = _root(terms), _root(_terms("" if unit == "1" else unit))
+        if own[1] == wanted[1]:
+            ratio = as_factor(own[0] / wanted[0])
             _refuse_doubled(terms)
-            return found
+            return ratio
     except Unreadable as error:
         meant = _spelling(expression, unit)
         return Unreadable(f"{error}; write {meant!r}", enough=True) if meant else error
@@ -204,12 +204,12 @@ def _terms(expression: str) -> tuple[tuple[str, int], ...]:
     terms: list[tuple[str, int]] = []
     place, sign = 0, 1
     while True:
-        found = TERM.match(expression, place)
-        if found is None or len(terms) == TERMS:
+        match = TERM.match(expression, place)
+        if match is None or len(terms) == MOST_TERMS:
             raise Unreadable(f"{expression!r} is not a unit")
-        power = next(filter(None, found.groups()[1:]), "1").translate(LOWERED)
-        terms.append((found[1], sign * int(power)))
-        place = found.end()
+        power = next(filter(None, match.groups()[1:]), "1").translate(LOWERED)
+        terms.append((match[1], sign * int(power)))
+        place = match.end()
         if place == len(expression):
             return tuple(terms)
         slash = SLASH.match(expression, place)
@@ -228,8 +228,8 @@ def _root(terms: tuple[tuple[str, int], ...]) -> tuple[float, Any]:
     for name, power in terms:
         whole = _whole_name(name)
         powers[whole] = powers.get(whole, 0) + power
-    found = registry.get_root_units(registry.Unit(registry.UnitsContainer(powers)))
-    return float(found[0]), found[1]
+    root = registry.get_root_units(registry.Unit(registry.UnitsContainer(powers)))
+    return float(root[0]), root[1]
 
 
 def _refuse_doubled(terms: tuple[tuple[str, int], ...]) -> None:
@@ -245,8 +245,8 @@ def _refuse_doubled(terms: tuple[tuple[str, int], ...]) -> None:
 def _spelling(expression: str, unit: str) -> str:
     """Return how a common unit is written that stands here in other letters, or nothing."""
     plain = expression.lower().translate(LOWERED).translate(FOLDED)
-    known = COMMON.get(unit, ())
-    return next((each for each in known if each.lower().translate(FOLDED) == plain), "")
+    common = COMMON.get(unit, ())
+    return next((each for each in common if each.lower().translate(FOLDED) == plain), "")
 
 
 @lru_cache(maxsize=1024)
@@ -258,7 +258,7 @@ def _whole_name(name: str) -> str:
     parse, small = _registry().parse_unit_name, name.lower()
     for each, ends in ((SPELT.get(name, name), ()), (small, (small, small.removesuffix("s")))):
         for prefix, unit, _ in parse(each)[:1]:
-            if unit in UNITS and prefix + unit in (ends or (prefix + unit,)):
+            if unit in PINT_NAMES and prefix + unit in (ends or (prefix + unit,)):
                 return str(prefix + unit)
     raise Unreadable(f"unit {name!r} is not known")
 

@@ -23,17 +23,17 @@ from carom.quantities.texts import (
 Value = float | str  # a number in SI units, or text with a unit
 
 
-MOST = 1_000_000  # of what is counted, where nothing else is said
+MOST_COUNTED = 1_000_000
 MOST_THREADS = 1024
-WHOLE = re.compile(r"[+-]?[0-9]{1,40}")
-REAL = "iuf"  # kinds of NumPy's types
-BEARING = ("unit", "units", "Units", "dimension", "dimensionality")  # attributes of quantities
-PACKED = ("scale_factor", "add_offset")  # attributes by which numbers of files are still to change
+WHOLE_NUMBER = re.compile(r"[+-]?[0-9]{1,40}")
+REAL_KINDS = "iuf"  # of NumPy's types
+UNIT_ATTRIBUTES = ("unit", "units", "Units", "dimension", "dimensionality")
+PACKING_ATTRIBUTES = ("scale_factor", "add_offset")  # of files: their numbers are to change
 APPROACH = ": the bodies must approach"
 WHY_POSITIVE = dict.fromkeys(("speed", "normal_speed"), APPROACH)
-PURE = ("1", "-", "dimensionless")  # how tables and attributes call the unit of pure numbers
+PURE_UNITS = ("1", "-", "dimensionless")  # how tables and attributes call the unit of pure numbers
 
-HINTS = {
+EXAMPLES = {
     "m": "5 mm",
     "Pa": "210 GPa",
     "kg/m^3": "7850 kg/m^3",
@@ -67,15 +67,15 @@ def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHAN
     True
     """
     unit = unit or GLOSSARY[name].unit
-    plain, told = told_unit(name, value, unit)
+    plain, own_unit = without_unit(name, value, unit)
     reason, enough = "", False
     try:
         if isinstance(plain, str):
-            if told is None:
+            if own_unit is None:
                 return read_text(plain, unit, bare)
-            reason = f"it is a text, and has the unit {told}, too"
+            reason = f"it is a text, and has the unit {own_unit}, too"
         elif is_real(plain) and not math.isnan(real := as_float(name, plain)):
-            return (bare if told is None else factor_of(name, told, unit)).apply(real)
+            return (bare if own_unit is None else factor_of(name, own_unit, unit)).apply(real)
     except Unreadable as error:
         reason, enough = str(error), error.enough
     words = filter(None, (reason, "" if enough else _expected(unit)))
@@ -87,10 +87,13 @@ def pure_number(name: str, value: Any, allowed: str = "give one number") -> floa
 
     Raises InputError for anything else.
     """
-    plain, told = told_unit(name, value, "1")
+    plain, own_unit = without_unit(name, value, "1")
     if not is_real(plain):
         raise refusal(name, value, allowed)
-    own, real = UNCHANGED if told is None else factor_of(name, told, "1"), as_float(name, plain)
+    own, real = (
+        UNCHANGED if own_unit is None else factor_of(name, own_unit, "1"),
+        as_float(name, plain),
+    )
     return real if math.isnan(real) else number(name, real, "1", own)
 
 
@@ -98,22 +101,24 @@ def is_real(value: Any) -> bool:
     """Tell whether this is one real number: no truth value, no bytes, no array of one or more."""
     if getattr(value, "shape", None) == () and not getattr(value, "mask", False):
         kind = getattr(getattr(value, "dtype", None), "kind", None)  # other libraries have no kinds
-        return kind in REAL if kind else "float" in str(value.dtype) or "int" in str(value.dtype)
+        return (
+            kind in REAL_KINDS if kind else "float" in str(value.dtype) or "int" in str(value.dtype)
+        )
     return isinstance(value, Real | Decimal) and not isinstance(value, bool)
 
 
 def as_float(name: str, value: Any) -> float:
     """Return one real number as a float, or raise InputError."""
     try:
-        found = float(value)
-        held = math.isfinite(found) or bool(value != value or value == found)
+        real = float(value)
+        held = math.isfinite(real) or bool(value != value or value == real)
     except OverflowError:
         held = False
     except Exception:  # whatever other libraries raise, and Decimal("sNaN")
         raise refusal(name, value, "give one real number") from None
     if not held:
         raise refusal(name, value, CANNOT_HOLD)
-    return found
+    return real
 
 
 def finite_or_text(text: str) -> float | str:
@@ -128,43 +133,45 @@ def finite_or_text(text: str) -> float | str:
     return float(text) if math.isfinite(float(text)) else text
 
 
-def told_unit(name: str, given: Any, unit: str = "") -> tuple[Any, Any]:
-    """Return what is given without its unit, and that unit, None where it tells none.
+def without_unit(name: str, value: Any, unit: str = "") -> tuple[Any, Any]:
+    """Return a value without its unit, and that unit, None if it has none.
 
-    Quantities of pint's and arrays of xarray's tell theirs, as an object of pint's or as a text.
+    Quantities of pint's and arrays of xarray's have one, an object of pint's or a text.
     Raises InputError for quantities of other libraries; `unit` is the one that is wanted.
     """
-    if hasattr(given, "to_root_units"):
-        return given.magnitude, given.units
-    attributes = getattr(given, "attrs", None)
+    if hasattr(value, "to_root_units"):
+        return value.magnitude, value.units
+    attributes = getattr(value, "attrs", None)
     if isinstance(attributes, Mapping):
-        own, within = _told_by_attributes(name, attributes), getattr(given, "data", None)
+        own, within = _unit_of_attributes(name, attributes), getattr(value, "data", None)
         if hasattr(within, "to_root_units"):
             if own:
                 raise two_units(name, own, within.units)  # type: ignore[union-attr]
             return within.magnitude, within.units  # type: ignore[union-attr]
         if own:
-            return (given.values if hasattr(given, "values") else given[()]), own
-    elif bears_unit(given):
+            return (value.values if hasattr(value, "values") else value[()]), own
+    elif bears_unit(value):
         plain = f"plain numbers in {unit}" if unit not in ("", "1") else "plain numbers"
-        raise refusal(name, given, f"give {plain}, or a quantity of pint's")
-    return given, None
+        raise refusal(name, value, f"give {plain}, or a quantity of pint's")
+    return value, None
 
 
-def bears_unit(given: Any) -> bool:
+def bears_unit(value: Any) -> bool:
     """Tell whether this is a quantity of some library: its bare numbers may be in any unit."""
-    dimensions = getattr(given, "dimensions", ())  # of files they are the names of axes
-    return any(hasattr(given, name) for name in BEARING) or not isinstance(dimensions, tuple)
+    dimensions = getattr(value, "dimensions", ())  # of files they are the names of axes
+    return any(hasattr(value, name) for name in UNIT_ATTRIBUTES) or not isinstance(
+        dimensions, tuple
+    )
 
 
-def _told_by_attributes(name: str, attributes: Mapping[Any, Any]) -> str:
-    """Return the unit that the attributes of an array tell, or raise InputError for two."""
-    told = [v for key, v in attributes.items() if str(key).lower() in ("unit", "units")]
-    texts = [value.decode() if isinstance(value, bytes) else str(value) for value in told]
+def _unit_of_attributes(name: str, attributes: Mapping[Any, Any]) -> str:
+    """Return the unit in the attributes of an array, or raise InputError for two."""
+    values = [v for key, v in attributes.items() if str(key).lower() in ("unit", "units")]
+    texts = [value.decode() if isinstance(value, bytes) else str(value) for value in values]
     units = list(dict.fromkeys(filter(None, texts)))
     if len(units) > 1:
         raise two_units(name, *units[:2])
-    for key in PACKED:
+    for key in PACKING_ATTRIBUTES:
         if key in attributes:
             allowed = "its numbers are packed; unpack them, e.g. by xarray.decode_cf"
             raise refusal(name, f"an array with the attribute {key}", allowed)
@@ -183,7 +190,7 @@ def factor_of(name: str, own: Any, unit: str) -> Factor:
     """
     try:
         if isinstance(own, str):
-            return factor("" if own in PURE else own, unit)
+            return factor("" if own in PURE_UNITS else own, unit)
         return _of_pint(own, unit)
     except Unreadable as error:
         raise refusal(name, str(own), f"{error}; {_expected(unit)}") from None
@@ -224,16 +231,16 @@ def _checked(
 
 
 def _example(unit: str) -> str:
-    return repr(HINTS.get(unit, f"3 {unit}"))
+    return repr(EXAMPLES.get(unit, f"3 {unit}"))
 
 
-def counted(name: str, value: Any, least: int, most: int = MOST) -> int:
+def counted(name: str, value: Any, least: int, most: int = MOST_COUNTED) -> int:
     """Return a whole number that is large enough and not too large, or raise InputError."""
     count = int(value) if isinstance(value, Integral) and is_real(value) else None
     return _within(name, value, count, least, most)
 
 
-def whole(name: str, text: str, least: int, most: int = MOST) -> int:
+def whole(name: str, text: str, least: int, most: int = MOST_COUNTED) -> int:
     """Return the whole number in a text of ASCII digits, or raise InputError.
 
     Examples
@@ -243,14 +250,14 @@ def whole(name: str, text: str, least: int, most: int = MOST) -> int:
     401
     """
     plain = text.strip()
-    return _within(name, text, int(plain) if WHOLE.fullmatch(plain) else None, least, most)
+    return _within(name, text, int(plain) if WHOLE_NUMBER.fullmatch(plain) else None, least, most)
 
 
-def _within(name: str, given: Any, count: int | None, least: int, most: int) -> int:
+def _within(name: str, value: Any, count: int | None, least: int, most: int) -> int:
     if count is None or count < least:
-        raise refusal(name, given, f"must be a whole number of at least {least}")
+        raise refusal(name, value, f"must be a whole number of at least {least}")
     if count > most:
-        raise refusal(name, given, f"must be a whole number from {least} to {most}")
+        raise refusal(name, value, f"must be a whole number from {least} to {most}")
     return count
 
 

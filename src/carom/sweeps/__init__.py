@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
 from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from carom.io.extras import extra
 from carom.io.progress import Progress, advancing
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from carom.sweeps.stores import StoreRecord
 
-    BlockRecord = MemoryRecord | StoreRecord  # where the blocks of a sweep are kept
+    BlockRecord: TypeAlias = MemoryRecord | StoreRecord  # where the blocks of a sweep are kept
 
 
 @known_keywords

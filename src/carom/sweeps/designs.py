@@ -14,7 +14,8 @@ from carom.bodies.plausibility import doubts_of_values
 from carom.dimensionless.numerics.permutation import fractions, secrets
 from carom.quantities.arrays import Array, numbers
 from carom.quantities.refusals import InputError, one_of, refusal
-from carom.quantities.units import counted, number, told_unit
+from carom.quantities.shown import Shown
+from carom.quantities.units import counted, number, without_unit
 from carom.sweeps.inputs import (
     CHOSEN,
     CODE,
@@ -129,7 +130,7 @@ def read_range(name: str, given: Any, *, apart: bool = True) -> Range:
 
 
 def _as_table(name: str, given: Any) -> Mapping[str, Any]:
-    ends = np.atleast_1d(told_unit(name, given)[0]) if isinstance(given, np.ndarray) else given
+    ends = np.atleast_1d(without_unit(name, given)[0]) if isinstance(given, np.ndarray) else given
     ends = ends.tolist() if isinstance(ends, np.ndarray) else ends
     if isinstance(ends, list | tuple) and len(ends) == 2:
         return dict(zip(RANGE, ends, strict=False))
@@ -159,7 +160,7 @@ MOST_SEED = 2**128 - 1
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Design(ABC):
+class Design(Shown, ABC):
     """What a sweep needs to know of its points: the names of their inputs, and how these vary.
 
     `choices` are what the codes of an input that has names stand for. Points are `sampled` if their

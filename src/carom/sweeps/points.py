@@ -18,11 +18,10 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.rebounds import rebound
+from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.dimensionless.solution import solve
-from carom.impacts.outcome import PAIR, Outcome
+from carom.impacts.outcome import PAIR, Outcome, outcome_fits
 from carom.impacts.peaks import BODIES, MEASURES, StruckBody, growth, struck_bodies
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import NEEDED_STRENGTHS
@@ -169,8 +168,10 @@ def evaluate(
         first, second = _sphere(columns, "first"), _second(columns, kind)
         pair = unchecked(Pair, first=first, second=second, friction=columns["friction"])
         solution, spins = BlockSolution.blank(size, loss), (columns["spin"], columns["spin2"])
-        outcome = Outcome(pair, *velocities(columns), *spins, solution)
-        lost = (status == PointStatus.SOLVED) & np.logical_not(outcome.fits)
+        normal, tangential = velocities(columns)
+        scales = pair.scales(normal)
+        outcome = Outcome(pair, normal, tangential, *spins, solution, scales=scales)
+        lost = (status == PointStatus.SOLVED) & np.logical_not(outcome_fits(outcome))
         status[lost] = PointStatus.BEYOND_FLOATING_POINT
         law = None if loss is None else law_of(loss, columns.get(loss), columns.get(RATIO))
         solve_block(outcome, law, status, threads)
@@ -188,7 +189,7 @@ def evaluate(
 def solve_block(outcome: Outcome, law: LossLaw | None, status: Codes, threads: int | None) -> None:
     """Fill in the solution of the impacts whose status is SOLVED, and what became of them."""
     solution = cast(BlockSolution, outcome.solution)
-    loss, *numbers = (None,) if law is None else law.loss(outcome.pair, outcome.normal_speed)
+    loss, *numbers = (None,) if law is None else law.loss(outcome.pair, outcome.scales)
     given = (outcome.psi_in, outcome.pair.chi, *numbers)
     psi, chi, *parameters = (np.broadcast_to(x, status.shape) for x in given)
     run = status == PointStatus.SOLVED

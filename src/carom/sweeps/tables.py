@@ -13,12 +13,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from carom.bodies.cases import SWEEP, Case
-from carom.io.columns import column_in_si
 from carom.io.tables import read_table
-from carom.io.user_table import UserTable
-from carom.quantities.faults import Faults
+from carom.io.user_table import UserTable, column_in_si
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, clipped, refusal
+from carom.quantities.refusals import Faults, InputError, clipped, refusal
 from carom.quantities.texts import Unreadable, factor
 from carom.sweeps.designs import Box, Design, Grid, LatinHypercube
 from carom.sweeps.inputs import (

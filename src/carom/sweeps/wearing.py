@@ -13,7 +13,7 @@ from carom.bodies.pairs import Pair, check_second_spin, checked_pair
 from carom.bodies.shapes import Sphere, describe
 from carom.dimensionless.lossy.law import checked_law
 from carom.impacts.exact import solve_exactly
-from carom.impacts.outcome import Outcome
+from carom.impacts.outcome import Outcome, outcome_fits
 from carom.impacts.wear import MOST_RADII, largest, read_coefficient, rubbed, rubbed_at
 from carom.io.labels import flags, labelled_dataset
 from carom.io.progress import Progress, advancing
@@ -122,7 +122,8 @@ def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
     normal, motion = _motion_of(block.columns)
     solution = BlockSolution.blank(block.counts.size, losses)
     tangential, spin, spin2 = motion
-    outcome = Outcome(pair, normal, tangential, spin, spin2, solution)
+    scales = pair.scales(normal)
+    outcome = Outcome(pair, normal, tangential, spin, spin2, solution, scales=scales)
     block.status[:] = _status(block.columns, block.counts, outcome)
     solve_block(outcome, losses, block.status, None)
     found = np.asarray(rubbed(outcome), dtype=np.float64)
@@ -134,7 +135,9 @@ def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
 def _status(columns: Mapping[str, Array], counts: Array, outcome: Outcome) -> Codes:
     """Return what is known before solving; of two faults the one that is marked later."""
     status = np.full(counts.size, PointStatus.SOLVED, dtype=np.int8)
-    status[~np.broadcast_to(outcome.fits, status.shape)] = PointStatus.BEYOND_FLOATING_POINT
+    status[~np.broadcast_to(outcome_fits(outcome), status.shape)] = (
+        PointStatus.BEYOND_FLOATING_POINT
+    )
     status[~(counts >= 0.0)] = PointStatus.OUT_OF_RANGE
     status[~approaches(columns)] = PointStatus.NOT_APPROACHING
     for values in (*columns.values(), counts):
@@ -225,7 +228,7 @@ def wear_of_many(
     count = counted("n", n, 2, MOST_RADII)
     per_load = None if coefficient is None else read_coefficient(coefficient)
     spread = None if area is None else positive("area", area)
-    if losses is not None and any(map(np.ndim, checked_law(losses, "loss")(pair, 1.0))):
+    if losses is not None and any(map(np.ndim, checked_law(losses).loss(pair, pair.scales(1.0)))):
         raise refusal("losses", losses, "wear takes one number; carom.sweep takes many")
     motion = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
     motion |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2, "counts": counts}
@@ -277,7 +280,8 @@ def _on_spot(
     with advancing("adding up the wear", which.size, progress, unit="impacts") as advance:
         for i in which.tolist():
             before = Tangential(*(float(values[i]) for values in motion))
-            work = rubbed_at(solve_exactly(pair, float(normal[i]), before, losses), radii)
+            scales = pair.scales(float(normal[i]))
+            work = rubbed_at(solve_exactly(pair, scales, before, losses), radii)
             mean += many.counts[i] * work[0]
             lateral += many.counts[i] * work[1]
             advance(1)

@@ -12,9 +12,13 @@ from .engines.liggghts import Liggghts as Liggghts
 from .engines.running import EngineError as EngineError, run as run
 from .engines.yade import Yade as Yade
 from .entries import Entry as Entry, catalogue as catalogue
-from .errors import error_map as error_map, force_error as force_error
+from .errors import (
+    advised_steps as advised_steps,
+    error_map as error_map,
+    force_error as force_error,
+    step_error as step_error,
+)
 from .pack import write_pack as write_pack
 from .ranking import Ranking as Ranking, rank as rank
 from .scoring import Score as Score, score as score
-from .steps import advised_steps as advised_steps, step_error as step_error
 from .tuning import Tuning as Tuning, tune as tune

@@ -11,18 +11,21 @@ from numpy.typing import ArrayLike
 from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
 from carom.dem.base import ContactLaw, Law
-from carom.dem.contact_step import steel_on_steel
+from carom.dem.function import steel_on_steel
 from carom.io.progress import Progress, advancing
 from carom.io.user_table import CASE
 from carom.quantities.arrays import finite_line
 from carom.quantities.refusals import InputError, checked_type, refusal
+from carom.verify import errors
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
-from carom.verify.entries import CATALOGUE, EXACT, Entry, as_entry
-from carom.verify.errors import INCIDENCES, Impacts, in_words, largest, laws_of, root_mean_square
+from carom.verify.entries import CATALOGUE, EXACT, Entry, as_entry, listed
+from carom.verify.errors import INCIDENCES, Impacts
+from carom.verify.tables import text_table
 
 STEPS = 2000  # per duration of Hertz's contact
 OVERLAP = 1e-6  # d_max/R*: so small that the turning of a normal costs some 2e-5 in psi_2
+COLUMNS = ":<32s max:7.3f at:5.2f rms:7.3f law:8.1e seconds:8.2f"
 
 
 class Measured(NamedTuple):
@@ -39,6 +42,12 @@ class Measured(NamedTuple):
     law_error: float
     seconds: float
     failure: str | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the numbers, or the failure, as what JSON can hold."""
+        if self.failure:
+            return {"law": self.entry.label, "failure": self.failure}
+        return {"law": self.entry.label, **dict(zip(self._fields[1:-1], self[1:-1], strict=True))}
 
 
 @dataclass(frozen=True)
@@ -76,20 +85,20 @@ class Bench:
             "chi": self.pair.chi,
             "psi_in": list(self.psi),
             "steps": self.steps,
-            "laws": [_record(one) for one in self.measured],
+            "laws": [one.to_dict() for one in self.measured],
         }
 
-    as_record = to_dict  # its name before
-
     def __str__(self) -> str:
-        head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'law':>8s} {'seconds':>8s}"
         what = f"{self.engine} {self.version}".strip()
+        numbers = (one for one in self.measured if not one.failure)
+        table = text_table(COLUMNS, [(one.entry.label, *one[1:-1]) for one in numbers])
+        failed = (one for one in self.measured if one.failure)  # which come last
         return "\n".join(
             [
                 f"|error in psi_2| of {what} at chi = {self.pair.chi:.5g},"
-                f" {in_words(self.psi)}, with {self.steps} steps per contact",
-                f"  {'':32s} {head}",
-                *(_row(one) for one in self.measured),
+                f" {errors.in_words(self.psi)}, with {self.steps} steps per contact",
+                *table,
+                *(f"  {one.entry.label:32s} {one.failure}" for one in failed),
                 "max, at: largest error, and its psi_1",
                 "law: largest difference from the same law in Carom, in the same steps",
             ]
@@ -146,35 +155,31 @@ def bench(
     Traceback (most recent call last):
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
     """
-    bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
     checked_type("engine", engine, Engine, "must be a DEM program, e.g. carom.verify.Lammps()")
+    bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
     if engine.executable() is None:
         raise InputError(f"{engine.name}: {engine.remedy}")
-    known = _supported(engine, [as_entry(given) for given in laws_of("entries", entries)])
+    supported = _supported(engine, [as_entry(each) for each in listed("entries", entries)])
     slow = (OVERLAP * bodies.effective_radius / bodies.scales(1.0).length) ** 1.25
-    speed = psis * bodies.scales(slow).tangential_speed
+    speeds = tuple((psis * bodies.scales(slow).tangential_speed).tolist())
     version, measured, outcomes = "", [], {}
-    with advancing(engine.name, len(known), progress, unit="laws") as advance:
-        for done, entry in enumerate(known, start=1):
+    with advancing(engine.name, len(supported), progress, unit="laws") as advance:
+        for done, entry in enumerate(supported, start=1):
             assert isinstance(entry.law, ContactLaw)
             experiment = Experiment(
-                pair=bodies,
-                law=entry.law,
-                normal_speed=slow,
-                tangential_speed=tuple(speed.tolist()),
-                steps=steps,
+                pair=bodies, law=entry.law, normal_speed=slow, tangential_speed=speeds, steps=steps
             )
             try:
-                found = run(engine, experiment, time_limit=time_limit)
+                result = run(engine, experiment, time_limit=time_limit)
             except EngineError as error:
-                measured.append(Measured(entry, *(np.nan,) * 5, str(error)))
+                measured.append(_failed(entry, str(error)))
                 if isinstance(error, EngineKilled):
-                    measured += [Measured(e, *(np.nan,) * 5, "not run") for e in known[done:]]
+                    measured += [_failed(each, "not run") for each in supported[done:]]
                     break
             else:
-                version = found.version
-                outcomes[entry.label] = (experiment, found.outcomes)
-                measured.append(_measured(entry, experiment, found.outcomes, found.seconds))
+                version = result.version
+                outcomes[entry.label] = (experiment, result.outcomes)
+                measured.append(_measured(entry, experiment, result.outcomes, result.seconds))
             advance(1)
     ordered = sorted(measured, key=lambda one: (one.failure is not None, one.max_error))
     return Bench(
@@ -182,46 +187,34 @@ def bench(
     )
 
 
-def _has(engine: Engine, entry: Entry) -> bool:
-    return isinstance(entry.law, ContactLaw) and engine.supports(entry.law)
-
-
 def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
-    known: list[Entry] = []
-    for entry in entries:
-        if _has(engine, entry) and entry.law not in (other.law for other in known):
-            known.append(entry)
-    if not known:
-        has = [entry.label for entry in CATALOGUE if _has(engine, entry)]
+    """Return the entries that a program has, each law once, or raise InputError for none."""
+
+    def has(entry: Entry) -> bool:
+        return isinstance(entry.law, ContactLaw) and engine.supports(entry.law)
+
+    supported: list[Entry] = []
+    for entry in filter(has, entries):
+        if entry.law not in (other.law for other in supported):
+            supported.append(entry)
+    if not supported:
         labels = ", ".join(entry.label for entry in entries)
         builds = engine.builder and labels == EXACT
         until = f" until {engine.builder} has built it" if builds else ""
-        allowed = f"{engine.name} does not have it{until}; it has {'; '.join(has)}"
-        raise refusal("law", labels, allowed)
-    return known
+        others = "; ".join(entry.label for entry in filter(has, CATALOGUE))
+        raise refusal("law", labels, f"{engine.name} does not have it{until}; it has {others}")
+    return supported
+
+
+def _failed(entry: Entry, failure: str) -> Measured:
+    return Measured(entry, *(np.nan,) * 5, failure)
 
 
 def _measured(entry: Entry, experiment: Experiment, outcomes: Outcomes, seconds: float) -> Measured:
-    pair, given = experiment.pair, psi_out(experiment, outcomes)
-    met = Impacts(experiment.psi_in, pair.chi, pair.kappa)
-    error = given - met.exact(met.restitution(entry.law))
-    off = largest(given - met.rebound(entry.law, experiment.steps))
-    worst = float(met.psi[int(np.argmax(np.abs(error)))])
-    return Measured(entry, largest(error), worst, root_mean_square(error), off, seconds, None)
-
-
-def _row(one: Measured) -> str:
-    if one.failure:
-        return f"  {one.entry.label:32s} {one.failure}"
-    return (
-        f"  {one.entry.label:32s} {one.max_error:7.3f} {one.worst:5.2f} {one.rms_error:7.3f}"
-        f" {one.law_error:8.1e} {one.seconds:8.2f}"
-    )
-
-
-def _record(one: Measured) -> dict[str, Any]:
-    if one.failure:
-        return {"law": one.entry.label, "failure": one.failure}
-    numbers = one._asdict()
-    del numbers["entry"], numbers["failure"]
-    return {"law": one.entry.label, **numbers}
+    pair, psi_2 = experiment.pair, psi_out(experiment, outcomes)
+    impacts = Impacts(experiment.psi_in, pair.chi, pair.kappa)
+    error = psi_2 - impacts.exact(impacts.restitution(entry.law))
+    law_error = errors.largest(psi_2 - impacts.rebound(entry.law, experiment.steps))
+    worst = float(impacts.psi[int(np.argmax(np.abs(error)))])
+    max_error, rms_error = errors.largest(error), errors.root_mean_square(error)
+    return Measured(entry, max_error, worst, rms_error, law_error, seconds, None)

@@ -71,8 +71,8 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> found = carom.verify.stiffnesses(pair, "1 m/s")
-    >>> f"{found.normal:.4g} N/m, k_t/k_n = {found.ratio:.4f}"
+    >>> k = carom.verify.stiffnesses(pair, "1 m/s")
+    >>> f"{k.normal:.4g} N/m, k_t/k_n = {k.ratio:.4f}"
     '2.982e+07 N/m, k_t/k_n = 0.8235'
     """
     checked_pair(pair)

@@ -1,12 +1,15 @@
 """Which contact law the programs of the discrete element method have."""
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from dataclasses import fields
+from typing import Any, NamedTuple
 
 from carom import dem
 from carom.dem.base import Law
 from carom.quantities.refusals import nearest, refusal
-from carom.verify.errors import as_law
+
+LawOrFunction = Law | Callable[..., Any]  # the latter as a `FunctionLaw` takes it
+STORABLE = float | int | str | None  # parameters that a file can hold
 
 
 class Entry(NamedTuple):
@@ -35,7 +38,7 @@ class Entry(NamedTuple):
 
 
 EXACT = "exact, 32 springs"
-SHORT = {"carom": EXACT}  # as its styles in LAMMPS are called
+SHORT_NAMES = {"carom": EXACT}  # as its styles in LAMMPS are called
 
 CATALOGUE = (
     Entry("linear spring, k_t/k_n = kappa", dem.LinearSpring(), "any code with this ratio"),
@@ -85,22 +88,58 @@ def called(law: Law) -> str:
     return str(getattr(law, "variant", law.name))
 
 
-def as_entry(given: object) -> Entry:
+def is_function(value: object) -> bool:
+    """Return whether something may be a contact law that is written as a Python function."""
+    return callable(value) and not isinstance(value, type | Law)
+
+
+def as_law(law: object) -> Law:
+    """Return a law as it is, a function as a contact law, or raise InputError."""
+    if isinstance(law, Law):
+        return law
+    if callable(law) and is_function(law):
+        return dem.FunctionLaw(law)
+    raise refusal("law", law, "must be a contact law, e.g. carom.dem.LinearSpring()")
+
+
+def as_entry(item: object) -> Entry:
     """Return an entry as it is, or one for a law; raise InputError for anything else."""
-    if isinstance(given, Entry):
-        return given._replace(law=as_law(given.law))
-    law = as_law(given)
+    if isinstance(item, Entry):
+        return item._replace(law=as_law(item.law))
+    law = as_law(item)
     return Entry(called(law), law, "")
+
+
+def listed(name: str, laws: Any) -> Sequence[Any]:
+    """Return one law or a sequence of laws as a sequence, unchecked; InputError for none."""
+    if isinstance(laws, Law) or is_function(laws):
+        return [laws]
+    if isinstance(laws, list | tuple) and laws:
+        return laws
+    raise refusal(name, laws, "give at least one law, e.g. [carom.dem.LinearSpring()]")
+
+
+def damped(law: Law, restitution: float) -> Law:
+    """Return a law with the damping for a restitution, or raise InputError if it has none."""
+    if not hasattr(law, "restitution"):
+        raise refusal("restitution", restitution, f"{law.name} has no damping; leave it out")
+    return law._damped(restitution)
+
+
+def parameters(law: Law) -> dict[str, float | str | None]:
+    """Return the parameters of a law by name, those that are numbers or texts, without its name."""
+    values = {item.name: getattr(law, item.name) for item in fields(law) if item.name != "name"}
+    return {name: value for name, value in values.items() if isinstance(value, STORABLE)}
 
 
 def named(label: str | None) -> Sequence[Entry]:
     """Return the entry with this label, all without one; InputError offers the nearest."""
     if label is None:
         return CATALOGUE
-    found = [entry for entry in CATALOGUE if entry.label == SHORT.get(label, label)]
-    if not found:
+    entries = [entry for entry in CATALOGUE if entry.label == SHORT_NAMES.get(label, label)]
+    if not entries:
         labels = [entry.label for entry in CATALOGUE]
         alike = [text for text in labels if label.lower() in text.lower()] or labels
         hint = nearest(label, labels) if len(alike) == len(labels) else ""
         raise refusal("law", label, hint or f"must be one of: {'; '.join(alike)}")
-    return found
+    return entries

@@ -1,33 +1,32 @@
-"""How far a contact law is from the exact impact: in psi_2, in its forces, in energy."""
+"""How far a contact law is from the exact impact: in psi_2, in its forces, by its time steps."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import fields
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.losses import KelvinVoigt, LossLaw
-from carom.dem import FunctionLaw
-from carom.dem.base import SOLID, ContactLaw, Law
+from carom.dem.base import ContactLaw, Law, kappa_or_solid
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
-from carom.io.labels import labelled_dataset
+from carom.io.labels import labelled_dataset, pure
 from carom.quantities.arrays import Array, finite_line, positive_line
 from carom.quantities.refusals import InputError, refusal
-from carom.quantities.units import finite, positive
+from carom.quantities.units import counted, finite, positive
+from carom.verify.entries import LawOrFunction, as_law, parameters
 
 if TYPE_CHECKING:
     import xarray as xr
 
-
-LawOrFunction = Law | Callable[..., Any]  # the latter as a `FunctionLaw` takes it
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
-LARGEST, LARGEST_CHI = 1e9, 1e4  # psi_1, chi
-INSTANTS = 400  # at which forces are compared
-PLAIN = float | int | str | None  # parameters that a file can hold
-MISSED = 1e-3  # of the restitution asked for, less than which is rounding
+CHI = 1.4412  # of solid spheres with nu = 0.3
+LARGEST_PSI, LARGEST_CHI = 1e9, 1e4
+FORCE_INSTANTS = 400
+RESTITUTION_MISSED = 1e-3  # less is rounding
+FEWEST_STEPS, MOST_STEPS = 10, 2_000_000
+STEPS_GROW_BY = 2.0**0.5
 
 
 class ForceError(NamedTuple):
@@ -35,29 +34,6 @@ class ForceError(NamedTuple):
 
     largest: float
     rms: float
-
-
-def is_function(given: object) -> bool:
-    """Return whether something may be a contact law that is written as a Python function."""
-    return callable(given) and not isinstance(given, type | Law)
-
-
-def as_law(law: object) -> Law:
-    """Return a law as it is, a function as a contact law, or raise InputError."""
-    if isinstance(law, Law):
-        return law
-    if callable(law) and is_function(law):
-        return FunctionLaw(law)
-    raise refusal("law", law, "must be a contact law, e.g. carom.dem.LinearSpring()")
-
-
-def laws_of(name: str, given: Any) -> Sequence[Any]:
-    """Return what is given as laws, one or a sequence, not yet checked; InputError for none."""
-    if isinstance(given, Law) or is_function(given):
-        return [given]
-    if isinstance(given, list | tuple) and given:
-        return given
-    raise refusal(name, given, "give at least one law, e.g. [carom.dem.LinearSpring()]")
 
 
 class Impacts(NamedTuple):
@@ -80,15 +56,15 @@ class Impacts(NamedTuple):
 
     def rebound(self, law: Law, steps: int | None = None) -> Array:
         """Return psi_2 by a law, NaN where it leaves an impact unsolved, without a word of it."""
-        given = {"kappa": self.kappa, "steps": steps, "return_status": True}
-        return np.asarray(law.rebound(self.psi, self.chi, **given)[0])
+        psi_out = law.rebound(self.psi, self.chi, kappa=self.kappa, steps=steps, return_status=True)
+        return np.asarray(psi_out[0])
 
-    def refuse_failure(self, law: Law, found: Array) -> None:
+    def refuse_failure(self, law: Law, psi_out: Array) -> None:
         """Raise InputError for the first impact in which the function of a law failed."""
-        where = np.flatnonzero(~np.isfinite(found))[:1]
-        each = [np.broadcast_to(values, found.shape).flat[where] for values in self]
-        if where.size and (words := law._why(*(float(value[0]) for value in each))):
-            raise InputError(words)
+        for place in np.flatnonzero(~np.isfinite(psi_out))[:1]:
+            inputs = (np.broadcast_to(values, psi_out.shape).flat[place] for values in self)
+            if words := law._why(*map(float, inputs)):
+                raise InputError(words)
 
     def restitution(self, law: Law) -> float:
         """Return e that a law leaves: what its damping is asked for, unless it misses that."""
@@ -97,7 +73,7 @@ class Impacts(NamedTuple):
             return asked
         chi, kappa = (float(np.ravel(values)[0]) for values in self[1:])
         left = -float(law.history(0.0, chi, kappa=kappa)["normal_velocity"][-1])
-        return left if abs(left - asked) > MISSED else asked
+        return left if abs(left - asked) > RESTITUTION_MISSED else asked
 
     def exact(self, restitution: float) -> Array:
         """Return the exact psi_2, with losses that of Kelvin-Voigt solids, or raise InputError."""
@@ -109,16 +85,11 @@ class Impacts(NamedTuple):
         return np.asarray(exact)
 
 
-def kappa_or_solid(kappa: Any, chi: Any) -> Any:
-    """Return kappa as given, else that of solid spheres with this chi."""
-    return SOLID * chi if kappa is None else positive("kappa", kappa)
-
-
 def psi_line(psi: ArrayLike) -> Array:
-    """Return psi_1 as an array, or raise InputError beyond what errors can be told of."""
+    """Return psi_1 as an array, or raise InputError beyond which rounding hides errors."""
     values = finite_line("psi", psi)
-    if np.max(np.abs(values)) > LARGEST:
-        allowed = f"must be at most {LARGEST:g}; beyond it rounding hides the error"
+    if np.max(np.abs(values)) > LARGEST_PSI:
+        allowed = f"must be at most {LARGEST_PSI:g}; beyond it rounding hides the error"
         raise refusal("psi", float(np.max(np.abs(values))), allowed)
     return values
 
@@ -128,13 +99,6 @@ def in_words(psi: Sequence[float]) -> str:
     if len(psi) == 1:
         return f"at psi_1 = {psi[0]:g}"
     return f"at {len(psi)} incidences, psi_1 from {min(psi):g} to {max(psi):g}"
-
-
-def damped(law: Law, restitution: float) -> Law:
-    """Return a law with the damping for a restitution, or raise InputError if it has none."""
-    if not hasattr(law, "restitution"):
-        raise refusal("restitution", restitution, f"{law.name} has no damping; leave it out")
-    return law._damped(restitution)
 
 
 def losses_of(restitution: float) -> KelvinVoigt | None:
@@ -149,6 +113,22 @@ def constant_restitution(losses: LossLaw | None) -> float | None:
     if isinstance(losses, KelvinVoigt) and losses.restitution is not None:
         return float(losses.restitution)
     raise refusal("losses", losses, "give a restitution that is the same at all speeds")
+
+
+def largest(error: Array) -> float:
+    """Return the largest |error|."""
+    return float(np.max(np.abs(error)))
+
+
+def root_mean_square(error: Array) -> float:
+    """Return the root of the mean square of errors."""
+    return float(np.sqrt(np.mean(error**2)))
+
+
+def energy_gain(psi: Array, psi_out: Array) -> float:
+    """Return the largest |psi_2| - |psi_1|, zero if no impact gains energy; NaN counts as none."""
+    gain = np.abs(psi_out) - np.abs(psi)
+    return float(np.max(gain[np.isfinite(gain)], initial=0.0))
 
 
 def error_map(
@@ -188,8 +168,8 @@ def error_map(
     Examples
     --------
     >>> import carom
-    >>> found = carom.verify.error_map(carom.dem.LinearSpring(), [1.0, 6.0], [1.4412])
-    >>> found.error.values.round(3)
+    >>> errors = carom.verify.error_map(carom.dem.LinearSpring(), [1.0, 6.0], [1.4412])
+    >>> errors.error.values.round(3)
     array([[0.176, 0.   ]])
     """
     rule = as_law(law)
@@ -199,14 +179,14 @@ def error_map(
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
     met = Impacts(psis, rows, kappa_or_solid(kappa, rows))
     exact = rebound(psis, rows, losses=losses_of(met.restitution(rule)))
-    given = met.rebound(rule, steps)
-    if not np.any(np.isfinite(given)):
-        met.refuse_failure(rule, given)
-    error = given - exact
+    psi_out = met.rebound(rule, steps)
+    if not np.any(np.isfinite(psi_out)):
+        met.refuse_failure(rule, psi_out)
+    error = psi_out - exact
     names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
     return labelled_dataset(
         {
-            "psi_out": (wide, given),
+            "psi_out": (wide, psi_out),
             "psi_out_exact": (wide, exact, pure("psi_2 of the exact impact")),
             "error": (wide, error, pure("error in psi_2")),
             "max_error": ("chi", np.abs(error).max(axis=1), pure("largest |error in psi_2|")),
@@ -219,12 +199,6 @@ def error_map(
         {"chi": chis, "psi_in": psis},
         {"title": "error of a contact law", **names},
     )
-
-
-def parameters(law: Law) -> dict[str, float | str | None]:
-    """Return the parameters of a law by name, those that are numbers or texts, without its name."""
-    given = {item.name: getattr(law, item.name) for item in fields(law) if item.name != "name"}
-    return {name: given[name] for name in given if isinstance(given[name], PLAIN)}
 
 
 def force_error(
@@ -268,41 +242,132 @@ def force_error(
     if not isinstance(law, ContactLaw):
         return ForceError(np.nan, np.nan)
     psi, chi = finite("psi", psi, "1"), positive("chi", chi)
-    own = kappa_or_solid(kappa, chi)
-    history = law.history(psi, chi, kappa=own)
-    parts = np.linspace(0.0, 1.0, INSTANTS)
+    kappa = kappa_or_solid(kappa, chi)
+    history = law.history(psi, chi, kappa=kappa)
+    parts = np.linspace(0.0, 1.0, FORCE_INSTANTS)
     elapsed = history["time"] / history["time"][-1]
     force = np.interp(parts, elapsed, history["tangential_force"])
-    solution = solve(
-        psi, chi, losses=losses_of(Impacts(np.array([psi]), chi, own).restitution(law))
-    )
+    restitution = Impacts(np.array([psi]), chi, kappa).restitution(law)
+    solution = solve(psi, chi, losses=losses_of(restitution))
     exact = 1.5 * solution.at(parts * solution.duration).force
     return ForceError(largest(force - exact), root_mean_square(force - exact))
 
 
-def largest(error: Array) -> float:
-    """Return the largest |error|."""
-    return float(np.max(np.abs(error)))
+class TimeSteps(NamedTuple):
+    """Steps per duration of the elastic contact, and the error in psi_2 that they cause."""
+
+    steps: int
+    error: float
 
 
-def root_mean_square(error: Array) -> float:
-    """Return the root of the mean square of errors."""
-    return float(np.sqrt(np.mean(error**2)))
+def steps_record(step: TimeSteps | None) -> dict[str, Any]:
+    """Return steps and their error for JSON, None for none."""
+    steps, error = step or (None, None)
+    return {"steps": steps, "step_error": error}
 
 
-def energy_gain(psi: Array, psi_out: Array) -> float:
-    """Return the largest |psi_2| - |psi_1|, zero if no impact gains energy; NaN counts as none."""
-    gain = np.abs(psi_out) - np.abs(psi)
-    return float(np.max(gain[np.isfinite(gain)], initial=0.0))
+def step_error(
+    law: LawOrFunction,
+    steps: int,
+    psi: ArrayLike = INCIDENCES,
+    chi: float = CHI,
+    *,
+    kappa: float | None = None,
+) -> float:
+    """Return the largest |error in psi_2| that a number of time steps causes.
+
+    This is the largest |psi_2(steps) - psi_2(converged)| over the incidences. The time step is
+    t_c/steps, with the duration t_c of Hertz's contact.
+
+    Parameters
+    ----------
+    law : Law or callable
+        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
+    steps : int
+        Time steps per t_c, from 10 to two million.
+    psi : array_like
+        Incidences psi_1.
+    chi : float
+        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
+    kappa : float, optional
+        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
+
+    Returns
+    -------
+    float
+        In units of psi; NaN if the law has no limit.
+
+    Raises
+    ------
+    InputError
+        If the law is not a law, or a value is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.verify.step_error(carom.dem.LammpsMindlin("mindlin"), 100) < 1e-3
+    True
+    """
+    counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
+    law, met = as_law(law), Impacts.of(psi, chi, kappa)
+    return largest(met.rebound(law, steps) - met.rebound(law))
 
 
-def dashed(value: float | None, width: int, form: str) -> str:
-    """Return a number for a column of a table, a dash where there is none."""
-    return (
-        f"{'-':>{width}s}" if value is None or not np.isfinite(value) else f"{value:{width}{form}}"
-    )
+def advised_steps(
+    law: LawOrFunction,
+    allowed: float,
+    psi: ArrayLike = INCIDENCES,
+    chi: float = CHI,
+    *,
+    kappa: float | None = None,
+) -> TimeSteps | None:
+    """Return the fewest time steps whose error in psi_2 stays within what is allowed.
 
+    The error of twice as many steps must be within it, too; numbers are tried in steps of sqrt 2.
+    None if two million do not suffice, 2000 for a law that is a Python function, or the law has no
+    limit.
 
-def pure(meaning: str) -> dict[str, str]:
-    """Return the attributes of a pure number."""
-    return {"units": "1", "long_name": meaning}
+    Parameters
+    ----------
+    law : Law or callable
+        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
+    allowed : float
+        Largest |error in psi_2| that the steps may cause.
+    psi : array_like
+        Incidences psi_1.
+    chi : float
+        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
+    kappa : float, optional
+        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
+
+    Returns
+    -------
+    TimeSteps or None
+        `steps` per duration of Hertz's contact, and their `error` in psi_2.
+
+    Raises
+    ------
+    InputError
+        If the law is not a law, or a value is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.verify.advised_steps(carom.dem.LinearSpring(), 0.01).steps
+    28
+    """
+    bound = positive("allowed", allowed, "1")
+    law, met = as_law(law), Impacts.of(psi, chi, kappa)
+    converged = met.rebound(law)
+    if not np.all(np.isfinite(converged)):
+        return None
+    held: list[TimeSteps] = []
+    wanted = float(FEWEST_STEPS)
+    while wanted <= min(MOST_STEPS, law.most_steps):
+        steps = round(wanted)
+        error = largest(met.rebound(law, steps) - converged)
+        held = [*held, TimeSteps(steps, error)] if error <= bound else []
+        if len(held) == 3:
+            return held[0]
+        wanted *= STEPS_GROW_BY
+    return None

@@ -11,23 +11,28 @@ from carom import plots
 from carom.dem.base import ContactLaw
 from carom.dem.damping import damped_restitution
 from carom.io.citations import IMPACT, bibtex
-from carom.io.labels import labelled_dataset
+from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.units import or_none
 from carom.verify import errors
-from carom.verify.entries import CATALOGUE, Entry, as_entry
-from carom.verify.errors import INCIDENCES, Impacts, LawOrFunction, dashed, largest, pure
-from carom.verify.steps import TimeSteps, advised_steps, told_steps
+from carom.verify.entries import CATALOGUE, Entry, LawOrFunction, as_entry, damped, listed
+from carom.verify.errors import CHI, INCIDENCES, Impacts, TimeSteps
+from carom.verify.tables import text_table
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-CHI = 1.4412  # solid spheres with nu = 0.3
-FINE = 0.01  # error in psi_2 of a fine step
-NUMBERS = ("max_error", "worst", "rms_error", "force_error", "energy_gain")
+FINE_ERROR = 0.01  # in psi_2, of a fine step
+MEANINGS = {
+    "max_error": "largest |error in psi_2|",
+    "rms_error": "root mean square of the error in psi_2",
+    "force_error": "rms error of the tangential force, in mu P_max, of the worst impact",
+    "energy_gain": "largest |psi_2| - |psi_1|",
+}
+COLUMNS = ":<32s max:7.3f at:5.2f rms:7.3f force:7.3f steps:6d fine:5d"
 
 
 class Standing(NamedTuple):
@@ -49,6 +54,19 @@ class Standing(NamedTuple):
     step: TimeSteps | None
     fine_step: TimeSteps | None
     restitution: float = 1.0
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the standing as what JSON can hold."""
+        numbers = ("max_error", "worst", "rms_error", "force_error", "energy_gain")
+        return {
+            "law": self.entry.label,
+            "used_by": self.entry.used_by,
+            "source": self.entry.law.source,
+            "restitution": self.restitution,
+            **{name: or_none(getattr(self, name)) for name in numbers},
+            **errors.steps_record(self.step),
+            "fine_steps": self.fine_step.steps if self.fine_step else None,
+        }
 
 
 @dataclass(frozen=True)
@@ -89,10 +107,8 @@ class Ranking(Result):
         dict
             chi, kappa, psi_in and laws, a record each.
         """
-        laws = [_record(standing) for standing in self.standings]
+        laws = [standing.to_dict() for standing in self.standings]
         return {"chi": self.chi, "kappa": self.kappa, "psi_in": list(self.psi), "laws": laws}
-
-    as_record = to_dict  # its name before
 
     def cite(self) -> str:
         """Return what to cite for the exact answer, as BibTeX."""
@@ -111,30 +127,23 @@ class Ranking(Result):
             differ), max_error, rms_error, force_error, energy_gain and restitution (law), steps
             (law, step_kind), -1 where none suffice; chi and kappa.
         """
-        laws = [standing.entry.law for standing in self.standings]
-        met = Impacts(np.array(self.psi), self.chi, self.kappa)
-        given = [met.rebound(law) for law in laws]
-        left = [standing.restitution for standing in self.standings]
-        exact = list(map(met.exact, left))
+        impacts = Impacts(np.array(self.psi), self.chi, self.kappa)
+        psi_out = [impacts.rebound(standing.entry.law) for standing in self.standings]
+        restitutions = [standing.restitution for standing in self.standings]
+        exact = list(map(impacts.exact, restitutions))
         steps = [
             [step.steps if step else -1 for step in (s.step, s.fine_step)] for s in self.standings
         ]
-        meanings = {
-            "max_error": "largest |error in psi_2|",
-            "rms_error": "root mean square of the error in psi_2",
-            "force_error": "rms error of the tangential force, in mu P_max, of the worst impact",
-            "energy_gain": "largest |psi_2| - |psi_1|",
-        }
-        errors_of_laws = {
+        numbers = {
             name: ("law", [getattr(s, name) for s in self.standings], pure(meaning))
-            for name, meaning in meanings.items()
+            for name, meaning in MEANINGS.items()
         }
         return labelled_dataset(
             {
-                "psi_out": (("law", "psi_in"), np.array(given)),
+                "psi_out": (("law", "psi_in"), np.array(psi_out)),
                 "psi_out_exact": (*_without_copies(exact), pure("psi_2 of the exact impact")),
-                **errors_of_laws,
-                "restitution": ("law", left, pure("restitution that the law leaves")),
+                **numbers,
+                "restitution": ("law", restitutions, pure("restitution that the law leaves")),
                 "steps": (("law", "step_kind"), steps, pure("steps per contact, -1: none")),
                 "chi": self.chi,
                 "kappa": self.kappa,
@@ -142,7 +151,11 @@ class Ranking(Result):
             {
                 "law": ("law", [s.entry.label for s in self.standings], {}),
                 "psi_in": np.array(self.psi),
-                "step_kind": ("step_kind", ["below the error of the law", f"below {FINE:g}"], {}),
+                "step_kind": (
+                    "step_kind",
+                    ["below the error of the law", f"below {FINE_ERROR:g}"],
+                    {},
+                ),
             },
             {"title": "contact laws against the exact impact"},
         )
@@ -210,80 +223,72 @@ def rank(
     >>> round(damped.standings[0].max_error, 2)
     0.27
     """
-    met = Impacts.of(psi, chi, kappa)
-    given = [as_entry(each) for each in errors.laws_of("entries", entries)]
+    impacts = Impacts.of(psi, chi, kappa)
+    ranked = [as_entry(each) for each in listed("entries", entries)]
     if restitution is not None:
         if entries is CATALOGUE:
-            given = [entry for entry in given if hasattr(entry.law, "restitution")]
+            ranked = [entry for entry in ranked if hasattr(entry.law, "restitution")]
         e = damped_restitution("restitution", restitution)
-        given = [entry._replace(law=errors.damped(entry.law, e)) for entry in given]
+        ranked = [entry._replace(law=damped(entry.law, e)) for entry in ranked]
     standings = []
-    with advancing("ranking the laws", len(given), progress, unit="laws") as advance:
-        for entry in given:
-            standings.append(_standing(entry, met))
+    with advancing("ranking the laws", len(ranked), progress, unit="laws") as advance:
+        for entry in ranked:
+            standings.append(_standing(entry, impacts))
             advance(1)
     ordered = sorted(standings, key=lambda s: (np.isnan(s.max_error), s.max_error, s.entry.label))
-    return Ranking(met.chi, met.kappa, tuple(met.psi.tolist()), tuple(ordered))
+    return Ranking(impacts.chi, impacts.kappa, tuple(impacts.psi.tolist()), tuple(ordered))
 
 
-def _standing(entry: Entry, met: Impacts) -> Standing:
-    law, (psi, chi, kappa) = entry.law, met
-    given = met.rebound(law)
-    met.refuse_failure(law, given)
-    left = met.restitution(law)
-    error = given - met.exact(left)
-    most = largest(error)
+def _standing(entry: Entry, impacts: Impacts) -> Standing:
+    law, (psi, chi, kappa) = entry.law, impacts
+    psi_out = impacts.rebound(law)
+    impacts.refuse_failure(law, psi_out)
+    restitution = impacts.restitution(law)
+    error = psi_out - impacts.exact(restitution)
+    max_error = errors.largest(error)
     forces = [errors.force_error(law, at, chi, kappa=kappa).rms for at in psi if at != 0.0]
-    step = fine = None
-    if isinstance(law, ContactLaw) and most > 0.0:
-        step, fine = (advised_steps(law, e, psi, chi, kappa=kappa) for e in (most, FINE))
+    step = fine_step = None
+    if isinstance(law, ContactLaw) and max_error > 0.0:
+        step, fine_step = (
+            errors.advised_steps(law, allowed, psi, chi, kappa=kappa)
+            for allowed in (max_error, FINE_ERROR)
+        )
     return Standing(
-        entry,
-        most,
-        float(psi[int(np.argmax(np.abs(error)))]),
-        errors.root_mean_square(error),
-        float(np.max(forces)) if forces else float("nan"),
-        errors.energy_gain(psi, given),
-        step,
-        fine,
-        left,
+        entry=entry,
+        max_error=max_error,
+        worst=float(psi[int(np.argmax(np.abs(error)))]),
+        rms_error=errors.root_mean_square(error),
+        force_error=float(np.max(forces)) if forces else float("nan"),
+        energy_gain=errors.energy_gain(psi, psi_out),
+        step=step,
+        fine_step=fine_step,
+        restitution=restitution,
     )
-
-
-def _record(standing: Standing) -> dict[str, Any]:
-    entry, numbers = standing.entry, {name: getattr(standing, name) for name in NUMBERS}
-    return {
-        "law": entry.label,
-        "used_by": entry.used_by,
-        "source": entry.law.source,
-        "restitution": standing.restitution,
-        **{name: or_none(value) for name, value in numbers.items()},
-        **told_steps(standing.step),
-        "fine_steps": standing.fine_step.steps if standing.fine_step else None,
-    }
 
 
 def _table(ranking: Ranking) -> str:
     loses = any(s.restitution != 1.0 for s in ranking.standings)
-    head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'force':>7s} {'steps':>6s} {'fine':>5s}"
     rows = [
-        f"  {s.entry.label:32s} {s.max_error:7.3f} {s.worst:5.2f} {s.rms_error:7.3f}"
-        f" {dashed(s.force_error, 7, '.3f')} {dashed(s.step and s.step.steps, 6, 'd')}"
-        f" {dashed(s.fine_step and s.fine_step.steps, 5, 'd')}  {s.entry.used_by}"
-        + (f"; gains energy, {s.energy_gain:.2g} in psi" if s.energy_gain > 1e-9 else "")
-        + (f"; e = {s.restitution:.4g}" if loses else "")
+        (
+            *(s.entry.label, s.max_error, s.worst, s.rms_error, or_none(s.force_error)),
+            *(step and step.steps for step in (s.step, s.fine_step)),
+            s.entry.used_by
+            + (f"; gains energy, {s.energy_gain:.2g} in psi" if s.energy_gain > 1e-9 else "")
+            + (f"; e = {s.restitution:.4g}" if loses else ""),
+        )
         for s in ranking.standings
     ]
+    head, *lines = text_table(COLUMNS, rows)
     return "\n".join(
         [
             f"|error in psi_2| of contact laws at chi = {ranking.chi:g},"
             f" kappa = {ranking.kappa:.4g}, {errors.in_words(ranking.psi)}",
             *(["compared with viscoelastic bodies of the same restitution e"] if loses else []),
-            f"  {'':32s} {head}  used by",
-            *rows,
+            f"{head}  used by",
+            *lines,
             "max, at: largest error, and its psi_1; force: rms error of the tangential force in the"
             " worst impact, in mu P_max",
             "steps: time steps per contact, enough that they add less error than the law has; fine:"
-            f" enough for an error below {FINE:g}",
+            f" enough for an error below {FINE_ERROR:g}",
         ]
     )

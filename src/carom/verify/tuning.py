@@ -20,18 +20,10 @@ from carom.plots.result import card
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, one_of, refusal
 from carom.quantities.units import finite, positive
-from carom.verify.entries import CATALOGUE, called
-from carom.verify.errors import (
-    Impacts,
-    LawOrFunction,
-    as_law,
-    constant_restitution,
-    dashed,
-    largest,
-    laws_of,
-    root_mean_square,
-)
-from carom.verify.steps import TimeSteps, advised_steps, told_steps
+from carom.verify import errors
+from carom.verify.entries import CATALOGUE, LawOrFunction, as_law, called, listed
+from carom.verify.errors import Impacts, TimeSteps
+from carom.verify.tables import text_table
 
 AnyLaw = TypeVar("AnyLaw", bound=Law)
 
@@ -48,11 +40,12 @@ TUNED: tuple[Law, ...] = tuple(  # of each kind the first in the catalogue
     for place, entry in enumerate(CATALOGUE)
     if called(entry.law) not in [called(other.law) for other in CATALOGUE[:place]]
 )
-TRIALS = 17  # of a parameter, before the best is refined
-POINTS = 61
+SCAN_POINTS = 17  # before the best is refined
+INCIDENCES = 61
 SPEEDS = ("speed", "angle", "normal_speed", "tangential_speed")
-SPEED = 1.0  # m/s, of a case without one: k_n of linear springs depends on it
-MEASURES = {"max": largest, "rms": root_mean_square}
+DEFAULT_SPEED = 1.0  # m/s: k_n of linear springs depends on it
+MEASURES = {"max": errors.largest, "rms": errors.root_mean_square}
+COLUMNS = ":<32s parameter:>24s value:8.4f max:7.3f rms:7.3f as~given:9.3f steps:6d cost:7.4f"
 
 
 class TunedLaw(NamedTuple):
@@ -70,6 +63,18 @@ class TunedLaw(NamedTuple):
     before: float
     step: TimeSteps | None
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the law and its errors as what JSON can hold."""
+        return {
+            "law": called(self.law),
+            "parameter": self.parameter,
+            "value": self.value,
+            "max_error": self.max_error,
+            "rms_error": self.rms_error,
+            "max_error_before": self.before,
+            **errors.steps_record(self.step),
+        }
+
 
 @dataclass(frozen=True)
 class Tuning:
@@ -81,8 +86,8 @@ class Tuning:
     Examples
     --------
     >>> import carom
-    >>> found = carom.verify.tune([carom.dem.HardSphere(), carom.dem.LinearSpring()], chi=1.4412)
-    >>> [round(one.max_error, 2) for one in found.advice]
+    >>> tuning = carom.verify.tune([carom.dem.HardSphere(), carom.dem.LinearSpring()], chi=1.4412)
+    >>> [round(one.max_error, 2) for one in tuning.advice]
     [0.07, 0.3]
     """
 
@@ -115,7 +120,7 @@ class Tuning:
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""
-        rows = {called(one.law): _told(one) for one in self.advice}
+        rows = {called(one.law): _summary(one) for one in self.advice}
         return card(f"Closest to the exact psi_2 at chi = {self.chi:g}", rows)
 
     def to_dict(self) -> dict[str, Any]:
@@ -130,26 +135,22 @@ class Tuning:
             "chi": self.chi,
             "kappa": self.kappa,
             "psi_in": list(self.span),
-            "laws": [_record(one) for one in self.advice],
+            "laws": [one.to_dict() for one in self.advice],
         }
 
-    as_record = to_dict  # its name before
-
     def __str__(self) -> str:
-        head = f"{'parameter':>24s} {'value':>8s} {'max':>7s} {'rms':>7s} {'as given':>9s} "
         rows = [
-            f"  {called(one.law):32s} {one.parameter or '-':>24s} {dashed(one.value, 8, '.4f')}"
-            f" {one.max_error:7.3f} {one.rms_error:7.3f} {one.before:9.3f}"
-            f" {dashed(one.step and one.step.steps, 6, 'd')}"
-            f" {dashed(one.step and one.step.error, 7, '.4f')}"
+            (
+                *(called(one.law), one.parameter, one.value),
+                *(one.max_error, one.rms_error, one.before, *(one.step or (None, None))),
+            )
             for one in self.advice
         ]
         return "\n".join(
             [
                 f"Laws closest to the exact psi_2 at chi = {self.chi:g}, kappa = {self.kappa:.4g},"
                 f" psi_1 from {self.span[0]:g} to {self.span[1]:g}",
-                f"  {'':32s} {head}{'steps':>6s} {'cost':>7s}",
-                *rows,
+                *text_table(COLUMNS, rows),
                 "max, rms: error in psi_2 with this value; as given: largest error without tuning",
                 "steps: time steps per contact that add less than a tenth of max; cost: the error"
                 " that they add; all for e = 1",
@@ -204,31 +205,31 @@ def tune(
     Examples
     --------
     >>> import carom
-    >>> found = carom.verify.tune([carom.dem.HertzLinearHistory()], chi=1.4412).advice[0]
-    >>> found.parameter, round(found.value, 2), round(found.before, 2), round(found.max_error, 2)
+    >>> best = carom.verify.tune([carom.dem.HertzLinearHistory()], chi=1.4412).advice[0]
+    >>> best.parameter, round(best.value, 2), round(best.before, 2), round(best.max_error, 2)
     ('stiffness', 0.7, 0.61, 0.17)
     """
     if psi is None:
-        psi = np.linspace(0.0, 4.0 * positive("chi", chi), POINTS)[1:]
-    met = Impacts.of(psi, chi, kappa)
+        psi = np.linspace(0.0, 4.0 * positive("chi", chi), INCIDENCES)[1:]
+    impacts = Impacts.of(psi, chi, kappa)
     one_of("measure", measure, MEASURES)
     advice = []
-    given = laws_of("laws", laws)
-    with advancing("tuning the laws", len(given), progress, unit="laws") as advance:
-        for law in map(as_law, given):
-            advice.append(_advice(law, met, measure))
+    chosen = listed("laws", laws)
+    with advancing("tuning the laws", len(chosen), progress, unit="laws") as advance:
+        for law in map(as_law, chosen):
+            advice.append(_tuned(law, impacts, measure))
             advance(1)
-    errors = [getattr(one, f"{measure}_error") for one in advice]
-    ordered = [advice[i] for i in np.argsort(errors, kind="stable")]  # NaN last
-    span = float(met.psi.min()), float(met.psi.max())
-    return Tuning(met.chi, met.kappa, span, tuple(ordered))
+    remaining = [getattr(one, f"{measure}_error") for one in advice]
+    ordered = [advice[i] for i in np.argsort(remaining, kind="stable")]  # NaN last
+    span = float(impacts.psi.min()), float(impacts.psi.max())
+    return Tuning(impacts.chi, impacts.kappa, span, tuple(ordered))
 
 
-def _advice(law: Law, met: Impacts, measure: str) -> TunedLaw:
-    exact = met.exact(met.restitution(law))
+def _tuned(law: Law, impacts: Impacts, measure: str) -> TunedLaw:
+    exact = impacts.exact(impacts.restitution(law))
 
     def error(candidate: Law) -> Array:
-        return met.rebound(candidate) - exact
+        return impacts.rebound(candidate) - exact
 
     def cost(candidate: Law) -> float:
         value = MEASURES[measure](error(candidate))
@@ -238,16 +239,17 @@ def _advice(law: Law, met: Impacts, measure: str) -> TunedLaw:
     if type(law) in FREE:
         name, low, high = FREE[type(law)]
         if name == "stiffness_ratio":
-            low, high = met.kappa * low, met.kappa * high
+            low, high = impacts.kappa * low, impacts.kappa * high
         best = _closest(law, name, low, high, cost)
-    left, step = error(best), None
-    met.refuse_failure(law, left)
-    most = largest(left)
-    if isinstance(best, ContactLaw) and most > 0.0:
-        step = advised_steps(best, 0.1 * most, met.psi, met.chi, kappa=met.kappa)
-    value = None if name is None else float(getattr(best, name) or met.kappa)
-    before = largest(error(law))
-    return TunedLaw(best, name, value, most, root_mean_square(left), before, step)
+    remaining, step = error(best), None
+    impacts.refuse_failure(law, remaining)
+    max_error, rms_error = errors.largest(remaining), errors.root_mean_square(remaining)
+    if isinstance(best, ContactLaw) and max_error > 0.0:
+        psi, chi, kappa = impacts
+        step = errors.advised_steps(best, 0.1 * max_error, psi, chi, kappa=kappa)
+    value = None if name is None else float(getattr(best, name) or impacts.kappa)
+    before = errors.largest(error(law))
+    return TunedLaw(best, name, value, max_error, rms_error, before, step)
 
 
 def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law], float]) -> Law:
@@ -257,36 +259,24 @@ def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law],
     def changed(value: float) -> Law:
         return replace(law, **{name: float(value)})
 
-    scan = np.geomspace(low, high, TRIALS) if low > 0.0 else np.linspace(low, high, TRIALS)
+    spaced = np.geomspace if low > 0.0 else np.linspace
+    scan = spaced(low, high, SCAN_POINTS)
     costs = [cost(changed(value)) for value in scan]
-    found = [(costs[0], scan[0]), (costs[-1], scan[-1])]
-    for i in range(1, TRIALS - 1):
+    minima = [(costs[0], scan[0]), (costs[-1], scan[-1])]
+    for i in range(1, SCAN_POINTS - 1):
         if costs[i] <= min(costs[i - 1], costs[i + 1]):
-            around = (float(scan[i - 1]), float(scan[i + 1]))
             minimum = minimize_scalar(
                 lambda value: cost(changed(value)),
-                bounds=around,
+                bounds=(float(scan[i - 1]), float(scan[i + 1])),
                 method="bounded",
                 options={"xatol": 1e-5},
             )
-            found += [(minimum.fun, minimum.x), (costs[i], scan[i])]
-    least, value = min(found)
+            minima += [(minimum.fun, minimum.x), (costs[i], scan[i])]
+    least, value = min(minima)
     return changed(value) if least < cost(law) else law
 
 
-def _record(one: TunedLaw) -> dict[str, Any]:
-    return {
-        "law": called(one.law),
-        "parameter": one.parameter,
-        "value": one.value,
-        "max_error": one.max_error,
-        "rms_error": one.rms_error,
-        "max_error_before": one.before,
-        **told_steps(one.step),
-    }
-
-
-def _told(one: TunedLaw) -> str:
+def _summary(one: TunedLaw) -> str:
     error = f"|error in psi_2| {one.max_error:.3f}"
     if one.value is None:
         return error
@@ -317,36 +307,43 @@ def setting_of(
 
     A restitution takes the place of that of the case; without either it is 1.
     """
-    if case is None and chi is None:
-        raise InputError("case: missing; give a case file, or --chi, e.g. --chi 1.44")
-    wanted = damped_restitution("restitution", "1" if restitution is None else restitution)
     if case is None:
-        if wanted != 1.0:
-            raise refusal(
-                "restitution", restitution, "it needs a case file, as dampings depend on the bodies"
-            )
-        ratio = positive("chi", chi)
-        last = 4.0 * ratio if stop is None else finite("psi_in", stop)
-        own = None if kappa is None else positive("kappa", kappa)
-        return Setting(ratio, own, _range(finite("psi_in", start), last, start, stop))
+        return _without_bodies(chi, kappa, start, stop, restitution)
     for name, value in (("chi", chi), ("kappa", kappa)):
         if value is not None:
             raise refusal(name, value, "it follows from the case; leave it out")
-    if restitution is None and (told := constant_restitution(losses_of(case))) is not None:
-        wanted = damped_restitution("restitution", told)
+    wanted: Any = restitution
+    if restitution is None:
+        wanted = errors.constant_restitution(losses_of(case)) or 1.0
+    e = damped_restitution("restitution", wanted)
     pair, motion = pair_of(case), motion_of(case)
     with_friction(pair, "without friction there is nothing to tune")
-    given = {name: motion.get(name) for name in SPEEDS}
-    speed = approach(**given)[0] if any(value is not None for value in given.values()) else SPEED
+    speeds = {name: motion.get(name) for name in SPEEDS}
+    moves = any(value is not None for value in speeds.values())
+    speed = approach(**speeds)[0] if moves else DEFAULT_SPEED
     per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu
     last = 4.0 * pair.chi if stop is None else per_slope * tan(slope(stop))
     psi = _range(per_slope * tan(slope(start)), last, start, stop)
     duration = DURATION * pair.scales(speed).time
-    return Setting(pair.chi, pair.kappa, psi, wanted, pair, speed, duration)
+    return Setting(pair.chi, pair.kappa, psi, e, pair, speed, duration)
+
+
+def _without_bodies(
+    chi: str | None, kappa: str | None, start: str, stop: str | None, restitution: str | None
+) -> Setting:
+    if chi is None:
+        raise InputError("case: missing; give a case file, or --chi, e.g. --chi 1.44")
+    if restitution is not None and damped_restitution("restitution", restitution) != 1.0:
+        allowed = "it needs a case file, as dampings depend on the bodies"
+        raise refusal("restitution", restitution, allowed)
+    ratio = positive("chi", chi)
+    last = 4.0 * ratio if stop is None else finite("psi_in", stop)
+    own = None if kappa is None else positive("kappa", kappa)
+    return Setting(ratio, own, _range(finite("psi_in", start), last, start, stop))
 
 
 def _range(first: float, last: float, start: str, stop: str | None) -> Array:
-    """Return psi_1 from the first to the last; `start` and `stop` are how they were given."""
+    """Return psi_1 from the first to the last; `start` and `stop` are their texts."""
     if first < 0.0:
         raise refusal("from", start, "must not be negative")
     if first >= last and stop is None:
@@ -355,4 +352,4 @@ def _range(first: float, last: float, start: str, stop: str | None) -> Array:
         )
     if first >= last:
         raise refusal("to", stop, f"must be above --from, {start}")
-    return np.linspace(first, last, POINTS)[0 if first > 0.0 else 1 :]
+    return np.linspace(first, last, INCIDENCES)[0 if first > 0.0 else 1 :]

@@ -1,14 +1,15 @@
-"""The state at any time between the recorded steps of an impact."""
+"""The state of an impact, and the memory of its contact, between the recorded steps."""
 
 import numpy as np
 
-from carom.dimensionless.elastic import motion as at
+from carom.dimensionless.elastic import motion as at, record as change
 from carom.dimensionless.elastic.integration import evaluate, value_and_slope
-from carom.dimensionless.elastic.motion import Series
+from carom.dimensionless.elastic.memory import MADE, OUTER, SLIP_SIGN
 from carom.dimensionless.elastic.phases import GROSS, RETRACED
-from carom.dimensionless.elastic.record import AT_B, AT_V as CHANGE_V, CLOCK, MODE, SIGN, STEP
+from carom.dimensionless.elastic.record import CLOCK, MODE, SIGN, STEP, STRETCH, Record, Steps
+from carom.dimensionless.fields.profile import Annulus, Memory
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.numerics.arrays import Array, Cube, Matrix, Vector
+from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(16)
@@ -16,45 +17,43 @@ MAX_BISECTIONS = 80
 
 # What is sampled: penetration, speed, psi, displacement U, force Q, energy stored and dissipated in
 # units of the ledger, radius of the stick zone, radius of the contact.
-COLUMNS = 9
-AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_STORED, AT_DISSIPATED, AT_STICK, AT_CONTACT = range(COLUMNS)
+AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_STORED, AT_DISSIPATED, AT_STICK, AT_CONTACT = range(9)
+SAMPLED = 9
 
 
 @entry_point()
-def tabulate(
-    nodes: Matrix,
-    series: Cube,
-    changes: Matrix,
-    chi: float,
-    times: Vector,
-    moved: Matrix,
-    change_times: Vector,
-) -> None:
+def tabulate(changes: Matrix, steps: Steps, change_times: Vector) -> None:
     """Write the times of all steps and changes, and displacement and frictional work at steps."""
     for i in range(changes.shape[0]):
-        change_times[i] = hertz.time(changes[i, AT_B] ** 2, changes[i, CHANGE_V])
-    for i in range(nodes.shape[0]):
-        b, v = series[i, 0, at.B], series[i, 0, at.V]
+        change_times[i] = hertz.time(changes[i, change.AT_B] ** 2, changes[i, change.AT_V])
+    times, moved = steps.times, steps.moved
+    for i in range(times.size):
+        b, v = steps.series[i, 0, at.B], steps.series[i, 0, at.V]
         times[i] = hertz.time(b * b, v) if i > 0 else 0.0
         if i > 0:
-            u, w = progress(nodes[i - 1], series[i - 1], chi, nodes[i - 1, STEP], b, v)
+            u, w = progress(steps, i - 1, steps.nodes[i - 1, STEP], b, v)
             moved[i, 0] = moved[i - 1, 0] + u
             moved[i, 1] = moved[i - 1, 1] + w
 
 
 @kernel
-def progress(
-    node: Array, series: Series, chi: float, h: float, b: float, v: float
-) -> tuple[float, float]:
+def pace(steps: Steps, i: int, h: float) -> float:
+    """Return how fast the clock of the contact runs at a place of a step."""
+    by_front = steps.nodes[i, CLOCK] == at.FRONT
+    return evaluate(steps.series[i][:, at.SLOWER], h) if by_front else 1.0
+
+
+@kernel
+def progress(steps: Steps, i: int, h: float, b: float, v: float) -> tuple[float, float]:
     """Return displacement and frictional work from the start of a step to h, where b and v are."""
+    node, series = steps.nodes[i], steps.series[i]
     if node[MODE] == GROSS:
-        return gross_progress(node, series, chi, b, v)
+        return gross_progress(steps, i, b, v)
     u, w = 0.0, 0.0
-    for i in range(ABSCISSAS.size):
-        x = 0.5 * h * (1.0 + ABSCISSAS[i])
-        rate = evaluate(series[:, at.SLOWER], x) if node[CLOCK] == at.FRONT else 1.0
+    for k in range(ABSCISSAS.size):
+        x = 0.5 * h * (1.0 + ABSCISSAS[k])
         radius, psi = evaluate(series[:, at.B], x), evaluate(series[:, at.PSI], x)
-        weight = h * WEIGHTS[i] * radius * rate
+        weight = h * WEIGHTS[k] * radius * pace(steps, i, x)
         u += weight * psi
         if node[MODE] != at.STICK:
             front = evaluate(series[:, at.A], x)
@@ -64,11 +63,10 @@ def progress(
 
 
 @kernel
-def gross_progress(
-    node: Array, series: Series, chi: float, b: float, v: float
-) -> tuple[float, float]:
+def gross_progress(steps: Steps, i: int, b: float, v: float) -> tuple[float, float]:
     """Return displacement and frictional work from the start of gross slip to b and v."""
-    b0, v0, psi0, sign = series[0, at.B], series[0, at.V], series[0, at.PSI], node[SIGN]
+    chi, sign, start = steps.chi, steps.nodes[i, SIGN], steps.series[i, 0]
+    b0, v0, psi0 = start[at.B], start[at.V], start[at.PSI]
     duration = hertz.time(b * b, v) - hertz.time(b0 * b0, v0)
     u = (psi0 - 2.0 * chi * sign * v0) * duration + 2.0 * chi * sign * (b * b - b0 * b0)
     drop = v0 - v
@@ -79,12 +77,12 @@ def gross_progress(
 
 
 @kernel
-def position(node: Array, series: Series, row: int, target: float, falling: bool) -> float:
+def position(steps: Steps, i: int, column: int, target: float, falling: bool) -> float:
     """Return how far into a step a monotone variable, falling or rising, reaches the target."""
-    low, high = 0.0, node[STEP]
+    low, high = 0.0, steps.nodes[i, STEP]
     x = high
     for _ in range(MAX_BISECTIONS):
-        value, steepness = value_and_slope(series[:, row], x)
+        value, steepness = value_and_slope(steps.series[i][:, column], x)
         difference = value - target
         if (difference > 0.0) == falling:
             low = x
@@ -100,43 +98,27 @@ def position(node: Array, series: Series, row: int, target: float, falling: bool
 
 
 @entry_point()
-def sample(
-    nodes: Matrix,
-    series: Cube,
-    chi: float,
-    times: Vector,
-    moved: Matrix,
-    wanted: Vector,
-    out: Matrix,
-) -> None:
+def sample(steps: Steps, wanted: Vector, out: Matrix) -> None:
     """Write one row of `out` for each wanted time."""
-    psi_in = series[0, 0, at.PSI]
     for row in range(wanted.size):
         t = wanted[row]
-        i = np.searchsorted(times, t, side="right") - 1
-        mirrored = nodes[i, MODE] == RETRACED
+        i = np.searchsorted(steps.times, t, side="right") - 1
+        mirrored = steps.nodes[i, MODE] == RETRACED
         if mirrored:
             t = hertz.DURATION - t
-            i = np.searchsorted(times, t, side="right") - 1
+            i = np.searchsorted(steps.times, t, side="right") - 1
         d, v = hertz.penetration_and_speed(t)
-        write_sample(nodes[i], series[i], chi, moved[i], psi_in, d, v, out[row])
+        write_sample(steps, i, d, v, out[row])
         if mirrored:
             out[row, AT_V] = -v
             out[row, AT_PSI] = -out[row, AT_PSI]
 
 
 @kernel
-def write_sample(
-    node: Array,
-    series: Series,
-    chi: float,
-    moved: Array,
-    psi_in: float,
-    d: float,
-    v: float,
-    out: Array,
-) -> None:
+def write_sample(steps: Steps, i: int, d: float, v: float, out: Array) -> None:
     """Write what there is to tell at penetration d and speed v inside a step."""
+    node, series, chi = steps.nodes[i], steps.series[i], steps.chi
+    psi_1 = steps.series[0, 0, at.PSI]
     b = np.sqrt(d)
     h = 0.0
     if node[MODE] == GROSS:
@@ -145,42 +127,74 @@ def write_sample(
         stick = 0.0
     else:
         if abs(v) < 0.7:
-            h = position(node, series, at.V, v, True)
+            h = position(steps, i, at.V, v, True)
         else:
-            h = position(node, series, at.B, b, v < 0.0)
+            h = position(steps, i, at.B, b, v < 0.0)
         psi, q = evaluate(series[:, at.PSI], h), evaluate(series[:, at.Q], h)
         stick = b if node[MODE] == at.STICK else evaluate(series[:, at.A], h)
-    u, w = progress(node, series, chi, h, b, v)
+    u, w = progress(steps, i, h, b, v)
     out[AT_D], out[AT_V], out[AT_PSI], out[AT_Q] = d, v, psi, q
-    out[AT_U], out[AT_DISSIPATED] = moved[0] + u, 3.75 * chi * (moved[1] + w)
+    out[AT_U], out[AT_DISSIPATED] = steps.moved[i, 0] + u, 3.75 * chi * (steps.moved[i, 1] + w)
     if node[MODE] == GROSS:
         out[AT_STORED] = chi * d * d * b  # (15/8) chi integral of (d - s)^2
     else:
-        out[AT_STORED] = 0.5 * (psi_in - psi) * (psi_in + psi) - out[AT_DISSIPATED]
+        out[AT_STORED] = 0.5 * (psi_1 - psi) * (psi_1 + psi) - out[AT_DISSIPATED]
     out[AT_STICK], out[AT_CONTACT] = min(stick, b), b
 
 
-@kernel
-def loading_state(nodes: Array, series: Array, moved: Array, radius: float) -> tuple[float, float]:
-    """Return g and U when stick laid new contact at this radius, or next to it at its rim."""
-    nearest, best = 0, np.inf
-    for i in range(nodes.shape[0]):
-        if nodes[i, MODE] == at.STICK:
-            outer = evaluate(series[i, :, at.B], nodes[i, STEP])
-            away = max(series[i, 0, at.B] - radius, radius - outer, 0.0)
-            if away < best:
-                nearest, best = i, away
-    node, steps = nodes[nearest], series[nearest]
-    h = position(node, steps, at.B, radius, False)
-    psi, psi_slope = value_and_slope(steps[:, at.PSI], h)
-    v, v_slope = value_and_slope(steps[:, at.V], h)
-    u, _w = progress(node, steps, 0.0, h, radius, v)
-    g = psi / v if v > 1e-9 else psi_slope / v_slope  # at the turning point both vanish
-    return g, moved[nearest, 0] + u
-
-
 @entry_point()
-def loading_states(nodes: Matrix, series: Cube, moved: Matrix, radii: Vector, out: Matrix) -> None:
-    """Write g and U for every radius, as `loading_state` gives them."""
-    for i in range(radii.size):
-        out[i, 0], out[i, 1] = loading_state(nodes, series, moved, radii[i])
+def loading_states(steps: Steps, radii: Vector, out: Matrix) -> None:
+    """Write g and U when stick laid new contact at radii, or next to them at its rim."""
+    for row in range(radii.size):
+        radius, nearest, best = radii[row], 0, np.inf
+        for i in range(steps.times.size):
+            if steps.nodes[i, MODE] == at.STICK:
+                outer = evaluate(steps.series[i, :, at.B], steps.nodes[i, STEP])
+                away = max(steps.series[i, 0, at.B] - radius, radius - outer, 0.0)
+                if away < best:
+                    nearest, best = i, away
+        series, h = steps.series[nearest], position(steps, nearest, at.B, radius, False)
+        psi, psi_slope = value_and_slope(series[:, at.PSI], h)
+        v, v_slope = value_and_slope(series[:, at.V], h)
+        u, _w = progress(steps, nearest, h, radius, v)
+        # at the turning point both vanish
+        out[row, 0] = psi / v if v > 1e-9 else psi_slope / v_slope
+        out[row, 1] = steps.moved[nearest, 0] + u
+
+
+def memory_at(record: Record, steps: Steps, now: dict[str, float], scale: float) -> Memory:
+    """Return the memory at the instant that `now` describes; `scale` is as in `Solution`."""
+    d, edge, front = now["penetration"], now["contact_radius"], now["stick_radius"]
+    step = int(np.searchsorted(steps.times, now["time"], side="right")) - 1
+    node, mirror = steps.nodes[step], -1 if scale < 0.0 else 1
+    stretch = int(node[STRETCH])
+    annuli, inner = [], 0.0
+
+    def inside(annulus: Annulus, x: Array) -> tuple[Array, Array]:
+        if annulus.sign:
+            sign = annulus.sign * abs(scale)
+            q = now["displacement"] + sign * (annulus.limit - x * x)
+            return q, np.full(x.shape, sign)
+        laid = np.empty((x.size, 2))
+        loading_states(steps, x, laid)
+        return now["displacement"] - scale * laid[:, 1], scale * laid[:, 0]
+
+    for row in record.stacks[stretch, : record.depths[stretch]]:
+        outer, sign = min(float(row[OUTER]), front), mirror * int(row[SLIP_SIGN])
+        if outer > inner:
+            annuli.append(Annulus(inner, outer, sign, _limit(steps, row)))
+            inner = outer
+    if edge > inner:
+        sign = int(node[SIGN])
+        limit = d - sign * now["displacement"] / scale
+        sticks = node[MODE] in (at.STICK, RETRACED)
+        annuli.append(Annulus(inner, edge, *((0, np.nan) if sticks else (mirror * sign, limit))))
+    return Memory(now["time"], d, now["displacement"], tuple(annuli), inside)
+
+
+def _limit(steps: Steps, row: Array) -> float:
+    """Return l = d - sigma U when slip made the annulus."""
+    made = int(row[MADE])
+    if row[SLIP_SIGN] == 0.0 or made >= len(steps.series):
+        return np.nan
+    return float(steps.series[made, 0, at.B] ** 2 - row[SLIP_SIGN] * steps.moved[made, 0])

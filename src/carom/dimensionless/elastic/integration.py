@@ -18,12 +18,12 @@ RING_CLOSES = 2  # the edge recedes onto the front
 UNRESOLVED = 3  # no event within the bound on steps
 
 MAX_STEPS = 500
-PERIOD = 5  # at the first touch only every fifth coefficient of a series is not zero
-SLACK = 2e-15  # by which an edge may exceed its limit before it slips: rounding, for g = 1 exactly
-NOISE = 1e-14  # a gap that closes by less than this inside a step is left open
-PIECES = 4  # of a step, in each of which an event function is taken for a cubic while searching
+TERM_PERIOD = 5  # at the first touch only every fifth coefficient of a series is not zero
+LIMIT_SLACK = 2e-15  # an edge may exceed its limit so far before it slips: rounding, for g = 1
+GAP_NOISE = 1e-14  # a gap that closes by less than this inside a step is left open
+CUBIC_PIECES = 4  # of a step, in each of which an event function is searched as a cubic
 MAX_ROOT_STEPS = 60
-SHALLOW = 1e-3  # the lowest point of a gap is sought exactly where the cubic comes down to this
+SHALLOW_GAP = 1e-3  # the lowest point of a gap is sought exactly where the cubic comes down to this
 
 
 class Work(NamedTuple):
@@ -32,6 +32,15 @@ class Work(NamedTuple):
     series: Matrix
     gap: Vector
     stack: Matrix
+
+
+class Run(NamedTuple):
+    """An impact that is solved: its arrays, what is kept of it, chi, and the error of a step."""
+
+    work: Work
+    record: Record
+    chi: float
+    tolerance: float
 
 
 @kernel
@@ -79,7 +88,7 @@ def reach(s: Series, mode: int, tolerance: float) -> float:
     """Return the step up to which the series are good to the tolerance."""
     used = at.A if mode == at.STICK else at.STATE_SIZE
     h = 1.0
-    for k in range(ORDER - PERIOD + 1, ORDER + 1):
+    for k in range(ORDER - TERM_PERIOD + 1, ORDER + 1):
         largest = 0.0
         for i in range(used):
             largest = max(largest, abs(s[k, i]))
@@ -101,7 +110,7 @@ def write_gap(s: Series, mode: int, sign: int, inner: float, event: int, gap: Se
         else:
             gap[k] = s[k, at.B] - s[k, at.A]
     if mode == at.STICK:
-        gap[0] += SLACK
+        gap[0] += LIMIT_SLACK
     elif event == FRONT_AT_BORDER:
         gap[0] -= inner
 
@@ -162,18 +171,18 @@ def first_closing(gap: Series, h: float) -> float:
     """Return where in (0, h] the gap first closes, or h + 1 if it does not."""
     if gap[0] > variation(gap, h):
         return h + 1.0
-    width = h / PIECES
+    width = h / CUBIC_PIECES
     g0, slope0 = gap[0], gap[1]
-    for piece in range(PIECES):
+    for piece in range(CUBIC_PIECES):
         low = piece * width
-        high = h if piece == PIECES - 1 else low + width
+        high = h if piece == CUBIC_PIECES - 1 else low + width
         g1, slope1 = value_and_slope(gap, high)
         if g1 < 0.0:
             return root_between(gap, low, high)
         dip = low + lowest_point(width, g0, slope0, g1, slope1)
-        if dip > low and evaluate(gap, dip) < SHALLOW:
+        if dip > low and evaluate(gap, dip) < SHALLOW_GAP:
             dip = bottom(gap, low, high)
-            if evaluate(gap, dip) < -NOISE:
+            if evaluate(gap, dip) < -GAP_NOISE:
                 return root_between(gap, low, dip)
         g0, slope0 = g1, slope1
     return h + 1.0
@@ -182,34 +191,26 @@ def first_closing(gap: Series, h: float) -> float:
 @kernel
 def first_event(work: Work, mode: int, sign: int, inner: float, h: float) -> tuple[int, float]:
     """Return the first event within the step h, and the step that leads to it."""
-    found = NOTHING
+    first = NOTHING
     for event in range(2 if mode == at.STICK else 3):
         write_gap(work.series, mode, sign, inner, event, work.gap)
         closing = first_closing(work.gap, h)
         if closing <= h:
-            found, h = event, closing
-    return found, h
+            first, h = event, closing
+    return first, h
 
 
 @kernel
-def run_stretch(
-    work: Work,
-    record: Record,
-    mode: int,
-    sign: int,
-    chi: float,
-    inner: float,
-    starts: bool,
-    tolerance: float,
-) -> int:
+def run_stretch(run: Run, mode: int, sign: int, inner: float, starts: bool) -> int:
     """Advance the state in row 0 of the series to the next event and return that event."""
+    work, record = run.work, run.record
     s = work.series
     for _ in range(MAX_STEPS):
         if is_full(record):
             break
         clock = choose_clock(s, mode, sign, starts)
-        at.expand(s, mode, clock, sign, chi)
-        event, h = first_event(work, mode, sign, inner, reach(s, mode, tolerance))
+        at.expand(s, mode, clock, sign, run.chi)
+        event, h = first_event(work, mode, sign, inner, reach(s, mode, run.tolerance))
         note_node(record, mode, clock, sign, h, s)
         move(s, h)
         if event != NOTHING:

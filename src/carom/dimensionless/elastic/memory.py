@@ -17,16 +17,14 @@ Stack = NDArray[np.float64]
 # Columns: sign of the slip that made the annulus flat (0: laid in stick), its outer radius, the
 # loading state there (for a laid one), the number of steps recorded when it was made.
 SLIP_SIGN, OUTER, OUTER_V, OUTER_PSI, OUTER_Q, MADE = range(6)
-COLUMNS = 6
+STACK_COLUMNS = 6
 
 
 @kernel
 def push_laid(stack: Stack, depth: int, s: Series, made: int) -> int:
     """Add the annulus laid in the stick phase that has just ended at the state s."""
-    stack[depth, SLIP_SIGN] = 0.0
-    stack[depth, OUTER] = s[0, at.B]
-    stack[depth, OUTER_V] = s[0, at.V]
-    stack[depth, OUTER_PSI] = s[0, at.PSI]
+    stack[depth, SLIP_SIGN], stack[depth, OUTER] = 0.0, s[0, at.B]
+    stack[depth, OUTER_V], stack[depth, OUTER_PSI] = s[0, at.V], s[0, at.PSI]
     stack[depth, OUTER_Q] = s[0, at.Q]
     stack[depth, MADE] = made
     return depth + 1
@@ -35,8 +33,7 @@ def push_laid(stack: Stack, depth: int, s: Series, made: int) -> int:
 @kernel
 def push_flat(stack: Stack, depth: int, s: Series, sign: int, made: int) -> int:
     """Add the annulus that slip of this sign leaves between its front and the edge."""
-    stack[depth, SLIP_SIGN] = sign
-    stack[depth, OUTER] = s[0, at.B]
+    stack[depth, SLIP_SIGN], stack[depth, OUTER] = sign, s[0, at.B]
     stack[depth, MADE] = made
     return depth + 1
 
@@ -44,10 +41,9 @@ def push_flat(stack: Stack, depth: int, s: Series, sign: int, made: int) -> int:
 @kernel
 def trim(stack: Stack, depth: int, s: Series) -> None:
     """Cut the annulus in which the front stands down to the front."""
-    stack[depth - 1, OUTER] = s[0, at.A]
-    stack[depth - 1, OUTER_V] = s[0, at.V_A]
-    stack[depth - 1, OUTER_PSI] = s[0, at.PSI_A]
-    stack[depth - 1, OUTER_Q] = s[0, at.Q_A]
+    top = stack[depth - 1]
+    top[OUTER], top[OUTER_V] = s[0, at.A], s[0, at.V_A]
+    top[OUTER_PSI], top[OUTER_Q] = s[0, at.PSI_A], s[0, at.Q_A]
 
 
 @kernel
@@ -65,8 +61,7 @@ def place_front(stack: Stack, depth: int, s: Series) -> int:
     top = depth - 1
     s[0, at.A] = stack[top, OUTER]
     if stack[top, SLIP_SIGN] == 0.0:
-        s[0, at.V_A] = stack[top, OUTER_V]
-        s[0, at.PSI_A] = stack[top, OUTER_PSI]
+        s[0, at.V_A], s[0, at.PSI_A] = stack[top, OUTER_V], stack[top, OUTER_PSI]
         s[0, at.Q_A] = stack[top, OUTER_Q]
         return at.LAID
     return at.FLAT

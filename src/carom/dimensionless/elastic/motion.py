@@ -33,7 +33,7 @@ STATE_SIZE = 8
 B_RATE, V_RATE, PSI_RATE, Q_RATE, A_RATE, VA_RATE, PSIA_RATE, QA_RATE = range(8, 16)
 BB, BV, BPSI, BQ, AA, AV, APSI, AQ = range(16, 24)
 PACE, SLOWER, N, D = 24, 28, 29, 30  # PACE: four rates by the faster clock
-COLUMNS = 31
+SERIES_COLUMNS = 31
 
 # Modes of motion.
 STICK = 0  # the whole contact moves as one

@@ -8,23 +8,8 @@ from enum import IntEnum
 
 import numpy as np
 
-from carom.dimensionless.elastic import motion as at
-from carom.dimensionless.elastic.integration import (
-    FRONT_AT_BORDER,
-    RING_CLOSES,
-    UNRESOLVED,
-    Work,
-    run_stretch,
-)
-from carom.dimensionless.elastic.memory import (
-    COLUMNS as STACK_COLUMNS,
-    cross_flat,
-    inner_radius,
-    place_front,
-    push_flat,
-    push_laid,
-    trim,
-)
+from carom.dimensionless.elastic import integration, memory, motion as at
+from carom.dimensionless.elastic.integration import Run, Work
 from carom.dimensionless.elastic.motion import ORDER
 from carom.dimensionless.elastic.record import (
     MAX_ANNULI,
@@ -97,13 +82,13 @@ class Status(WordedStatus):
 # came: the second where F is a polynomial, so that only rounding keeps it from the turning point.
 RETRACE, RETRACE_EXACTLY = 4e-12, 1e-7
 # Speeds nearer to 0 or -1 than this are the border between two regimes.
-ROUNDING = 1e-13
+SPEED_ROUNDING = 1e-13
 # Below this psi_1 the series are not resolved any better.
-SMALLEST = 1e-6
+SMALLEST_PSI = 1e-6
 # Beyond it impacts that do not slip throughout have too many phases, and take long to show it.
 LARGEST_CHI = 1e5
 # A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
-TINY = 1e-6
+TINY_RADIUS = 1e-6
 
 
 @kernel
@@ -115,127 +100,120 @@ def is_polynomial(chi: float) -> bool:
 
 
 @kernel
-def stick(
-    work: Work, record: Record, depth: int, psi_in: float, chi: float, tolerance: float
-) -> tuple[int, int, int]:
+def stick(run: Run, depth: int, psi_1: float) -> tuple[int, int, int]:
     """Run a stick phase; return its cause of ending, the depth of the memory, the sign of slip."""
+    work, record = run.work, run.record
     s = work.series
     note_stretch(record, work.stack, depth)
     s[0, at.A] = s[0, at.B]
-    event = run_stretch(work, record, at.STICK, 0, chi, 0.0, False, tolerance)
-    if event == UNRESOLVED:
+    event = integration.run_stretch(run, at.STICK, 0, 0.0, False)
+    if event == integration.UNRESOLVED:
         return Cause.UNRESOLVED.value, depth, 0
-    slowest = psi_in * (RETRACE_EXACTLY if is_polynomial(chi) else RETRACE)
+    slowest = psi_1 * (RETRACE_EXACTLY if is_polynomial(run.chi) else RETRACE)
     if depth == 0 and s[0, at.V] <= slowest + 1e-15:
         note_node(record, RETRACED, at.CONTACT, 0, 0.0, s)
-        s[0, at.B], s[0, at.V], s[0, at.PSI], s[0, at.Q] = 0.0, -1.0, -psi_in, 0.0
+        s[0, at.B], s[0, at.V], s[0, at.PSI], s[0, at.Q] = 0.0, -1.0, -psi_1, 0.0
         return Cause.SEPARATION.value, depth, 0
     # stick ends before the turning point; only rounding passes it
     s[0, at.V] = max(s[0, at.V], 1e-300)
-    depth = push_laid(work.stack, depth, s, record.counts[0])
+    depth = memory.push_laid(work.stack, depth, s, record.counts[0])
     return Cause.EDGE_AT_LIMIT.value, depth, 1 if s[0, at.PSI] > 0.0 else -1
 
 
 @kernel
-def slip(
-    work: Work,
-    record: Record,
-    depth: int,
-    sign: int,
-    after_stick: bool,
-    chi: float,
-    tolerance: float,
-) -> tuple[int, int]:
+def slip(run: Run, depth: int, sign: int, after_stick: bool) -> tuple[int, int]:
     """Run a slip ring through the annuli of the memory; return why it ends and the depth left."""
+    work, record = run.work, run.record
     s = work.series
-    depth = cross_flat(work.stack, depth, sign)
+    depth = memory.cross_flat(work.stack, depth, sign)
     for _ in range(MAX_ANNULI):
         if depth == 0:
             return Cause.FRONT_AT_CENTRE.value, 0
-        mode = place_front(work.stack, depth, s)
+        mode = memory.place_front(work.stack, depth, s)
         note_stretch(record, work.stack, depth)
-        inner = inner_radius(work.stack, depth)
-        event = run_stretch(
-            work, record, mode, sign, chi, inner, after_stick and mode == at.LAID, tolerance
-        )
+        inner = memory.inner_radius(work.stack, depth)
+        starts = after_stick and mode == at.LAID
+        event = integration.run_stretch(run, mode, sign, inner, starts)
         after_stick = False
-        if event == FRONT_AT_BORDER:
-            depth = cross_flat(work.stack, depth - 1, sign)
+        if event == integration.FRONT_AT_BORDER:
+            depth = memory.cross_flat(work.stack, depth - 1, sign)
             continue
-        trim(work.stack, depth, s)
-        if event == UNRESOLVED:
+        memory.trim(work.stack, depth, s)
+        if event == integration.UNRESOLVED:
             break
-        if s[0, at.B] < TINY:
+        if s[0, at.B] < TINY_RADIUS:
             return Cause.SEPARATION.value, depth
-        if event == RING_CLOSES:
+        if event == integration.RING_CLOSES:
             return Cause.RING_CLOSES.value, depth
-        return Cause.SLIP_STOPS.value, push_flat(work.stack, depth, s, sign, record.counts[0])
+        return Cause.SLIP_STOPS.value, memory.push_flat(
+            work.stack, depth, s, sign, record.counts[0]
+        )
     return Cause.UNRESOLVED.value, depth
 
 
 @kernel
-def gross_slip(work: Work, record: Record, sign: int, chi: float) -> tuple[int, int]:
+def gross_slip(run: Run, sign: int) -> tuple[int, int]:
     """Follow gross slip, psi - 2 chi sigma v constant (33); return why it ends, and the depth."""
+    work, record, chi = run.work, run.record, run.chi
     s = work.series
     s[0, at.A] = 0.0
     note_stretch(record, work.stack, 0)
     note_node(record, GROSS, at.CONTACT, sign, 0.0, s)
     excess = sign * s[0, at.PSI] - s[0, at.V]
     fall = 2.0 * chi - 1.0  # of the excess, per fall in speed
-    if not excess < fall * (1.0 + s[0, at.V]) - ROUNDING:
+    if not excess < fall * (1.0 + s[0, at.V]) - SPEED_ROUNDING:
         s[0, at.PSI] -= 2.0 * chi * sign * (1.0 + s[0, at.V])
         s[0, at.B], s[0, at.V], s[0, at.Q] = 0.0, -1.0, 0.0
         return Cause.SEPARATION.value, 0
     fallen = (1.0 - s[0, at.V]) + excess / fall
-    s[0, at.V] = 1.0 - fallen if abs(1.0 - fallen) > ROUNDING else 0.0
+    s[0, at.V] = 1.0 - fallen if abs(1.0 - fallen) > SPEED_ROUNDING else 0.0
     s[0, at.B] = (fallen * (2.0 - fallen)) ** 0.2
     s[0, at.PSI] = sign * s[0, at.V]
     s[0, at.Q] = sign * (2.0 / 3.0) * s[0, at.B] ** 3
-    return Cause.SLIP_STOPS.value, push_flat(work.stack, 0, s, sign, record.counts[0])
+    return Cause.SLIP_STOPS.value, memory.push_flat(work.stack, 0, s, sign, record.counts[0])
 
 
 @entry_point()
-def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Record) -> int:
-    """Run a whole impact, psi >= 0, to its last state in row 0 of the series; return its status."""
-    if not np.isfinite(psi):
+def run_phases(psi_1: float, chi: float, tolerance: float, work: Work, record: Record) -> int:
+    """Run an impact, psi_1 >= 0, to its last state in row 0 of the series; return its status."""
+    if not np.isfinite(psi_1):
         return Status.PSI_NOT_FINITE.value
     if not (0.0 < chi < np.inf):
         return Status.CHI_NOT_POSITIVE.value
     s = work.series
     s[0] = 0.0
     s[0, at.V] = 1.0
-    s[0, at.PSI] = psi
+    s[0, at.PSI] = psi_1
     # psi and Q are of the order of psi_1; errors grow with the number of oscillations
-    tolerance *= min(1.0, max(psi, SMALLEST)) / max(1.0, chi)
-    depth = 0
-    slides = psi > 1.0 or (psi == 1.0 and chi < 0.5)
+    tolerance *= min(1.0, max(psi_1, SMALLEST_PSI)) / max(1.0, chi)
+    run, depth = Run(work, record, chi, tolerance), 0
+    slides = psi_1 > 1.0 or (psi_1 == 1.0 and chi < 0.5)
     kind = Kind.GROSS_SLIP.value if slides else Kind.STICK.value
     sign = 1 if slides else 0
     cause = Cause.FIRST_TOUCH.value
     for _ in range(MAX_PHASES if chi <= LARGEST_CHI else 1):
         note_change(record, kind, sign, cause, s)
-        given = 0
+        slipping = 0
         if kind == Kind.STICK:
-            cause, depth, given = stick(work, record, depth, psi, chi, tolerance)
+            cause, depth, slipping = stick(run, depth, psi_1)
         elif kind == Kind.SLIP:
-            after_stick = cause == Cause.EDGE_AT_LIMIT.value
-            cause, depth = slip(work, record, depth, sign, after_stick, chi, tolerance)
+            cause, depth = slip(run, depth, sign, cause == Cause.EDGE_AT_LIMIT.value)
         else:
-            cause, depth = gross_slip(work, record, sign, chi)
+            cause, depth = gross_slip(run, sign)
         following = NEXT[kind, cause, 1 if s[0, at.V] <= 0.0 else 0]
         if following[0] == Kind.APART:
             note_change(record, Kind.APART.value, 0, cause, s)
             solved = cause == Cause.SEPARATION
             return Status.SOLVED.value if solved else Status.UNRESOLVED.value
         kind = following[0]
-        sign = given if following[1] == GIVEN else sign * following[1]
+        sign = slipping if following[1] == GIVEN else sign * following[1]
     return Status.TOO_MANY_PHASES.value
 
 
 def new_work() -> Work:
     """Return the arrays that an impact needs."""
     return Work(
-        series=np.zeros((ORDER + 1, at.COLUMNS)),
+        series=np.zeros((ORDER + 1, at.SERIES_COLUMNS)),
         gap=np.zeros(ORDER + 1),
-        stack=np.zeros((MAX_ANNULI, STACK_COLUMNS)),
+        stack=np.zeros((MAX_ANNULI, memory.STACK_COLUMNS)),
     )

@@ -1,12 +1,12 @@
 """What an impact leaves behind for its dense solution: steps, memories, changes of phase."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.elastic.memory import COLUMNS, Stack
+from carom.dimensionless.elastic.memory import STACK_COLUMNS, Stack
 from carom.dimensionless.elastic.motion import ORDER, SLOWER, B, Series, V
-from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix
+from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix, Vector
 from carom.dimensionless.numerics.kernels import kernel
 
 MAX_NODES = 8000
@@ -31,13 +31,23 @@ class Record(NamedTuple):
     counts: Counts
 
 
+class Steps(NamedTuple):
+    """Recorded steps for a chi: when each begins, and displacement and frictional work then."""
+
+    nodes: Matrix
+    series: Cube
+    chi: float
+    times: Vector
+    moved: Matrix
+
+
 def new_record(wanted: bool) -> Record:
     """Return an empty record, with room for changes of phase only if not more is wanted."""
     room = 1 if wanted else 0
     return Record(
         nodes=np.empty((room * MAX_NODES, 5)),
         series=np.empty((room * MAX_NODES, ORDER + 1, KEPT)),
-        stacks=np.empty((room * MAX_STRETCHES, MAX_ANNULI, COLUMNS)),
+        stacks=np.empty((room * MAX_STRETCHES, MAX_ANNULI, STACK_COLUMNS)),
         depths=np.empty(room * MAX_STRETCHES, dtype=np.int64),
         changes=np.empty((MAX_PHASES + 1, 5)),
         counts=np.zeros(3, dtype=np.int64),
@@ -65,7 +75,7 @@ def note_stretch(record: Record, stack: Stack, depth: int) -> None:
     row = record.counts[1]
     if is_wanted(record):
         for i in range(depth):
-            for column in range(COLUMNS):
+            for column in range(STACK_COLUMNS):
                 record.stacks[row, i, column] = stack[i, column]
         record.depths[row] = depth
     record.counts[1] = row + 1
@@ -76,11 +86,9 @@ def note_node(record: Record, mode: int, clock: int, sign: int, h: float, series
     """Keep the series of a step and how far it was taken."""
     if is_wanted(record):
         row = record.counts[0]
-        record.nodes[row, MODE] = mode
-        record.nodes[row, CLOCK] = clock
-        record.nodes[row, SIGN] = sign
-        record.nodes[row, STEP] = h
-        record.nodes[row, STRETCH] = record.counts[1] - 1
+        node = record.nodes[row]
+        node[MODE], node[CLOCK], node[SIGN], node[STEP] = mode, clock, sign, h
+        node[STRETCH] = record.counts[1] - 1
         for k in range(ORDER + 1):
             for column in range(KEPT):
                 record.series[row, k, column] = series[k, column]
@@ -91,22 +99,15 @@ def note_node(record: Record, mode: int, clock: int, sign: int, h: float, series
 def note_change(record: Record, kind: int, sign: int, cause: int, series: Series) -> None:
     """Keep the start of a phase and what brought it about."""
     row = record.counts[2]
-    record.changes[row, KIND] = kind
-    record.changes[row, KIND_SIGN] = sign
-    record.changes[row, CAUSE] = cause
-    record.changes[row, AT_B] = series[0, B]
-    record.changes[row, AT_V] = series[0, V]
+    change = record.changes[row]
+    change[KIND], change[KIND_SIGN], change[CAUSE] = kind, sign, cause
+    change[AT_B], change[AT_V] = series[0, B], series[0, V]
     record.counts[2] = row + 1
 
 
 def trimmed(record: Record) -> Record:
     """Return the filled part of a record."""
-    nodes, stretches, changes = (int(count) for count in record.counts)
-    return Record(
-        nodes=record.nodes[:nodes].copy(),
-        series=record.series[:nodes].copy(),
-        stacks=record.stacks[:stretches].copy(),
-        depths=record.depths[:stretches].copy(),
-        changes=record.changes[:changes].copy(),
-        counts=record.counts.copy(),
-    )
+    nodes, stretches, changes = record.counts.tolist()
+    lengths = nodes, nodes, stretches, stretches, changes, record.counts.size
+    parts: list[Any] = [part[:n].copy() for part, n in zip(record, lengths, strict=True)]
+    return Record(*parts)

@@ -1,66 +1,81 @@
-"""How far facing points have slid on each other since they met, and in which direction."""
+"""How far facing points have slid on each other since they met, and the work of friction there.
+
+Where the contact slips the traction is mu p, and the slip rate is that of a punch, so that at a
+distance r from the centre the work per area is W_0 - lambda W_2 cos 2 theta with
+
+    W_i(r) = integral |psi - sigma v| sqrt(d - r^2) w_i(a, r) dt,   dt = 2 b d(tau),
+
+w_i those of `slip_shape`. The integrand has square roots where the front passes r, where the edge
+touches r and where it leaves r; h = low + (high - low) sin^2(phi) removes those at both ends.
+"""
+
+from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.elastic.dense_output import gross_progress, position
-from carom.dimensionless.elastic.integration import evaluate
-from carom.dimensionless.elastic.motion import FRONT, PSI, SLOWER, STICK, A, B, Series, V
+from carom.dimensionless.elastic import motion as at
+from carom.dimensionless.elastic.dense_output import gross_progress, pace, position
+from carom.dimensionless.elastic.integration import evaluate, value_and_slope
 from carom.dimensionless.elastic.phases import GROSS, RETRACED
-from carom.dimensionless.elastic.record import CLOCK, MODE, SIGN, STEP
+from carom.dimensionless.elastic.record import MODE, SIGN, STEP, STRETCH, Steps
 from carom.dimensionless.fields.surface import slip_shape
-from carom.dimensionless.numerics.arrays import Array, Cube, Matrix, Vector
+from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(10)
 AROUND, WEIGHTS_AROUND = np.polynomial.legendre.leggauss(32)
-# Slip starts at a point like a root of time: panels grow from there by this factor.
-GROWTH = 0.3
-LEVELS = 12
+RING_ABSCISSAS, RING_WEIGHTS = np.polynomial.legendre.leggauss(12)
+# Slip starts at a point like a root of time: panels grow from there by the inverse of this factor.
+SHRINKING, PANELS_OF_SLIP = 0.3, 12
+FAST = 0.8  # speed beyond which gross slip is integrated over the radius of the contact
+WIDE = float((1.0 - FAST**2) ** 0.2)  # that radius there
+GROWTH, NARROWEST, PANELS_OF_WORK = 3.0, 1e-3, 8  # of panels beside the roots of the work
+FAR_AWAY = 1e9
+ALIKE_RADII = 1e-12  # radii nearer to each other are one
 
 
 @kernel
-def slid_in_gross_slip(
-    node: Array, series: Series, chi: float, r: float, b: float, v: float
-) -> float:
+def slid_in_gross_slip(steps: Steps, i: int, r: float, b: float, v: float) -> float:
     """Return the slip of a point from the start of gross slip, or from its touch, to b and v."""
-    start, sign = series[0, B], node[SIGN]
-    u, _w = gross_progress(node, series, chi, b, v)
+    start, sign = steps.series[i, 0, at.B], steps.nodes[i, SIGN]
+    u, _w = gross_progress(steps, i, b, v)
     slid = u - sign * (b * b - start * start)
     if r > start:
-        touched, _w = gross_progress(node, series, chi, r, np.sqrt(1.0 - r**5))
+        touched, _w = gross_progress(steps, i, r, np.sqrt(1.0 - r**5))
         slid -= touched - sign * (r * r - start * start)
     return float(slid)
 
 
 @kernel
-def touch(node: Array, series: Series, r: float) -> float:
+def touch(steps: Steps, i: int, r: float) -> float:
     """Return how far into a step the edge of the growing contact reaches r."""
     if r < 0.8:
-        return float(position(node, series, B, r, False))
+        return float(position(steps, i, at.B, r, False))
     speed = np.sqrt(max(1.0 - r**5, 0.0))  # monotone where the step goes beyond the turning point
-    return float(position(node, series, V, speed, True))
+    return float(position(steps, i, at.V, speed, True))
 
 
 @kernel
-def slid_in_ring(node: Array, series: Series, r: float, h_end: float) -> tuple[float, float]:
+def slid_in_ring(steps: Steps, i: int, r: float, h_end: float) -> tuple[float, float]:
     """Return the radial functions of the slip of a point from the start of a step to h_end."""
-    h0 = 0.0
-    if series[0, A] > r:
-        if evaluate(series[:, A], h_end) >= r:
+    series, h0 = steps.series[i], 0.0
+    if series[0, at.A] > r:
+        if evaluate(series[:, at.A], h_end) >= r:
             return 0.0, 0.0
-        h0 = position(node, series, A, r, True)
-    if series[0, B] < r and series[0, V] > 0.0:
-        h0 = max(h0, touch(node, series, r))
+        h0 = position(steps, i, at.A, r, True)
+    if series[0, at.B] < r and series[0, at.V] > 0.0:
+        h0 = max(h0, touch(steps, i, r))
     mean, lateral = 0.0, 0.0
     high = h_end
-    for level in range(LEVELS):
-        low = h0 + (high - h0) * GROWTH if level < LEVELS - 1 else h0
+    for level in range(PANELS_OF_SLIP):
+        low = h0 + (high - h0) * SHRINKING if level < PANELS_OF_SLIP - 1 else h0
         for k in range(ABSCISSAS.size):
             h = low + 0.5 * (high - low) * (1.0 + ABSCISSAS[k])
-            rate = evaluate(series[:, SLOWER], h) if node[CLOCK] == FRONT else 1.0
-            excess = evaluate(series[:, PSI], h) - node[SIGN] * evaluate(series[:, V], h)
-            w = (high - low) * WEIGHTS[k] * rate * evaluate(series[:, B], h) * excess
-            one, two = slip_shape(evaluate(series[:, A], h), r)
+            sign_v = steps.nodes[i, SIGN] * evaluate(series[:, at.V], h)
+            excess = evaluate(series[:, at.PSI], h) - sign_v
+            rate = pace(steps, i, h)
+            w = (high - low) * WEIGHTS[k] * rate * evaluate(series[:, at.B], h) * excess
+            one, two = slip_shape(evaluate(series[:, at.A], h), r)
             mean += w * one
             lateral += w * two
         high = low
@@ -68,44 +83,35 @@ def slid_in_ring(node: Array, series: Series, r: float, h_end: float) -> tuple[f
 
 
 @entry_point()
-def slid(
-    nodes: Matrix,
-    series: Cube,
-    chi: float,
-    last: int,
-    b: float,
-    v: float,
-    radii: Vector,
-    out: Matrix,
-) -> None:
+def slid(steps: Steps, last: int, b: float, v: float, radii: Vector, out: Matrix) -> None:
     """Write the radial functions of the slip up to step `last`, where b and v are, for each radius.
 
     Only points that are in contact then, r <= b, have a slip; the others get zero.
     """
-    h_last = 0.0
-    if nodes[last, MODE] != GROSS and nodes[last, MODE] != RETRACED:
-        by_speed = abs(v) < 0.7
-        h_last = position(
-            nodes[last], series[last], V if by_speed else B, v if by_speed else b, by_speed or v < 0
-        )
+    series, h_last = steps.series, 0.0
+    if steps.nodes[last, MODE] != GROSS and steps.nodes[last, MODE] != RETRACED:
+        if abs(v) < 0.7:
+            h_last = position(steps, last, at.V, v, True)
+        else:
+            h_last = position(steps, last, at.B, b, v < 0)
     for row in range(radii.size):
         r = radii[row]
         out[row, 0], out[row, 1] = 0.0, 0.0
         if r > b:
             continue
         for i in range(last + 1):
-            mode = nodes[i, MODE]
-            if mode in (STICK, RETRACED):
+            mode = steps.nodes[i, MODE]
+            if mode in (at.STICK, RETRACED):
                 continue
-            b_end = series[i + 1, 0, B] if i < last else b
-            v_end = series[i + 1, 0, V] if i < last else v
+            b_end = series[i + 1, 0, at.B] if i < last else b
+            v_end = series[i + 1, 0, at.V] if i < last else v
             if v_end > 0.0 and b_end < r:
                 continue  # not yet touched
             if mode == GROSS:
-                out[row, 0] += slid_in_gross_slip(nodes[i], series[i], chi, r, b_end, v_end)
+                out[row, 0] += slid_in_gross_slip(steps, i, r, b_end, v_end)
             else:
-                h_end = nodes[i, STEP] if i < last else h_last
-                mean, lateral = slid_in_ring(nodes[i], series[i], r, h_end)
+                h_end = steps.nodes[i, STEP] if i < last else h_last
+                mean, lateral = slid_in_ring(steps, i, r, h_end)
                 out[row, 0] += mean
                 out[row, 1] += lateral
 
@@ -127,3 +133,196 @@ def directions(front: Array, lateral_ratio: float) -> tuple[Array, Array]:
     power = area[..., np.newaxis] * WEIGHTS_AROUND * along
     angle = np.abs(np.arctan2(across, along))
     return power.sum((1, 2)), (power * angle).sum((1, 2))
+
+
+class SlipRate(NamedTuple):
+    """The rate of gross slip, linear in the normal speed: at a speed, and how it grows with it."""
+
+    start: float
+    speed: float
+    slope: float
+
+
+@kernel
+def near_touch(rate_at: SlipRate, r: float, side: float, inner: float, outer: float) -> float:
+    """Return the work in gross slip between two radii of the contact, far from the turning point.
+
+    u^2 = b^2 - r^2 makes the integrand smooth.
+    """
+    first, last = np.sqrt(max(inner * inner - r * r, 0.0)), np.sqrt(max(outer * outer - r * r, 0.0))
+    total, half = 0.0, 0.5 * (last - first)
+    for k in range(AROUND.size):
+        u = first + half * (1.0 + AROUND[k])
+        d = r * r + u * u
+        speed = np.sqrt(max(1.0 - d * d * np.sqrt(d), 0.0))
+        rate = rate_at.start - rate_at.slope * (rate_at.speed - side * speed)
+        total += half * WEIGHTS_AROUND[k] * 2.0 * u * u / speed * rate
+    return float(total)
+
+
+@kernel
+def near_turning(rate_at: SlipRate, r: float, fast: float, slow: float) -> float:
+    """Return the work in gross slip between two speeds around the turning point."""
+    r5 = r**5
+    limit = np.sqrt(max(1.0 - r5, 0.0))  # at which the edge touches r
+    fast, slow = min(fast, limit), max(slow, -limit)
+    if fast <= slow:
+        return 0.0
+    first, last = np.arcsin(slow / limit), np.arcsin(fast / limit)
+    total, half = 0.0, 0.5 * (last - first)
+    for k in range(AROUND.size):
+        phi = first + half * (1.0 + AROUND[k])
+        v, cosine = limit * np.sin(phi), np.cos(phi)
+        d5 = (limit * cosine) ** 2  # less r^5
+        above = max((r5 + d5) ** 0.4 - r * r, 0.0)
+        rate = rate_at.start - rate_at.slope * (rate_at.speed - v)
+        pace = 0.8 * (r5 + d5) ** -0.6 * limit * cosine
+        total += half * WEIGHTS_AROUND[k] * np.sqrt(above) * pace * rate
+    return float(total)
+
+
+@kernel
+def work_in_gross_slip(
+    rate_at: SlipRate, r: float, b0: float, v0: float, b1: float, v1: float
+) -> float:
+    """Return the work per area of gross slip from one state of the contact to another."""
+    total = 0.0
+    if v0 > FAST and r < WIDE:
+        total += near_touch(rate_at, r, 1.0, b0, WIDE if v1 < FAST else b1)
+    if v0 > -FAST and v1 < FAST:
+        total += near_turning(rate_at, r, min(v0, FAST), max(v1, -FAST))
+    if v1 < -FAST and r < WIDE:
+        total += near_touch(rate_at, r, -1.0, b1, WIDE if v0 > -FAST else b0)
+    return total
+
+
+@kernel
+def slipping(steps: Steps, i: int, r: float) -> tuple[float, float]:
+    """Return from where to where in a step points at r are in the slip ring."""
+    series, low, high = steps.series[i], 0.0, steps.nodes[i, STEP]
+    if series[0, at.A] > r:
+        if evaluate(series[:, at.A], high) >= r:
+            return 0.0, 0.0
+        low = position(steps, i, at.A, r, True)
+    outer, speed = evaluate(series[:, at.B], high), evaluate(series[:, at.V], high)
+    if series[0, at.B] < r:
+        if series[0, at.V] <= 0.0 or (outer < r and speed > 0.0):
+            return 0.0, 0.0
+        low = max(low, touch(steps, i, r))
+    if outer < r and speed < 0.0:
+        if r < 0.8:
+            high = position(steps, i, at.B, r, True)
+        else:
+            high = position(steps, i, at.V, -np.sqrt(max(1.0 - r**5, 0.0)), True)
+    return low, high
+
+
+@kernel
+def room(steps: Steps, i: int, r: float, h: float, side: float, own: float) -> float:
+    """Return how far beyond an end of the slip of r the nearest other root is, in h, roughly.
+
+    On the side of the start the front passes r, or the edge touches r; on that of the end the front
+    as it would go on beyond the centre passes -r, or the edge leaves r.
+    """
+    series, rate = steps.series[i], pace(steps, i, h)
+    a, a_rate = value_and_slope(series[:, at.A], h)
+    b, v = evaluate(series[:, at.B], h), evaluate(series[:, at.V], h)
+    to_front = (r - side * a) / max(-a_rate, 1.0 / FAR_AWAY)
+    if r < 0.8:
+        to_edge = (b - r) / max(side * v * rate, 1.0 / FAR_AWAY)
+    else:
+        limit = np.sqrt(max(1.0 - r**5, 0.0))
+        to_edge = abs(limit - side * v) / max(2.5 * b**4 * rate, 1.0 / FAR_AWAY)
+    nearer, farther = min(to_front, to_edge), max(to_front, to_edge)
+    return float(farther if nearer <= own else nearer)
+
+
+@kernel
+def work_in_ring(steps: Steps, i: int, r: float) -> tuple[float, float]:
+    """Return the radial functions of the work per area in a step of a slip ring."""
+    low, high = slipping(steps, i, r)
+    length = high - low
+    if length <= 0.0:
+        return 0.0, 0.0
+    mean, lateral = 0.0, 0.0
+    for end in range(2):
+        place, side = (low, 1.0) if end == 0 else (high, -1.0)
+        beyond = room(steps, i, r, place, side, 1e-9 * length)
+        outer = min(max(np.sqrt(beyond / length), NARROWEST), 0.25 * np.pi)
+        inner = 0.0
+        for _ in range(PANELS_OF_WORK):
+            half = 0.5 * (outer - inner)
+            for k in range(RING_ABSCISSAS.size):
+                phi = inner + half * (1.0 + RING_ABSCISSAS[k])
+                sine = np.sin(phi)
+                h = place + side * length * sine * sine
+                one, two = power(steps, i, r, h)
+                weight = half * RING_WEIGHTS[k] * 2.0 * length * sine * np.cos(phi)
+                mean += weight * one
+                lateral += weight * two
+            if outer >= 0.25 * np.pi:
+                break
+            inner, outer = outer, min(GROWTH * outer, 0.25 * np.pi)
+    return mean, lateral
+
+
+@kernel
+def power(steps: Steps, i: int, r: float, h: float) -> tuple[float, float]:
+    """Return the radial functions of the work per area and per h, at a place of a step."""
+    series, rate = steps.series[i], pace(steps, i, h)
+    b = evaluate(series[:, at.B], h)
+    excess = steps.nodes[i, SIGN] * evaluate(series[:, at.PSI], h) - evaluate(series[:, at.V], h)
+    one, two = slip_shape(evaluate(series[:, at.A], h), r)
+    unit = 2.0 * b * rate * excess * np.sqrt(max((b - r) * (b + r), 0.0))
+    return unit * one, unit * two
+
+
+@kernel
+def work_in_step(steps: Steps, i: int, r: float) -> tuple[float, float]:
+    """Return the radial functions of the work per area in a step, none in stick."""
+    nodes, series = steps.nodes, steps.series
+    if nodes[i, MODE] in (at.STICK, RETRACED):
+        return 0.0, 0.0
+    if nodes[i, MODE] != GROSS:
+        return work_in_ring(steps, i, r)
+    b, v, sign = series[i, 0, at.B], series[i, 0, at.V], nodes[i, SIGN]
+    rate_at = SlipRate(sign * series[i, 0, at.PSI] - v, v, 2.0 * steps.chi - 1.0)
+    if i + 1 == nodes.shape[0]:
+        return work_in_gross_slip(rate_at, r, b, v, 0.0, -1.0), 0.0
+    return work_in_gross_slip(rate_at, r, b, v, series[i + 1, 0, at.B], series[i + 1, 0, at.V]), 0.0
+
+
+@entry_point()
+def work(steps: Steps, radii: Vector, out: Matrix) -> None:
+    """Write the radial functions of the work per area over the whole impact for each radius."""
+    for row in range(radii.size):
+        mean, lateral = 0.0, 0.0
+        for i in range(steps.times.size if radii[row] < 1.0 else 0):
+            one, two = work_in_step(steps, i, radii[row])
+            mean += one
+            lateral += two
+        out[row, 0], out[row, 1] = mean, lateral
+
+
+@entry_point()
+def pressed(radii: Vector, out: Vector) -> None:
+    """Write the integral of the pressure over the whole impact for each radius."""
+    for row in range(radii.size):
+        steady = SlipRate(1.0, 0.0, 0.0)
+        inside = radii[row] < 1.0
+        out[row] = work_in_gross_slip(steady, radii[row], 0.0, 1.0, 0.0, -1.0) if inside else 0.0
+
+
+def borders(steps: Steps) -> Array:
+    """Return radii between which the work is smooth: fronts at all steps, edges where rings begin.
+
+    Steps are short where the front is about to stop, beside which the work has a steep flank.
+    """
+    nodes, series = steps.nodes, steps.series
+    rings = np.flatnonzero((nodes[:, MODE] == at.LAID) | (nodes[:, MODE] == at.FLAT))
+    new = np.flatnonzero(np.diff(nodes[:, STRETCH], prepend=-1.0))
+    radii = [0.0, 1.0, *series[new, 0, at.B], *series[rings, 0, at.A]]
+    for i in np.intersect1d(rings, np.append(new[1:], len(nodes)) - 1):
+        radii += [evaluate(series[i][:, column], nodes[i, STEP]) for column in (at.A, at.B)]
+    borders = np.unique(np.clip(radii, 0.0, 1.0))
+    return np.asarray(borders[np.append(np.diff(borders) > ALIKE_RADII, True)])

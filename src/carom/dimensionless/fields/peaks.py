@@ -4,34 +4,38 @@ At a radius and depth, stress depends on the angle by its cosine and sine alone 
 that the largest value around a circle needs no stress but that of one point.
 """
 
+from math import inf
+from typing import NamedTuple
+
 import numpy as np
 
 from carom.dimensionless.fields import subsurface as at
 from carom.dimensionless.fields.profile import Profile
-from carom.dimensionless.fields.subsurface import Load, stress_parts
+from carom.dimensionless.fields.subsurface import Load, load_of, stress_parts
 from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 VON_MISES, SHEAR, TENSION = MEASURES = range(3)
-VALUE, RADIUS, DEPTH, COSINE = range(4)  # columns of what is found
-FOUND = 4
+VALUE, RADIUS, DEPTH, COSINE = range(4)  # columns of a peak
+PEAK_COLUMNS = 4
 
 COSINES = np.cos(np.linspace(0.0, np.pi, 9))
-ALIKE = 1e-7  # a place in the plane of the motion whose value comes so near is taken
-TURNS = 24  # by which an angle between two of them is found, to a thousandth
+PLANE_TOLERANCE = 1e-7  # a place in the plane of the motion whose value comes so near is taken
+GOLDEN_STEPS = 24  # by which an angle between two of them is found, to a thousandth
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 MOST_STEPS = 400
 WAYS = np.array([[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, -1], [1, -1], [-1, 1]], dtype=float)
 
 # Places of the scan in contact radii: on the surface, and below.
 ON_SURFACE = np.array([0.0, 0.25, 0.5, 0.7, 0.85, 0.95, 1.05, 1.15])
-BELOW = np.stack(
-    np.meshgrid([0.0, 0.25, 0.5, 0.75, 1.0], [0.1, 0.25, 0.38, 0.5, 0.65]), -1
-).reshape(-1, 2)
-BEHIND = np.stack(
-    np.meshgrid([0.0, 0.5, 1.0, 1.4, 1.8, 2.4, 3.2, 4.5, 6.0], [0.0, 0.15, 0.5, 1.2]), -1
-).reshape(-1, 2)
-FAR = 20.0  # from the centre, in radii of the contact or depths of the search: no climb goes beyond
+BELOW = np.array(
+    [(r, z) for z in (0.1, 0.25, 0.38, 0.5, 0.65) for r in (0.0, 0.25, 0.5, 0.75, 1.0)]
+)
+RADII_BEHIND = (0.0, 0.5, 1.0, 1.4, 1.8, 2.4, 3.2, 4.5, 6.0)
+BEHIND = np.array([(r, z) for z in (0.0, 0.15, 0.5, 1.2) for r in RADII_BEHIND])
+FARTHEST_CLIMB = 20.0  # from the centre, in radii of the contact or depths of the search
+TENSOR = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])  # where components xx, yy, zz, xy, xz, yz go
+FIRST_STEP, LAST_STEP = 0.1, 1e-6  # of the climb, in contact radii
 
 
 @kernel
@@ -75,12 +79,10 @@ def measured(measure: int, parts: Array, cos: float, friction: float) -> float:
 @kernel
 def around(measure: int, parts: Array, friction: float) -> tuple[float, float]:
     """Return the largest value around the circle and the cosine of its angle."""
-    ahead, behind = (
-        measured(measure, parts, 1.0, friction),
-        measured(measure, parts, -1.0, friction),
-    )
+    ahead = measured(measure, parts, 1.0, friction)
+    behind = measured(measure, parts, -1.0, friction)
     best, end = (ahead, 1.0) if ahead >= behind else (behind, -1.0)
-    place, least = -1, best + ALIKE * abs(best)
+    place, least = -1, best + PLANE_TOLERANCE * abs(best)
     for i in range(1, COSINES.size - 1):
         value = measured(measure, parts, COSINES[i], friction)
         if value > least:
@@ -88,11 +90,10 @@ def around(measure: int, parts: Array, friction: float) -> tuple[float, float]:
     if place < 0:
         return best, end
     low, high = np.arccos(COSINES[place - 1]), np.arccos(COSINES[place + 1])
-    for _ in range(TURNS):
+    for _ in range(GOLDEN_STEPS):
         one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        if measured(measure, parts, np.cos(one), friction) > measured(
-            measure, parts, np.cos(two), friction
-        ):
+        first = measured(measure, parts, np.cos(one), friction)
+        if first > measured(measure, parts, np.cos(two), friction):
             high = two
         else:
             low = one
@@ -100,16 +101,22 @@ def around(measure: int, parts: Array, friction: float) -> tuple[float, float]:
     return max(best, measured(measure, parts, cos, friction)), cos
 
 
+@kernel
+def try_place(measure: int, r: float, z: float, friction: float, load: Load, best: Array) -> bool:
+    """Write the largest value around a circle and where it is, if it is larger than the best."""
+    value, cos = around(measure, stress_parts(max(r, at.NEGLIGIBLE), z, load), friction)
+    larger = value > best[VALUE]
+    if larger:
+        best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos
+    return bool(larger)
+
+
 @entry_point()
 def scan(measure: int, places: Matrix, friction: float, load: Load, best: Vector) -> None:
     """Write the largest value of a measure among places (radius, depth), and where it is."""
     best[VALUE] = -np.inf
     for row in range(places.shape[0]):
-        r, z = places[row, 0], places[row, 1]
-        parts = stress_parts(max(r, at.NEGLIGIBLE), z, load)
-        value, cos = around(measure, parts, friction)
-        if value > best[VALUE]:
-            best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos
+        try_place(measure, places[row, 0], places[row, 1], friction, load, best)
 
 
 @entry_point()
@@ -127,17 +134,14 @@ def climb(
 
     No place leaves the depths between `shallow` and `deepest`.
     """
-    farthest = FAR * max(1.0, shallow)
+    farthest = FARTHEST_CLIMB * max(1.0, shallow)
     for _ in range(MOST_STEPS):
         moved = False
         for way in range(WAYS.shape[0]):
             r = min(abs(best[RADIUS] + step * WAYS[way, 0]), farthest)
             z = min(max(best[DEPTH] + step * WAYS[way, 1], shallow), min(deepest, farthest))
-            parts = stress_parts(max(r, at.NEGLIGIBLE), z, load)
-            value, cos = around(measure, parts, friction)
-            if value > best[VALUE]:
-                best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos
-                moved = True
+            moved = try_place(measure, r, z, friction, load, best)
+            if moved:
                 break
         if not moved:
             step *= 0.5
@@ -166,3 +170,60 @@ def regions(profile: Profile, shallow: float = 0.0, deepest: float = np.inf) -> 
         wide = max(1.0, shallow) * BEHIND + [0.0, shallow]
         return [np.concatenate((near, wide)), below]
     return [near, below]
+
+
+class Largest(NamedTuple):
+    """The largest value of a measure of stress and where it lies."""
+
+    value: float
+    x: float
+    y: float
+    z: float
+
+
+def principal_stresses(stress: Array) -> Array:
+    """Return the principal stresses (n, 3) of stresses (n, 6), the largest first."""
+    return np.asarray(np.linalg.eigvalsh(stress[:, TENSOR])[:, ::-1], dtype=np.float64)
+
+
+def von_mises(stress: Array) -> Array:
+    """Return the von Mises stress (n,) of stresses (n, 6)."""
+    xx, yy, zz, xy, xz, yz = stress.T
+    differences = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.asarray(np.sqrt(0.5 * differences + 3.0 * (xy**2 + xz**2 + yz**2)))
+
+
+def largest(
+    measure: int,
+    profile: Profile,
+    *,
+    friction: float,
+    poisson: float,
+    rim: float = 0.0,
+    shallow: float = 0.0,
+    deepest: float = inf,
+) -> Largest:
+    """Return the largest value of a measure of the stress below a contact at an instant.
+
+    Friction, Poisson's ratio and rim are as of `stresses`; depths are in contact radii.
+
+    >>> from carom.dimensionless.fields.peaks import VON_MISES, largest
+    >>> from carom.dimensionless.fields.profile import flat, stacked
+    >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
+    >>> peak = largest(VON_MISES, hertz, friction=0.0, poisson=0.3)
+    >>> round(peak.value, 4), round(peak.z, 4)
+    (0.62, 0.4809)
+    """
+    b = profile.edges[-1]
+    if b == 0.0:
+        return Largest(0.0, 0.0, 0.0, 0.0)
+    load, best = load_of(profile, poisson, rim), np.zeros(PEAK_COLUMNS)
+    for places in regions(profile, shallow, deepest):
+        peak = np.zeros(PEAK_COLUMNS)
+        scan(measure, places, friction, load, peak)
+        climb(measure, friction, load, shallow, deepest, FIRST_STEP, LAST_STEP, peak)
+        if peak[VALUE] > best[VALUE]:
+            best = peak
+    sine = np.sqrt(max(1.0 - best[COSINE] ** 2, 0.0))
+    x, y = best[RADIUS] * best[COSINE], best[RADIUS] * sine
+    return Largest(*map(float, (b * best[VALUE], b * x, b * y, b * best[DEPTH])))

@@ -1,16 +1,26 @@
-"""The memory of a contact over its radius as piecewise polynomials: what every field is made of."""
+"""The memory of a contact at one instant, over its radius: what every field is made of."""
 
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import nodes, transform
 from carom.dimensionless.numerics.kernels import kernel
 
 TERMS = 17  # of a Chebyshev series on a panel
-NOTHING = np.zeros((0, TERMS))
+NO_PANELS = np.zeros((0, TERMS))
 MOST_PANELS = 32  # of a marched contact, as stresses see it: to some 1e-3 of the largest
+ROUNDING_OF_S = 4e-16  # relative, at the edge
+RESOLVED = 1e-14  # of g on a panel, times the root of its width: what tractions feel
+NARROWEST_PANEL = 1e-7
+
+Read = Callable[[Array], tuple[Array, Array]]  # q and g at radii
+Stretch = tuple[Read, float, float, float]  # what reads it, from and to which radius, its error
 
 
 class Profile(NamedTuple):
@@ -25,7 +35,7 @@ class Profile(NamedTuple):
     q: Matrix
     g: Matrix
     rim: float = 0.0
-    n: Matrix = NOTHING
+    n: Matrix = NO_PANELS
 
 
 @kernel
@@ -76,6 +86,79 @@ def flat(low: float, high: float, g: float, q_high: float) -> tuple[Array, Array
 def stacked(edges: list[float], rows: list[tuple[Array, Array]], rim: float = 0.0) -> Profile:
     """Return the profile made of panels, given their outer edges in order, and of q at the edge."""
     if not rows:
-        return Profile(np.zeros(1), np.zeros((0, TERMS)), np.zeros((0, TERMS)), 0.0)
+        return Profile(np.zeros(1), NO_PANELS, NO_PANELS)
     q, g = zip(*rows, strict=True)
     return Profile(np.array([0.0, *edges]), np.array(q), np.array(g), float(rim))
+
+
+def piecewise(stretches: Iterable[Stretch], narrowest: float, rim: float) -> Profile:
+    """Return the profile of stretches from the centre outwards, and of q at the edge."""
+    panels = [panel for each in stretches for panel in _panels_of(*each, narrowest)]
+    return stacked([edge for edge, _ in panels], [rows for _, rows in panels], rim)
+
+
+def _panels_of(
+    read: Read, low: float, high: float, error: float, narrowest: float
+) -> Iterator[tuple[float, tuple[Array, Array]]]:
+    """Yield the outer edges and rows of as many panels as a stretch needs."""
+    q, g = read(radii(low, high))
+    series = coefficients(g)
+    tail = np.max(np.abs(series[-3:])) * np.sqrt(high - low)
+    if tail <= error or high - low <= narrowest:
+        yield high, (coefficients(q), series)
+        return
+    middle = 0.5 * (low + high)
+    yield from _panels_of(read, low, middle, error, narrowest)
+    yield from _panels_of(read, middle, high, error, narrowest)
+
+
+class Annulus(NamedTuple):
+    """Part of a contact: laid in stick (sign 0), or brought to its limit by slip of one sign."""
+
+    inner: float
+    outer: float
+    sign: int
+    limit: float
+
+
+@dataclass(frozen=True, eq=False)
+class Memory:
+    """The memory of a contact at one instant, from which every traction follows.
+
+    g = -dq/ds, |g| <= 1, is the paper's function in (6); q(s) is the density of the transformed
+    traction, |q| <= d - s; s = r^2/(R* d_max). `rim` is q at the edge: zero but for bodies that
+    are viscous, while loading.
+    """
+
+    time: float
+    penetration: float
+    displacement: float
+    annuli: tuple[Annulus, ...]
+    _inside: Callable[[Annulus, Array], tuple[Array, Array]] = field(repr=False)  # q, g
+    rim: float = 0.0
+
+    def g(self, s: ArrayLike) -> Array:
+        """Return g at the given s >= 0, zero outside the contact."""
+        return self._read(s)[1]
+
+    def q(self, s: ArrayLike) -> Array:
+        """Return q at the given s >= 0, zero outside the contact."""
+        return self._read(s)[0]
+
+    def profile(self, error: float = RESOLVED) -> Profile:
+        """Return g and q as piecewise polynomials over the radius, by default to rounding."""
+        stretches = [
+            (partial(self._inside, each), each.inner, each.outer, np.inf if each.sign else error)
+            for each in self.annuli
+        ]
+        return piecewise(stretches, NARROWEST_PANEL, self.rim)
+
+    def _read(self, s: ArrayLike) -> tuple[Array, Array]:
+        places = np.asarray(s, dtype=np.float64)
+        q, g = np.zeros(places.shape), np.zeros(places.shape)
+        for annulus in reversed(self.annuli):  # a border belongs to the inner one
+            here = (places >= annulus.inner**2) & (
+                places <= annulus.outer**2 * (1.0 + ROUNDING_OF_S)
+            )
+            q[here], g[here] = self._inside(annulus, np.sqrt(places[here]))
+        return q, g

@@ -23,9 +23,9 @@ TangentialStress = tuple[complex, complex, complex, complex, complex, complex]
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-REACH = 2.5  # of the longest panel: with these nodes the error is near rounding
+PANEL_REACH = 2.5  # of the longest panel: with these nodes the error is near rounding
 NEGLIGIBLE = 1e-30  # of the contact radius: less deep is the surface, nearer the axis is the axis
-FAR = 1e50  # of the contact radius: taken for all that is farther, the stress being nil
+FARTHEST_POINT = 1e50  # of the contact radius: taken for all that is farther, the stress being nil
 
 BELOW, INSIDE, OUTSIDE = range(3)  # ways along s: at depth; on the surface, s < r and s > r
 
@@ -151,7 +151,7 @@ def add_slices(parts: Array, r: float, z: float, way: int, panel: int, load: Loa
     if low >= high:
         return
     start, end = way_to(way, r, z, low), way_to(way, r, z, high)
-    pieces = int(np.ceil((end - start) / REACH))
+    pieces = int(np.ceil((end - start) / PANEL_REACH))
     half = 0.5 * (end - start) / max(pieces, 1)
     for node in range(pieces * NODES.size):
         piece, k = divmod(node, NODES.size)
@@ -213,21 +213,10 @@ def stresses(
     sigma = integral of s Im[N(z + i s) + mu g(s) T(z + i s)] ds over 0 <= s <= b, with N and T the
     antiderivatives of Boussinesq's and Cerruti's stresses.
 
-    Parameters
-    ----------
-    points : array_like, shape (n, 3)
-        x, y and depth z >= 0 in sqrt(R* L).
-    profile : Profile
-        The memory of the contact; its last edge is the radius of the contact.
-    friction : float
-        mu for the body that positive friction drags along +x (the second), -mu for the other.
-    poisson : float
-        Poisson's ratio of the body.
-    rim : float
-        Density of the pressure at the edge, where it ends with a jump; stresses are infinite there.
+    Points have x, y and depth z >= 0 in sqrt(R* L), the last edge of the profile is the radius of
+    the contact; `friction` is mu for the body that positive friction drags along +x (the second),
+    -mu for the other; `rim` is the density of pressure at the edge, where stresses are infinite.
 
-    Examples
-    --------
     >>> from carom.dimensionless.fields.profile import flat, stacked
     >>> from carom.dimensionless.fields.subsurface import stresses
     >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
@@ -239,7 +228,7 @@ def stresses(
     where = np.asarray(points, dtype=np.float64)
     stress = np.zeros((where.shape[0], len(COMPONENTS)))
     if b > 0.0:
-        scaled = np.clip(where / b, -FAR, FAR)
+        scaled = np.clip(where / b, -FARTHEST_POINT, FARTHEST_POINT)
         fill(stress, scaled, float(friction), load_of(profile, poisson, rim))
     stress *= b
     return stress

@@ -8,7 +8,7 @@ sqrt(R* L) for radii, p_L = (2 E*/pi) sqrt(L/R*) for tractions, L or mu L/kappa 
 import numpy as np
 
 from carom.dimensionless.fields.profile import Profile, is_constant
-from carom.dimensionless.numerics.arrays import Matrix, Vector
+from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
@@ -162,3 +162,10 @@ def sample(
             out[i, 0] = traction(pressed, r)
         out[i, 2] = normal_displacement(d, r)
         out[i, 3], out[i, 4] = displacement(profile, r)
+
+
+def displaced(profile: Profile, radii: Array) -> Array:
+    """Return the radial functions w_0, w_2 of what springs with this profile have slipped."""
+    out = np.empty((radii.size, 5))
+    sample(profile, 0.0, 0.0, 0.0, np.ascontiguousarray(radii), out)
+    return np.asarray(out[:, 3:] * np.array([1.0, -1.0]))

@@ -15,12 +15,12 @@ from carom.dimensionless.numerics.kernels import kernel
 # A row is the outer rim of an annulus: s there, the radius, g of the annulus, c at the rim, and of
 # q - q(rim) the integral up to the rim and that of the square. Row 0 is the centre.
 RIM, RADIUS, SLOPE, SHIFT, FORCE, SQUARE = range(6)
-COLUMNS = 6
+STACK_COLUMNS = 6
 
 
 def new_stack(steps: int) -> Array:
     """Return the memory of bodies that just touch, with room for this many steps."""
-    stack = np.empty((steps + 2, COLUMNS))
+    stack = np.empty((steps + 2, STACK_COLUMNS))
     stack[0] = 0.0
     return stack
 
@@ -45,12 +45,10 @@ def add(stack: Array, top: int, s: float, g: float, c: float) -> int:
     force, fall = stack[top, FORCE], g * (s - stack[top, RIM])
     square = stack[top, SQUARE] + fall * (2.0 * force + fall * inner)
     top += 1
-    stack[top, RIM] = s
-    stack[top, RADIUS] = radius
-    stack[top, SLOPE] = g
-    stack[top, SHIFT] = c
-    stack[top, FORCE] = force + g * cubes(inner, radius)
-    stack[top, SQUARE] = square + g * g * ring_square(inner, radius)
+    row = stack[top]
+    row[RIM], row[RADIUS], row[SLOPE], row[SHIFT] = s, radius, g, c
+    row[FORCE] = force + g * cubes(inner, radius)
+    row[SQUARE] = square + g * g * ring_square(inner, radius)
     return top
 
 

@@ -1,11 +1,18 @@
 """Load paths in two directions: on one line as `paths`, where they turn by springs.
 
-A step is straight in depth and displacement. It is cut into parts until twice as many come to the
-same; what they differ by corrects them to second order. In a part springs follow the bodies, and
-friction holds them.
+Springs at x, s = x^2, bear q, and their slopes g = -dq/ds make the traction
+
+    tau(r) = int_r^b g d sqrt(x^2 - r^2),    |tau(r)| <= p(r) = sqrt(b^2 - r^2)
+
+(Barber 1979, (6), in either direction). A step is straight in depth and displacement, and cut into
+parts until twice as many come to the same; what they differ by corrects them to second order. In a
+part all q follow the bodies, and then go to the nearest q, by elastic energy, that Coulomb's law
+allows at every radius (Moreau 1977, J. Differ. Equations 26:347). On a line that is the law of
+springs, |q| <= d - s, of `memory`. Units as there.
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -13,23 +20,96 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import cubes
-from carom.dimensionless.load_paths.paths import INSIDE, ROUNDING
-from carom.dimensionless.load_paths.rings import SPRINGS, cut, held, rings_within
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.kernels import plain
+from carom.dimensionless.load_paths.paths import FORCE_ROUNDING, INSIDE
+from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point, plain
 
-# What is known after a step.
+SPRINGS = 64
+MOST_SWEEPS = 2000
+TRACTION_SETTLED = 1e-10  # of the radius: the last change of a traction
+EDGES_KEPT = 256  # whose rings are known
+TINY_LENGTH = 1e-300
+
+# Columns of the results of a step.
 U_X, U_Y, Q_X, Q_Y, STICK, STORED, WORK = range(7)
 RESULTS = 7
 
-EVEN = 1e-3  # of Coulomb's limit: what twice as many parts may differ by
+PARTS_TOLERANCE = 1e-3  # of Coulomb's limit: what twice as many parts may differ by
 MOST_PARTS = 256
+FORCE_SEARCHED, FORCE_REACHED = 1e-9, 1e-6  # likewise: where a search ends, what it must come to
+LIMIT_TOLERANCE = 1e-7  # of the limit: a ring as near has reached it
 Advance = Callable[[int], object]
-
-CLOSE, FOUND = 1e-9, 1e-6  # likewise: where the search for a force ends, what it must be
-HELD = 1e-7  # of the limit: a ring as near has reached it
-
 limit_at = plain(cubes)
+
+
+class Rings(NamedTuple):
+    """Springs and the rings at their places within an edge b."""
+
+    squares: Array  # s
+    weights: Array  # of springs in an integral over x
+    limits: Array  # p of the rings
+    slopes: Array  # tau = slopes q
+    reach: Array  # q = reach tau
+    compliance: Array  # of the rings: reach' weights reach
+
+
+@lru_cache(maxsize=EDGES_KEPT)
+def rings_within(h: float, edge: float) -> Rings:
+    """Return the springs at x = k h within an edge; between them q is linear in s."""
+    x = np.arange(SPRINGS, dtype=np.float64) * h
+    x = x[x < edge]
+    ends, inner = np.append(x[1:], edge), x[:, None]
+    far = np.sqrt(np.maximum(ends**2 - inner**2, 0.0))
+    near = np.sqrt(np.maximum(x**2 - inner**2, 0.0))
+    fall = (np.eye(x.size) - np.eye(x.size, k=1)) / (ends**2 - x**2)[:, None]
+    slopes = np.triu(far - near) @ fall
+    reach = np.asarray(np.linalg.inv(slopes), np.float64)
+    weights = (ends - x) * (2.0 * ends + x) / (3.0 * (ends + x))
+    weights[1:] += (ends - x - weights)[:-1]
+    compliance = reach.T @ (weights[:, None] * reach)
+    return Rings(x**2, weights, far[:, -1].copy(), slopes, reach, compliance)
+
+
+@entry_point()
+def relax(
+    compliance: Matrix, pulled: Matrix, limits: Vector, traction: Matrix, settled: float
+) -> int:
+    """Bring tractions to compliance tau = pulled, or to their limits; return the sweeps it took.
+
+    Ring by ring the energy falls (projected Gauss-Seidel).
+    """
+    for sweep in range(MOST_SWEEPS):
+        change = 0.0
+        for k in range(limits.size):
+            x, y = pulled[k, 0], pulled[k, 1]
+            for j in range(limits.size):
+                x -= compliance[k, j] * traction[j, 0]
+                y -= compliance[k, j] * traction[j, 1]
+            x = traction[k, 0] + x / compliance[k, k]
+            y = traction[k, 1] + y / compliance[k, k]
+            size = np.hypot(x, y)
+            if size > limits[k]:
+                x, y = x * limits[k] / size, y * limits[k] / size
+            change = max(change, abs(x - traction[k, 0]), abs(y - traction[k, 1]))
+            traction[k, 0], traction[k, 1] = x, y
+        if change <= settled:
+            return sweep + 1
+    return MOST_SWEEPS
+
+
+def cut(vectors: Array, most: Array) -> Array:
+    """Return vectors cut back to lengths."""
+    size = np.hypot(vectors[:, 0], vectors[:, 1])
+    return np.asarray((most / np.maximum(size, np.maximum(most, TINY_LENGTH)))[:, None] * vectors)
+
+
+def held(now: Rings, springs: Array) -> Array:
+    """Return the traction of the nearest springs that Coulomb's law allows."""
+    edge = now.limits[0]
+    traction = cut(now.slopes @ cut(springs, edge**2 - now.squares), now.limits)
+    pulled = now.reach.T @ (now.weights[:, None] * springs)
+    relax(now.compliance, pulled, now.limits, traction, TRACTION_SETTLED * edge)
+    return traction
 
 
 class State(NamedTuple):
@@ -96,7 +176,7 @@ def stick_radius(state: State, h: float) -> float:
     now = rings_within(h, edge)
     traction = now.slopes @ state.springs[: now.limits.size]
     gap = now.limits - np.hypot(traction[:, 0], traction[:, 1])
-    first = int(np.argmin(np.append(gap > HELD * now.limits, False)))
+    first = int(np.argmin(np.append(gap > LIMIT_TOLERANCE * now.limits, False)))
     if first == now.limits.size:
         return edge
     if first < 2:
@@ -125,7 +205,7 @@ class Taken(NamedTuple):
         """Return whether both come to the same."""
         force, work = self.halves.force - self.parts.force, self.halves.work - self.parts.work
         deepest, way = max(before.depth, self.halves.depth), self.halves.moved - before.moved
-        most = EVEN * limit(deepest)
+        most = PARTS_TOLERANCE * limit(deepest)
         return bool(np.hypot(*force) <= most and abs(work) <= most * (deepest + np.hypot(*way)))
 
     def corrected(self) -> State:
@@ -158,7 +238,7 @@ def push(state: State, h: float, depth: float, wanted: Array) -> State | None:
     most = limit(depth)
     if depth <= 0.0:  # a force lets go
         return move(state, h, depth, state.moved - state.springs[0])
-    if np.hypot(*wanted) > (1.0 - FOUND) * most:  # springs that turn come to it nowhere
+    if np.hypot(*wanted) > (1.0 - FORCE_REACHED) * most:  # springs that turn come to it nowhere
         return None
 
     def lacks(moved: Array, count: int) -> Array:
@@ -166,13 +246,13 @@ def push(state: State, h: float, depth: float, wanted: Array) -> State | None:
 
     moved, count = first_guess(state, h, depth, wanted), 1
     while True:
-        moved = root(lacks, moved, (count,), "hybr", options={"xtol": CLOSE}).x
+        moved = root(lacks, moved, (count,), "hybr", options={"xtol": FORCE_SEARCHED}).x
         now = taken(state, h, depth, moved, count)
         if now.even(state) or count >= MOST_PARTS:
             break
         count *= 2
-    found = now.corrected()
-    return found if np.hypot(*(found.force - wanted)) <= FOUND * most else None
+    reached = now.corrected()
+    return reached if np.hypot(*(reached.force - wanted)) <= FORCE_REACHED * most else None
 
 
 def first_guess(state: State, h: float, depth: float, wanted: Array) -> Array:
@@ -196,7 +276,7 @@ def follow_turning(
     h = float(np.sqrt(max(depths.max(), 0.0))) / SPRINGS
     state = apart(0.0, np.zeros(2), 0.0)
     for n, (depth, target, forced) in enumerate(zip(depths, targets, by_force, strict=True)):
-        if forced and np.hypot(*target) > limit(depth) * (1.0 + ROUNDING):
+        if forced and np.hypot(*target) > limit(depth) * (1.0 + FORCE_ROUNDING):
             return results, n
         there = (push if forced else move)(state, h, float(depth), target)
         if there is None:
@@ -213,7 +293,7 @@ def direction_of(targets: Array) -> Array | None:
     size = np.hypot(targets[:, 0], targets[:, 1])
     along = targets[np.argmax(size)] / max(float(size.max()), np.finfo(np.float64).tiny)
     aside = targets[:, 1] * along[0] - targets[:, 0] * along[1]
-    return along if np.all(np.abs(aside) <= ROUNDING * size) else None
+    return along if np.all(np.abs(aside) <= FORCE_ROUNDING * size) else None
 
 
 def follow_path(

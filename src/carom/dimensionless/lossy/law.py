@@ -1,9 +1,10 @@
-"""What an impact loses energy to, free of units."""
+"""What an impact loses energy to, and what it then comes to, free of units."""
 
 from enum import IntEnum
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
@@ -12,7 +13,8 @@ from carom.dimensionless.numerics.kernels import kernel
 from carom.quantities.refusals import refusal
 
 LARGEST_CHI = 1000.0  # beyond, few impacts are solved
-FAR = 1e4  # psi_1 that is solved at most: at every such chi all slides, and would beyond as well
+Law = TypeVar("Law", bound="ScaleFreeLaw")
+LARGEST_PSI = 1e4  # that is solved: at every such chi all slides, and would beyond as well
 
 
 class Loss(IntEnum):
@@ -32,6 +34,7 @@ class LossNumbers(NamedTuple):
     extra: Any = 0.0
 
 
+@runtime_checkable
 class ScaleFreeLaw(Protocol):
     """What an impact needs of a law of losses, free of units."""
 
@@ -39,23 +42,50 @@ class ScaleFreeLaw(Protocol):
         """Return the loss and its parameters; InputError if they depend on the speed."""
 
 
-def scale_free(losses: Any) -> LossNumbers:
+class LossyRebounds(NamedTuple):
+    """What impacts with losses come to, in the units of elastic ones; arrays of one shape."""
+
+    psi_out: Array
+    restitution: Array
+    duration: Array
+    max_penetration: Array
+    max_force: Array
+    max_radius: Array
+    max_pressure: Array
+    shear_lost: Array
+    status: NDArray[np.int8]
+
+
+def scale_free(losses: ScaleFreeLaw) -> LossNumbers:
     """Return what is given as a law of losses in numbers, or raise InputError."""
-    return checked_law(losses, "scale_free")()  # type: ignore[no-any-return]
+    return checked_law(losses).scale_free()
 
 
-def checked_law(losses: Any, method: str) -> Any:
-    """Return a method of a law of losses, or raise InputError if this is none."""
-    found = getattr(losses, method, None)
-    if isinstance(losses, type) or not callable(found):
+def checked_law(losses: Law) -> Law:
+    """Return a law of losses, or raise InputError if this is none."""
+    if isinstance(losses, type) or not isinstance(losses, ScaleFreeLaw):
         allowed = "must be a law of losses, e.g. carom.KelvinVoigt(restitution=0.9)"
         raise refusal("losses", losses, allowed)
-    return found
+    return losses
 
 
-def largest_pressure(loss: int, force: Any, radius: Any) -> Any:
-    """Return Hertz's pressure at the largest force, of a yielded sphere on its true radius."""
-    return force / radius**2 if loss == Loss.PLASTIC else np.cbrt(force)
+def named(numbers: Array, loss: int, status: Any) -> LossyRebounds:
+    """Return what impacts come to, from their numbers along a last axis.
+
+    The pressure is Hertz's at the largest force, of a yielded sphere on its true radius.
+    """
+    force, radius = numbers[..., layout.STRONGEST], numbers[..., layout.WIDEST]
+    return LossyRebounds(
+        psi_out=numbers[..., layout.PSI_OUT],
+        restitution=numbers[..., layout.RESTITUTION],
+        duration=numbers[..., layout.TIME],
+        max_penetration=numbers[..., layout.DEEPEST],
+        max_force=force,
+        max_radius=radius,
+        max_pressure=force / radius**2 if loss == Loss.PLASTIC else np.cbrt(force),
+        shear_lost=numbers[..., layout.SHEAR_LOST],
+        status=status,
+    )
 
 
 @kernel

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import LossNumbers, largest_pressure
+from carom.dimensionless.lossy.law import LossNumbers, named
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory
 from carom.quantities.causes import Cause, cause_between
@@ -60,6 +60,16 @@ class LossySolution(Trajectory):
     def _sampled(self, wanted: Array) -> Array:
         """Return all rows of the record at these times, shape (rows, times)."""
 
+    @abstractmethod
+    def _recorded_work(self, radii: Array) -> Array:
+        """Return the work of friction per area of the record."""
+
+    def _friction_work(self, radii: Array) -> Array:
+        work = self._recorded_work(radii)
+        if self._excess:
+            work[:, 0] += self._excess * self._pressed(radii)
+        return self._scale**2 * work
+
     def at(self, time: ArrayLike) -> History:
         """Return the state at the given times, 0 <= time <= duration, one row for each.
 
@@ -94,39 +104,28 @@ def outcome(
     psi: float, chi: float, losses: LossNumbers, status: int, numbers: Array
 ) -> dict[str, Any]:
     """Return what a solution tells as numbers."""
-    force, radius = numbers[layout.STRONGEST], numbers[layout.WIDEST]
-    return {
-        "losses": losses,
-        "max_pressure": float(largest_pressure(losses.loss, force, radius)),
-        "psi_in": psi,
-        "chi": chi,
-        "status": Status(status),
-        "psi_out": float(numbers[layout.PSI_OUT]),
-        "restitution": float(numbers[layout.RESTITUTION]),
-        "duration": float(numbers[layout.TIME]),
-        "max_penetration": float(numbers[layout.DEEPEST]),
-        "max_force": float(force),
-        "max_radius": float(radius),
-        "shear_lost": float(numbers[layout.SHEAR_LOST]),
-    }
+    values = named(numbers, losses.loss, Status(status))._asdict()
+    columns = {name: float(value) for name, value in values.items() if name != "status"}
+    return {"psi_in": psi, "chi": chi, "losses": losses, **columns, "status": Status(status)}
 
 
-def phases_told(
+def phases_of(
     stretches: Iterable[tuple[float, int, int]], mirror: int, shortest: float
 ) -> tuple[Phase, ...]:
     """Return the phases that stretches of time make up: end, kind and sign of slip of each.
 
     What is too short goes to the one before.
     """
-    found: list[Phase] = []
+    phases: list[Phase] = []
     for end, kind, slip in stretches:
-        start = found[-1].end if found else 0.0
+        start = phases[-1].end if phases else 0.0
         name, sign = KIND_NAMES[Kind(kind)], mirror * slip
-        if found and ((found[-1].kind, found[-1].sign) == (name, sign) or end - start <= shortest):
-            found[-1] = found[-1]._replace(end=end)
+        same = phases and (phases[-1].kind, phases[-1].sign) == (name, sign)
+        if phases and (same or end - start <= shortest):
+            phases[-1] = phases[-1]._replace(end=end)
             continue
-        if found:
-            cause = cause_between(found[-1].kind, name).message
-            found[-1] = found[-1]._replace(cause=cause)
-        found.append(Phase(name, sign, start, end, Cause.SEPARATION.message))
-    return tuple(found)
+        if phases:
+            cause = cause_between(phases[-1].kind, name).message
+            phases[-1] = phases[-1]._replace(cause=cause)
+        phases.append(Phase(name, sign, start, end, Cause.SEPARATION.message))
+    return tuple(phases)

@@ -5,6 +5,8 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.quantities.arrays import Array as Array
+
 
 class ArrayType(NamedTuple):
     """The type of an array: that of its items, and the number of its dimensions.
@@ -16,8 +18,6 @@ class ArrayType(NamedTuple):
     dtype: Any
     ndim: int
 
-
-Array = NDArray[np.float64]
 
 Vector = Annotated[Array, ArrayType(np.float64, 1)]
 Matrix = Annotated[Array, ArrayType(np.float64, 2)]

@@ -54,9 +54,9 @@ class Waiting(event.Listener):  # type: ignore[misc]
         why = [shared_library.reason()] if shared_library.reason() else []
         if not self.kept:
             why.append("no folder can be written to; set NUMBA_CACHE_DIR to one that can")
-        told = f"This happens {often} and takes up to a minute"
+        cost = f"This happens {often} and takes up to a minute"
         reasons = f" ({'; '.join(why)})" if why else ""
-        return f"Carom is compiling its solver. {told}{reasons}."
+        return f"Carom is compiling its solver. {cost}{reasons}."
 
 
 waiting = Waiting()

@@ -24,8 +24,8 @@ from carom.quantities.refusals import InputError, one_of
 VARIABLE = "CAROM_KERNELS"  # of the environment: library, numba or python
 WAYS = ("library", "numba", "python")
 INSTALL = 'pip install "carom[jit]"'
-Given = ParamSpec("Given")
-Found = TypeVar("Found")
+Parameters = ParamSpec("Parameters")
+Result = TypeVar("Result")
 
 
 def way() -> str:
@@ -59,27 +59,29 @@ def warn_of_python() -> None:
         print(f"{what}, a thousand times slower ({why}). To be fast: {INSTALL}", file=sys.stderr)
 
 
-class Kernel(Generic[Given, Found]):
+class Kernel(Generic[Parameters, Result]):
     """A function of numbers and arrays, and its compiled forms, each made when it is asked for."""
 
-    def __init__(self, function: Callable[Given, Found], floats: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, function: Callable[Parameters, Result], floats: tuple[str, ...] = ()
+    ) -> None:
         self.py_func = function
         self.floats = floats
         update_wrapper(self, function)
 
-    def __call__(self, *args: Given.args, **kwargs: Given.kwargs) -> Found:
+    def __call__(self, *args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
         """Run the machine code."""
         return self.compiled(*args, **kwargs)
 
     @cached_property
-    def compiled(self) -> Callable[Given, Found]:
+    def compiled(self) -> Callable[Parameters, Result]:
         """The machine code of the library, or numba's; the function itself if there is neither."""
         if way() == "library" and self.floats:
-            found = shared_library.function(self.signatures(), self.floats)
-            if found is not None:
-                return cast(Callable[Given, Found], found)
+            compiled = shared_library.function(self.signatures(), self.floats)
+            if compiled is not None:
+                return cast(Callable[Parameters, Result], compiled)
         if has_numba():
-            return cast(Callable[Given, Found], self.dispatcher)
+            return cast(Callable[Parameters, Result], self.dispatcher)
         if shared_library.reason():
             warn_of_python()
         return as_written(self.py_func) if self.floats else self.py_func
@@ -108,32 +110,33 @@ class Kernel(Generic[Given, Found]):
 ENTRIES: list[Kernel[..., Any]] = []
 
 
-def kernel(function: Callable[Given, Found]) -> Callable[Given, Found]:
+def kernel(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Mark a function of numbers and arrays as one that is compiled."""
     return function if way() == "python" else Kernel(function)
 
 
-def entry_point(*floats: str) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
+def entry_point(
+    *floats: str,
+) -> Callable[[Callable[Parameters, Result]], Callable[Parameters, Result]]:
     """Mark a kernel that Python calls; its annotations are its signature.
 
     With several types of floating-point arrays there is a C function for each.
     """
 
-    def mark(function: Callable[Given, Found]) -> Callable[Given, Found]:
+    def mark(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
         if way() == "python":
             return as_written(function)
-        found = Kernel(function, floats or ("float64",))
-        ENTRIES.append(found)
-        return found
+        ENTRIES.append(Kernel(function, floats or ("float64",)))
+        return ENTRIES[-1]
 
     return mark
 
 
-def as_written(function: Callable[Given, Found]) -> Callable[Given, Found]:
+def as_written(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Return a kernel that is run as Python, and like machine code warns of no infinity."""
     return np.errstate(all="ignore")(function)
 
 
-def plain(kernel: Callable[Given, Found]) -> Callable[Given, Found]:
+def plain(kernel: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Return the Python function of a kernel, for tables that are made when a module is loaded."""
     return kernel.py_func if isinstance(kernel, Kernel) else kernel

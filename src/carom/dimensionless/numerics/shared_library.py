@@ -82,14 +82,14 @@ def function(
     There is a signature for each of the types of floating-point arrays.
     """
     try:
-        found = opened()
+        library = opened()
     except Unusable:
         return None
     calls = []
     for name, signature in signatures.items():
-        if found.signatures.get(name) != str(signature):
+        if library.signatures.get(name) != str(signature):
             return None
-        calls.append(caller(getattr(found.handle, name), signature))
+        calls.append(caller(getattr(library.handle, name), signature))
     return calls[0] if len(calls) == 1 else _by_type(dict(zip(floats, calls, strict=True)))
 
 
@@ -146,7 +146,7 @@ def _best(contents: Any) -> Opened:
 
 def digest(files: Iterable[Path]) -> str:
     """Return a checksum of files: their names and what they hold."""
-    found = sha256()
+    checksum = sha256()
     for path in files:
-        found.update(path.name.encode() + b"\0" + path.read_bytes())
-    return found.hexdigest()
+        checksum.update(path.name.encode() + b"\0" + path.read_bytes())
+    return checksum.hexdigest()

@@ -48,7 +48,7 @@ class Signature(NamedTuple):
 
 
 def signature_of(function: Callable[..., Any], floats: str = "float64") -> Signature:
-    """Return the signature of a kernel; arrays of any floating type are of the one told."""
+    """Return the signature of a kernel; arrays of any floating type are of the one named."""
     hints = get_type_hints(function, include_extras=True)
     result = hints.pop("return")
     several = get_origin(result) is tuple
@@ -93,9 +93,9 @@ def caller(pointer: Any, signature: Signature) -> Callable[..., Any]:
     ValueError for another number of dimensions: the C function could not tell.
     """
     pointer.argtypes, pointer.restype = (ctypes.c_char_p,), ctypes.c_int
-    given = [f"x{i}" for i in range(len(signature.parameters))]
+    arguments = [f"x{i}" for i in range(len(signature.parameters))]
     writer = _Writer()
-    for name, kind in zip(given, signature.parameters.values(), strict=True):
+    for name, kind in zip(arguments, signature.parameters.values(), strict=True):
         writer.read(name, kind)
     layout = struct.Struct("".join((*writer.codes, *(CODES[kind] for kind in signature.results))))
     names = {**writer.names, "pack": layout.pack, "pointer": pointer, "address": _address}
@@ -104,10 +104,10 @@ def caller(pointer: Any, signature: Signature) -> Callable[..., Any]:
     lines = [*writer.lines, f"packed = pack({packed})", "if pointer(packed):"]
     lines.append(f"    raise RuntimeError('{pointer.__name__} has failed')")
     if signature.results:
-        found = f"unpack(packed)[{-len(signature.results)}:]"
-        lines.append(f"return {found}{'[0]' if signature.single else ''}")
+        results = f"unpack(packed)[{-len(signature.results)}:]"
+        lines.append(f"return {results}{'[0]' if signature.single else ''}")
     body = "\n    ".join(lines)
-    exec(f"def call({', '.join(given)}):\n    {body}", names)
+    exec(f"def call({', '.join(arguments)}):\n    {body}", names)
     return names["call"]  # type: ignore[no-any-return]
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import sys
+from importlib.resources import files
 from math import sqrt
 from pathlib import Path
-from typing import NamedTuple
+from string import Template
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,10 +22,10 @@ from carom.verify.engines.experiments import Experiment, Outcomes
 
 SPACING = 4.0  # from centre to centre, in radii of the larger sphere
 SKIN = 0.025  # of that distance
-HAIR = 1.0 + 4.0 * sys.float_info.epsilon  # programs damp spheres that exactly touch
-RIGID = 1e9  # Young's modulus of a body that does not deform, in units of the other one's
-BEYOND = 1.15  # durations of an elastic contact that are run
-TABLE = "ITEM: ATOMS"  # what stands above the last table of a dump
+ALMOST_TOUCHING = 1.0 + 4.0 * sys.float_info.epsilon  # programs damp spheres that exactly touch
+RIGID_MODULUS = 1e9  # of a body that does not deform, in units of the other body's
+DURATIONS = 1.15  # of an elastic contact that are run
+TABLE_HEAD = "ITEM: ATOMS"  # of the last table in a dump
 
 
 class Spring(NamedTuple):
@@ -47,7 +49,7 @@ def spring(experiment: Experiment) -> Spring:
 def young_moduli(pair: Pair) -> tuple[float, float]:
     """Return Young's moduli of both bodies in Pa for a program that knows no infinity."""
     first, second = pair.first.material.young, pair.second.material.young
-    return min(first, RIGID * second), min(second, RIGID * first)
+    return min(first, RIGID_MODULUS * second), min(second, RIGID_MODULUS * first)
 
 
 def restitution(experiment: Experiment) -> float:
@@ -58,7 +60,7 @@ def restitution(experiment: Experiment) -> float:
 def run_length(experiment: Experiment) -> int:
     """Return how many steps it takes until all have parted; damping prolongs the contact."""
     ratio = damping_ratio(restitution(experiment))
-    return int(BEYOND * experiment.steps / (1.0 - ratio**2)) + 2
+    return int(DURATIONS * experiment.steps / (1.0 - ratio**2)) + 2
 
 
 def spacing(pair: Pair) -> float:
@@ -88,20 +90,16 @@ def placed(experiment: Experiment) -> list[Placed]:
     All but touch, by a hair. The centre of mass of two spheres rests; a half-space does.
     """
     pair, speed = experiment.pair, experiment.normal_speed
-    motions = list(zip(experiment.tangential_speed, experiment.spin, strict=True))
-    rows = [spacing(pair) * row for row in range(len(motions))]
     share = share_of_first(pair)
-    result = [
-        Placed(pair.first, y, HAIR * pair.first.radius, share * drift, -share * speed, spin)
-        for y, (drift, spin) in zip(rows, motions, strict=True)
-    ]
-    if isinstance(pair.second, Sphere):
-        share, depth = 1.0 - share, -HAIR * pair.second.radius
-        result += [
-            Placed(pair.second, y, depth, -share * drift, share * speed, 0.0)
-            for y, (drift, _) in zip(rows, motions, strict=True)
-        ]
-    return result
+    spheres = []
+    sides = (share, 1.0, 1.0), (share - 1.0, -1.0, 0.0)
+    motions = list(zip(experiment.tangential_speed, experiment.spin, strict=True))
+    for body, (part, side, spins) in zip(pair.moving, sides, strict=False):
+        z = side * ALMOST_TOUCHING * body.radius
+        for row, (drift, spin) in enumerate(motions):
+            y = spacing(pair) * row
+            spheres.append(Placed(body, y, z, part * drift, -part * speed, spins * spin))
+    return spheres
 
 
 def share_of_first(pair: Pair) -> float:
@@ -128,8 +126,19 @@ def outcomes_of(experiment: Experiment, states: Array) -> Outcomes:
     return Outcomes(vz, vx, 0.0 - first[:, 4])
 
 
+def template(name: str) -> Template:
+    """Return a template of inputs."""
+    path = files("carom").joinpath("data", "engines", name)
+    return Template(path.read_text(encoding="utf-8"))
+
+
+def filled(name: str, experiment: Experiment, **words: Any) -> str:
+    """Return a template with what any input says of an experiment, and with more words."""
+    return template(name).substitute(shared_values(experiment), **words)
+
+
 def shared_values(experiment: Experiment) -> dict[str, str]:
-    """Return what any input says, by the names that its template has for it."""
+    """Return what any input says, by the names that templates have for it."""
     pair, two = experiment.pair, isinstance(experiment.pair.second, Sphere)
     point = "vx1 - R1 omegay1 - vx2 - R2 omegay2" if two else "vx - R omegay"
     overlap = experiment.scales.length / pair.first.radius
@@ -172,7 +181,7 @@ def data_file(experiment: Experiment) -> str:
 
 def read_dump(path: Path) -> Array:
     """Return x, z, vx, vz, omega_y of each sphere at the end of a dump that has them after ids."""
-    _, _, table = path.read_text(encoding="utf-8").rpartition(TABLE)
+    _, _, table = path.read_text(encoding="utf-8").rpartition(TABLE_HEAD)
     rows = [line.split()[1:] for line in table.splitlines()[1:]]
     return np.array(rows, dtype=np.float64).reshape(-1, 5)
 

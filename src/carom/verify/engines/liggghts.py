@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from string import Template
 from typing import ClassVar
 
 from carom.adapters import liggghts
@@ -17,41 +16,6 @@ from carom.verify.engines.experiments import Experiment
 from carom.verify.engines.running import Engine
 
 INPUT, SPHERES, RESULT = "in.liggghts", "spheres.data", "results.dump"
-
-SCRIPT = Template("""\
-# $count oblique impacts of $bodies, side by side and far apart. Written by Carom.
-#
-#   liggghts -in $input     leaves $result: how the spheres leave
-#
-$impact
-
-units           si
-atom_style      granular
-atom_modify     map array
-communicate     single vel yes
-boundary        f f f
-newton          off
-hard_particles  yes   # allows Young's moduli above 1 GPa
-soft_particles  yes   # and below 5 MPa
-read_data       $spheres
-neighbor        $skin bin
-neigh_modify    delay 0 one 100   # of the default, memories of the exact law overflow
-
-# Law: $law
-# type 1 is the first body, type 2 the second one
-$properties
-pair_style      gran model $model
-pair_coeff      * *
-$wall
-
-fix             motion all nve/sphere
-timestep        $time_step   # s: $steps steps in the $duration s of Hertz's contact
-thermo          $run
-thermo_modify   lost error norm no
-dump            results all custom $run $result id x z vx vz omegay
-dump_modify     results sort id format "%d %.17g %.17g %.17g %.17g %.17g"
-run             $run
-""")
 
 
 @dataclass(frozen=True)
@@ -87,7 +51,6 @@ class Liggghts(Engine):
     result: ClassVar[str] = RESULT
 
     def executable(self) -> Path | None:
-        """Return where LIGGGHTS is, or None."""
         built = liggghts.program()
         return built if self.path is None and built.exists() else super().executable()
 
@@ -102,7 +65,6 @@ class Liggghts(Engine):
         return type(law) is LiggghtsHertz
 
     def files(self, experiment: Experiment) -> dict[str, str]:
-        """Return complete inputs: text by file name."""
         return {INPUT: _script(experiment), SPHERES: arrangement.data_file(experiment)}
 
 
@@ -119,8 +81,9 @@ def _script(experiment: Experiment) -> str:
     wall = f"fix             wall all wall/gran model {model} primitive type 2 zplane 0.0 {options}"
     if isinstance(experiment.pair.second, Sphere):
         wall = "# no wall: the second bodies are spheres"
-    return SCRIPT.substitute(
-        arrangement.shared_values(experiment),
+    return arrangement.filled(
+        "liggghts.in",
+        experiment,
         input=INPUT,
         result=RESULT,
         spheres=SPHERES,

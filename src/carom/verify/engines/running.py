@@ -20,15 +20,16 @@ import numpy as np
 
 from carom.dem.base import ContactLaw
 from carom.quantities.refusals import InputError, refusal
+from carom.quantities.shown import Shown
 from carom.quantities.units import positive
 from carom.verify.engines.arrangement import outcomes_of, read_dump
 from carom.verify.engines.experiments import Experiment, Outcomes
 
-PRINTED = "printed.txt"  # what the program printed, in its folder
-GLANCE = 0.1  # s
-LACKING = r"(?:error while loading shared libraries|Library not loaded): ([^:\s]+)"
+PRINTED_FILE = "printed.txt"  # in the folder of the program
+SECONDS_BETWEEN_LOOKS = 0.1
+MISSING_LIBRARY = r"(?:error while loading shared libraries|Library not loaded): ([^:\s]+)"
 LAST_LINES, LAST_CHARACTERS = 3, 300
-READ, MOST_PRINTED = 1 << 16, 1 << 26  # bytes of it
+BYTES_READ, MOST_BYTES_PRINTED = 1 << 16, 1 << 26
 
 
 class EngineError(RuntimeError):
@@ -40,7 +41,7 @@ class EngineKilled(EngineError):
 
 
 @dataclass(frozen=True)
-class Engine(ABC):
+class Engine(Shown, ABC):
     """A DEM program that is driven by files and a command: the one at a path, else by its name.
 
     Parameters
@@ -81,8 +82,8 @@ class Engine(ABC):
 
     def executable(self) -> Path | None:
         """Return where the program is, or None."""
-        found = shutil.which(self.called if self.path is None else self.path)
-        return Path(found).absolute() if found else None
+        path = shutil.which(self.called if self.path is None else self.path)
+        return Path(path).absolute() if path else None
 
     def command(self, folder: Path) -> list[str]:
         """Return the command that runs the inputs in a folder."""
@@ -90,8 +91,8 @@ class Engine(ABC):
 
     def version(self, printed: str) -> str:
         """Return the version that the program has printed."""
-        found = re.search(self.greeting, printed, re.MULTILINE)
-        return found.group(1) if found else "unknown"
+        greeting = re.search(self.greeting, printed, re.MULTILINE)
+        return greeting.group(1) if greeting else "unknown"
 
 
 class Run(NamedTuple):
@@ -154,8 +155,8 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     ...         return [sys.executable, "-c", "open('out', 'w').write('0.01 0.005 0.0')"]
     ...     def outcomes(self, folder, experiment):
     ...         return Outcomes(*np.loadtxt(folder / "out", unpack=True, ndmin=2))
-    >>> found = carom.verify.run(Smooth(), experiment)
-    >>> found.outcomes.tangential_speed, found.version
+    >>> result = carom.verify.run(Smooth(), experiment)
+    >>> result.outcomes.tangential_speed, result.version
     (array([0.005]), 'unknown')
     """
     limit = positive("time_limit", time_limit)
@@ -175,7 +176,7 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
 
 def _execute(engine: Engine, folder: Path, time_limit: float) -> None:
     """Run the command of a program; whatever happens, no process of its group is left."""
-    with (folder / PRINTED).open("wb") as printed:
+    with (folder / PRINTED_FILE).open("wb") as printed:
         try:
             process = subprocess.Popen(
                 engine.command(folder),
@@ -205,13 +206,13 @@ def _awaited(process: subprocess.Popen[bytes], printed: IO[bytes], limit: float)
     deadline = perf_counter() + limit
     while True:
         try:
-            process.wait(max(0.0, min(GLANCE, deadline - perf_counter())))
+            process.wait(max(0.0, min(SECONDS_BETWEEN_LOOKS, deadline - perf_counter())))
             return None
         except subprocess.TimeoutExpired:
             if perf_counter() >= deadline:
                 return f"was killed at its time limit of {limit:g} s"
-            if os.fstat(printed.fileno()).st_size > MOST_PRINTED:
-                return f"was killed as it printed more than {MOST_PRINTED >> 20} MB"
+            if os.fstat(printed.fileno()).st_size > MOST_BYTES_PRINTED:
+                return f"was killed as it printed more than {MOST_BYTES_PRINTED >> 20} MB"
 
 
 def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
@@ -233,10 +234,10 @@ def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
 
 
 def _crash(engine: Engine, folder: Path, code: int) -> EngineError:
-    lacking = re.search(LACKING, _printed(folder))
-    if lacking:
+    missing = re.search(MISSING_LIBRARY, _printed(folder))
+    if missing:
         return EngineError(
-            f"{engine.name} does not start: {lacking[1]} is missing; {engine.advice}"
+            f"{engine.name} does not start: {missing[1]} is missing; {engine.advice}"
         )
     reason = f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
     return _failure(engine, folder, f"has crashed ({reason})")
@@ -253,10 +254,10 @@ def _failure(
 
 def _printed(folder: Path) -> str:
     """Return the beginning and the end of what a program has printed, as text that can be shown."""
-    with (folder / PRINTED).open("rb") as printed:
+    with (folder / PRINTED_FILE).open("rb") as printed:
         size = os.fstat(printed.fileno()).st_size
-        content = printed.read(READ)
-        printed.seek(max(READ, size - READ))
-        content += printed.read(READ)
+        content = printed.read(BYTES_READ)
+        printed.seek(max(BYTES_READ, size - BYTES_READ))
+        content += printed.read(BYTES_READ)
     text = content.decode("utf-8", errors="replace")
     return "".join(c if c.isprintable() or c in "\n\t" else "?" for c in text)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from string import Template
 from typing import ClassVar
 
 import numpy as np
@@ -19,65 +18,6 @@ from carom.verify.engines.running import Engine
 
 SCRIPT, RESULT = "impacts.py", "results.txt"
 
-IMPACTS = Template("""\
-# $count oblique impacts of $bodies, side by side and far apart. Written by Carom.
-#
-#   yade -n -x $script     leaves $result: how the spheres leave
-#
-$impact
-from math import atan
-
-first = FrictMat($first_material, frictionAngle=atan($friction))
-second = FrictMat($second_material, frictionAngle=atan($friction))
-for material in (first, second):
-    O.materials.append(material)
-
-radius, second_radius = $radius, $second_radius
-height = $height  # of the first body above the second: a hair before they touch
-normal_speed = $normal_speed
-# tangential speed, spin (omegay is its negative)
-impacts = [
-$impacts
-]
-
-first_bodies, second_bodies = [], []
-for i, (speed, spin) in enumerate(impacts):
-    place = $spacing * i
-    one = sphere((0, place, height), radius, material=first)
-    one.state.vel = (speed, 0, -normal_speed)
-    one.state.angVel = (0, -spin, 0)
-    first_bodies.append(O.bodies.append(one))
-    if second_radius > 0:
-        two = sphere((0, place, 0), second_radius, material=second)
-        second_bodies.append(O.bodies.append(two))
-if second_radius == 0:
-    O.bodies.append(utils.wall(0, axis=2, sense=1, material=second))
-
-O.engines = [
-    ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * radius),
-    InteractionLoop(
-        [
-            # without hertzian a wall has the radius of the sphere, and R* = R/2
-            Ig2_Wall_Sphere_ScGeom(hertzian=True),
-            Ig2_Sphere_Sphere_ScGeom(),
-        ],
-        # Law: $law
-        [$physics],
-        [$functor],$comment
-    ),
-    NewtonIntegrator(damping=0),  # its default, 0.2, takes energy from every motion
-]
-O.dt = $time_step  # s: $steps steps in the $duration s of Hertz's contact
-O.run($run, True)
-
-with open("$result", "w") as file:
-    file.write("# x z vx vz omegay of the first bodies, then of the second ones\\n")
-    for number in first_bodies + second_bodies:
-        state = O.bodies[number].state
-        row = (state.pos[0], state.pos[2], state.vel[0], state.vel[2], state.angVel[1])
-        file.write(" ".join(repr(float(value)) for value in row) + "\\n")
-""")
 
 MINDLIN = "Law2_ScGeom_MindlinPhys_Mindlin()"
 ABOUT_MINDLIN = """
@@ -123,11 +63,9 @@ class Yade(Engine):
         return isinstance(law, YadeMindlin)
 
     def files(self, experiment: Experiment) -> dict[str, str]:
-        """Return complete inputs: text by file name."""
         return {SCRIPT: _script(experiment)}
 
     def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
-        """Return what a run has left in its folder; ValueError or OSError if it is not there."""
         return arrangement.outcomes_of(experiment, np.loadtxt(folder / RESULT, ndmin=2))
 
 
@@ -136,8 +74,9 @@ def _script(experiment: Experiment) -> str:
     first_young, second_young = arrangement.young_moduli(pair)
     physics, functor = _law(experiment)
     motions = zip(experiment.tangential_speed, experiment.spin, strict=True)
-    return IMPACTS.substitute(
-        arrangement.shared_values(experiment),
+    return arrangement.filled(
+        "yade.in",
+        experiment,
         script=SCRIPT,
         result=RESULT,
         first_material=_material(pair.first, first_young),
@@ -145,7 +84,7 @@ def _script(experiment: Experiment) -> str:
         friction=pair.friction,
         radius=pair.first.radius,
         second_radius=second.radius if isinstance(second, Sphere) else 0.0,
-        height=arrangement.HAIR * arrangement.touching(pair),
+        height=arrangement.ALMOST_TOUCHING * arrangement.touching(pair),
         normal_speed=experiment.normal_speed,
         impacts="\n".join(f"    ({speed!r}, {spin!r})," for speed, spin in motions),
         spacing=arrangement.spacing(pair),

@@ -39,12 +39,12 @@ def collect(folder: str | Path) -> Path:
     except (OSError, ValueError, IndexError) as error:
         reason = f"{program.name} has left no results ({error}); run it first"
         raise refusal("folder", str(folder), reason) from None
-    given = {name: cells for name, cells in inputs.columns.items() if name not in AFTER}
+    before = {name: cells for name, cells in inputs.columns.items() if name not in AFTER}
     after = {
         name: [repr(float(value)) for value in values]
         for name, values in zip(AFTER, outcomes, strict=True)
     }
-    text = DecimalTable((f"code: {program.name}",), given | after).as_csv()
+    text = DecimalTable((f"code: {program.name}",), before | after).as_csv()
     return replace_whole(place / INPUTS, lambda file: file.write_text(text, encoding="utf-8"))
 
 

@@ -21,7 +21,7 @@ from carom.quantities.arrays import Array
 
 VERSION = "1"
 ACCURACY = 1e-10  # of psi_2, in max(1, |psi_1|); of forces and speeds in a history, in their scales
-COMPILED = "__pycache__"  # what an installer makes of scripts
+BYTECODE_FOLDER = "__pycache__"  # which installers add
 CASE, INPUTS, REFERENCE = "case.toml", "results.csv", "reference.csv"  # in the folder of a set
 
 
@@ -90,14 +90,14 @@ def title_of(folder: str) -> tuple[str, ...]:
 
 
 def _texts(folder: Traversable, prefix: str) -> dict[str, str]:
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for entry in folder.iterdir():
         path = f"{prefix}{entry.name}"
         if entry.is_dir():
-            found |= {} if entry.name == COMPILED else _texts(entry, f"{path}/")
+            texts |= {} if entry.name == BYTECODE_FOLDER else _texts(entry, f"{path}/")
         else:
-            found[path] = entry.read_bytes().decode("utf-8")
-    return found
+            texts[path] = entry.read_bytes().decode("utf-8")
+    return texts
 
 
 def _parsed(cell: str) -> float | str | None:

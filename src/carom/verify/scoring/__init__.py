@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,19 +11,19 @@ import numpy as np
 from carom.bodies.pairs import Pair
 from carom.dem.base import Law
 from carom.impacts.exact import Impact
-from carom.io.columns import in_units, others
 from carom.io.tables import read_table
-from carom.io.user_table import UserTable
+from carom.io.user_table import UserTable, in_units, others
 from carom.quantities.arrays import Array
-from carom.quantities.faults import Faults
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, nearest, refusal
+from carom.quantities.refusals import Faults, InputError, nearest, refusal
 from carom.quantities.units import positive
-from carom.verify.errors import is_function
-from carom.verify.scoring.cases import Given, given_of, results_of
+from carom.verify.entries import is_function
+from carom.verify.scoring.cases import ScoredCase, results_of, scored_case
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
-from carom.verify.scoring.origins import MOST, NAMES, origins_of
+from carom.verify.scoring.origins import MOST_ORIGINS, NAMES, origins_of
 from carom.verify.scoring.points import (
+    FEWEST_POINTS,
+    Scored,
     compared,
     energy_audit,
     friction_audit,
@@ -37,7 +36,6 @@ from carom.verify.scoring.velocities import AFTER, BEFORE, score_velocities
 __all__ = ["TOLERANCE", "Score", "score"]
 
 TOLERANCE = 0.01  # in psi_2: a hundredth of the largest psi_1 that sticks from the first touch
-FEWEST = 3  # points
 DIMENSIONLESS = ("psi_in", "psi_out", "chi")
 
 
@@ -123,26 +121,27 @@ def score(
     0.576
     """
     limit = positive("tolerance", tolerance, "1")
-    own_notes: tuple[str, ...] = ()
+    law_notes: tuple[str, ...] = ()
     if isinstance(results, Law) or (is_function(results) and not hasattr(results, "items")):
         own = results_of(results, case, chi, restitution)
         results, case, chi, restitution = own.columns, None, own.chi, own.restitution
-        law, own_notes = own.name if law is None else law, own.notes
+        law, law_notes = own.name if law is None else law, own.notes
     table = read_table(results, columns)
-    kind, known = _kind(table.names)
+    kind, names = _kind(table.names)
     if kind != "psi" and chi is not None:
         raise refusal("chi", chi, "it follows from the case; leave it out")
-    scored = {"psi": _score_psi, "velocities": _score_velocities, "history": _score_history}
     with Faults() as faults:
-        unused = others(table, known, faults)
-        given = in_units(table, known, faults=faults)
+        unused = [name for name in others(table, names, faults) if name not in NAMES]
+        quantities = in_units(table, names, faults=faults)
         faults.settle()
-        found = scored[kind](given, given_of(case, chi, table.case, restitution), chi, limit)
-    most = 1 if kind == "history" else MOST
+        scored = SCORERS[kind](quantities, scored_case(case, chi, table.case, restitution), limit)
+    most = 1 if kind == "history" else MOST_ORIGINS
     origins, notes = origins_of(table, {"code": code, "law": law}, most)
-    left = [name for name in unused if name not in NAMES]
-    told = (f"columns that were not used: {', '.join(left)}",) if left else ()
-    return replace(found, notes=(*found.notes, *notes, *told, *own_notes), told_origins=origins)
+    ignored = (f"columns that were not used: {', '.join(unused)}",) if unused else ()
+    notes = *scored.notes, *notes, *ignored, *law_notes
+    return Score(
+        kind, limit, scored.points, scored.audit, notes, scored.inputs, scored.forces, origins
+    )
 
 
 def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
@@ -153,8 +152,8 @@ def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
         return "psi", DIMENSIONLESS
     if set(BEFORE + AFTER) & set(names):
         return "velocities", BEFORE + AFTER
-    known = ("psi_1", "psi_2", *BEFORE, *AFTER, *HISTORY)
-    hint = next(filter(None, (nearest(name, known) for name in names)), "")
+    columns = ("psi_1", "psi_2", *BEFORE, *AFTER, *HISTORY)
+    hint = next(filter(None, (nearest(name, columns) for name in names)), "")
     raise InputError(
         f"results: no column of {', '.join(names)} is known; {hint} Give psi_1, psi_2; or "
         "normal_speed, tangential_speed, spin, tangential_speed_out, spin_out; or time, "
@@ -162,42 +161,37 @@ def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     )
 
 
-def _score_psi(results: UserTable, case: Given, chi: Any, limit: float) -> Score:
+def score_rebounds(results: UserTable, case: ScoredCase, limit: float) -> Scored:
+    """Return the points of a rebound curve, and what is found of them."""
     results.require("psi_in", "psi_out")
-    results.require_rows(FEWEST)
-    chis = _chis(results, case, chi)
-    before, after = results["psi_in"], results["psi_out"]
+    results.require_rows(FEWEST_POINTS)
+    chi, before, after = _chi(results, case), results["psi_in"], results["psi_out"]
     refuse_large(before, after, results)
     change = (after - before) * (after + before)
-    points = compared(before, after, chis, case.restitution, change, results)
-    left, unit = np.full(len(results), case.restitution), np.ones(len(results))
-    audit = energy_audit(points, unit, "in psi^2", limit), friction_audit(points, left, limit)
-    return Score("psi", limit, points, audit, notes_on(points))
+    points = compared(before, after, chi, case.restitution, change, results)
+    restitution, unit = np.full(len(results), case.restitution), np.ones(len(results))
+    audit = (
+        energy_audit(points, unit, "in psi^2", limit),
+        friction_audit(points, restitution, limit),
+    )
+    return Scored(points, audit, notes_on(points), {})
 
 
-def _chis(results: UserTable, case: Given, chi: Any) -> Array:
-    ways = [name for name, way in (("--chi", chi), ("--case", case.case)) if way is not None]
+def _chi(results: UserTable, case: ScoredCase) -> Array:
+    options = {"--chi": case.chi, "--case": case.case}
+    used = [option for option, value in options.items() if value is not None]
     if "chi" in results.columns:
-        if ways:
-            raise InputError(f"chi: the results have a column chi; leave {ways[0]} out")
+        if used:
+            raise InputError(f"chi: the results have a column chi; leave {used[0]} out")
         results.refuse("chi", results["chi"] <= 0.0, "must be positive")
         return np.asarray(results["chi"])
-    if len(ways) != 1:
+    if len(used) != 1:
         raise InputError(
-            f"chi: {'given twice' if ways else 'missing'}; give a column chi, or --chi, e.g. 1.44, "
+            f"chi: {'given twice' if used else 'missing'}; give a column chi, or --chi, e.g. 1.44, "
             "or --case with the bodies"
         )
-    value = positive("chi", chi) if chi is not None else case.pair.chi
-    return np.full(len(results), value)
+    chi = positive("chi", case.chi) if case.chi is not None else case.pair.chi
+    return np.full(len(results), chi)
 
 
-def _score_velocities(results: UserTable, case: Given, _: Any, limit: float) -> Score:
-    results.require_rows(FEWEST)
-    points, audit, notes = score_velocities(results, case.pair, case.restitution, limit)
-    return Score("velocities", limit, points, audit, notes, inputs=case.inputs)
-
-
-def _score_history(results: UserTable, case: Given, _: Any, limit: float) -> Score:
-    hit = case.impact
-    points, audit, notes, forces = score_history(results, hit, case.restitution, limit)
-    return Score("history", limit, points, audit, notes, forces, hit.inputs())
+SCORERS = {"psi": score_rebounds, "velocities": score_velocities, "history": score_history}

@@ -1,6 +1,6 @@
 """The score of a history of forces: the rebound that it makes, and what is found on the way."""
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,29 +8,25 @@ from numpy.typing import NDArray
 from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics import hertz
 from carom.impacts.exact import Impact
-from carom.io.labels import Finding
+from carom.io.labels import Finding, labelled, labelled_dataset
 from carom.io.user_table import Mask, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
-from carom.verify.scoring.points import (
-    LARGEST,
-    PRINTED,
-    Points,
-    compared,
-    energy_audit,
-    refuse_large,
-    restitution_audit,
-    within,
-)
+from carom.verify.scoring import points as scored
+from carom.verify.scoring.cases import ScoredCase
+from carom.verify.scoring.points import LARGEST_PSI, PRINTED_DIGITS, Scored, within
 
-FEWEST = 20  # rows with a force
-INSTANTS, RESOLVED = 100, 1e-12  # among which the peak is looked for; of a time in d_max/V_1
-SMALL = 0.1  # of the peak: what the first and last force of elastic bodies may be
-FACTORS = {1e3: "m", 1e6: "u", 1e9: "n", 1e-3: "k", 1e-6: "M"}  # prefix by the factor of numbers
-LIKE = 1.5  # how near a factor is to one of them
-FAR = 30.0  # a ratio to Hertz's time that no law of contact explains
-TAIL = 64  # instants added where the exact contact outlasts the one that was given
+if TYPE_CHECKING:
+    import xarray as xr
+
+FEWEST_ROWS = 20  # with a force
+PEAK_INSTANTS, TIME_TOLERANCE = 100, 1e-12  # the latter in d_max/V_1
+SMALL_FORCE = 0.1  # of the peak: what the first and last force of elastic bodies may be
+PREFIXES = {1e3: "m", 1e6: "u", 1e9: "n", 1e-3: "k", 1e-6: "M"}  # by the factor of numbers
+PREFIX_RATIO = 1.5  # how far a factor may be from one of them
+LARGEST_DURATION = 30.0  # in Hertz's; no law of contact explains more
+TAIL_INSTANTS = 64  # added where the exact contact outlasts that of the results
 NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
 
 
@@ -38,7 +34,7 @@ class Samples(NamedTuple):
     """Forces at times since the first touch, with the instants without force at either end.
 
     `rows` are the places in the results, -1 for an instant that was added; `touch` is the first
-    touch in the time of the results, `end` the last since then.
+    touch in the time of the results.
     """
 
     time: Array
@@ -46,7 +42,6 @@ class Samples(NamedTuple):
     tangential_force: Array
     rows: NDArray[np.int64]
     touch: float
-    end: float
 
 
 def contact_samples(results: UserTable, hit: Impact) -> Samples:
@@ -64,12 +59,11 @@ def contact_samples(results: UserTable, hit: Impact) -> Samples:
     results.refuse("time", falls, allowed)
     first, last = _ends(results)
     _check_units(time[first : last + 1], force, hit.scales)
-    peak = float(force.max())
-    _check_ends(results, first, last, peak, hit)
+    _check_ends(results, first, last, hit)
     count = last - first + 1
-    if count < FEWEST:
+    if count < FEWEST_ROWS:
         raise InputError(
-            f"results: {count} rows have a normal force; a history needs at least {FEWEST}, "
+            f"results: {count} rows have a normal force; a history needs at least {FEWEST_ROWS}, "
             "record more often"
         )
     touch = float(time[first]) - _when(float(force[first]), hit, 0.0)
@@ -79,33 +73,29 @@ def contact_samples(results: UserTable, hit: Impact) -> Samples:
         touch = max(touch, float(time[first - 1]))
     if last + 1 < len(results):
         end = min(end, float(time[last + 1]))
-    return _framed(results, first, last, touch, end)
+    part, framed = slice(first, last + 1), {}
+    for name in ("normal_force", "tangential_force"):
+        framed[name] = np.concatenate([[0.0], results[name][part], [0.0]])
+    return Samples(
+        time=np.concatenate([[touch], time[part], [end]]) - touch,
+        rows=np.concatenate([[-1], np.arange(first, last + 1), [-1]]),
+        touch=touch,
+        **framed,
+    )
 
 
 def _when(force: float, hit: Impact, end: float) -> float:
     """Return when the exact force, between one end of the contact and its peak, has a value."""
     from scipy.optimize import brentq
 
-    exact = hit.solution.history(INSTANTS)
+    exact = hit.solution.history(PEAK_INSTANTS)
     peak = float(exact.time[np.argmax(exact.normal_force)])
 
     def excess(time: float) -> float:
         return float(hit.solution.at(time).normal_force[0]) - force / hit.scales.force
 
-    time = peak if excess(peak) <= 0.0 else brentq(excess, end, peak, xtol=RESOLVED)
+    time = peak if excess(peak) <= 0.0 else brentq(excess, end, peak, xtol=TIME_TOLERANCE)
     return time * hit.scales.time
-
-
-def _framed(results: UserTable, first: int, last: int, touch: float, end: float) -> Samples:
-    """Return the rows from first to last between an instant of touch and one of separation."""
-    part = slice(first, last + 1)
-    normal, tangential = (
-        np.concatenate([[0.0], results[name][part], [0.0]])
-        for name in ("normal_force", "tangential_force")
-    )
-    rows = np.concatenate([[-1], np.arange(first, last + 1), [-1]])
-    time = np.concatenate([[touch], results["time"][part], [end]]) - touch
-    return Samples(time, normal, tangential, rows, touch, end - touch)
 
 
 def _ends(results: UserTable) -> tuple[int, int]:
@@ -123,15 +113,16 @@ def _ends(results: UserTable) -> tuple[int, int]:
     return first, last
 
 
-def _check_ends(results: UserTable, first: int, last: int, peak: float, hit: Impact) -> None:
+def _check_ends(results: UserTable, first: int, last: int, hit: Impact) -> None:
     """Raise InputError if the record does not start at the first touch and end at the last."""
-    exact = hit.solution.history(FEWEST + 1).normal_force / hit.solution.max_force
+    exact = hit.solution.history(FEWEST_ROWS + 1).normal_force / hit.solution.max_force
+    force = results["normal_force"]
     for place, what, soon in (
         (first, "start at the first touch", exact[1]),
         (last, "go on to the last touch", exact[-2]),
     ):
-        share = float(results["normal_force"][place]) / peak
-        if share > max(SMALL, soon):  # forces of viscous bodies rise steeply
+        share = float(force[place]) / float(force.max())
+        if share > max(SMALL_FORCE, soon):  # forces of viscous bodies rise steeply
             raise InputError(
                 f"normal_force: the history does not {what}; in {results.one(place)} it is "
                 f"{100 * share:.0f} % of the peak; record from before the touch until they part"
@@ -143,13 +134,13 @@ def _check_units(time: Array, force: Array, scales: Scales) -> None:
     pressed = float(force.max()) / scales.force
     for name, ratio, unit in (("time", lasted, "s"), ("normal_force", pressed, "N")):
         what = "the contact lasts" if name == "time" else "the peak is"
-        for factor, prefix in FACTORS.items():
-            if 1.0 / LIKE < ratio / factor < LIKE:
+        for factor, prefix in PREFIXES.items():
+            if 1.0 / PREFIX_RATIO < ratio / factor < PREFIX_RATIO:
                 raise InputError(
                     f"{name}: {what} {ratio:.4g} times Hertz's; if it is in {prefix}{unit}, "
                     f"head the column '{name} [{prefix}{unit}]'"
                 )
-    if len(time) > 1 and not 1.0 / FAR < lasted < FAR:
+    if len(time) > 1 and not 1.0 / LARGEST_DURATION < lasted < LARGEST_DURATION:
         raise InputError(
             f"time: the contact lasts {lasted:.4g} times Hertz's duration, "
             f"{text(hertz.DURATION * scales.time, 's', 4)}; is time counted in steps?"
@@ -182,6 +173,25 @@ class Forces(NamedTuple):
         squares = np.diff(self.time) @ _middles(values**2)
         return float(np.sqrt(squares / self.time[-1]))
 
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the forces and the exact ones along time."""
+        hit, names = self.hit, ("time", "normal_force", "tangential_force")
+        dataset = labelled(
+            {name: getattr(self, name) for name in names},
+            {"friction": hit.pair.friction, "max_force": hit.max_force, "duration": hit.duration},
+            hit.phases,
+            hit.inputs(),
+        )
+        exact = {
+            f"{name}_exact": (
+                "time",
+                getattr(self, f"exact_{name}"),
+                {"units": "N", "long_name": f"exact {name.replace('_', ' ')}"},
+            )
+            for name in names[1:]
+        }
+        return dataset.assign(labelled_dataset(exact, {}, {}).data_vars)
+
 
 def forces_of(hit: Impact, samples: Samples) -> Forces:
     """Return a history beside the exact one, until neither contact lasts.
@@ -191,7 +201,7 @@ def forces_of(hit: Impact, samples: Samples) -> Forces:
     """
     time, pair, scales = samples.time, hit.pair, hit.scales
     if time[-1] < hit.duration * (1.0 - 1e-12):
-        time = np.concatenate([time, np.linspace(time[-1], hit.duration, TAIL)[1:]])
+        time = np.concatenate([time, np.linspace(time[-1], hit.duration, TAIL_INSTANTS)[1:]])
     after = np.zeros(time.size - samples.time.size)
     normal = np.concatenate([samples.normal_force, after])
     tangential = np.concatenate([samples.tangential_force, after])
@@ -213,7 +223,7 @@ def forces_of(hit: Impact, samples: Samples) -> Forces:
         tangential_error=off_tangential / (pair.friction * scales.force),
         psi=exact.psi - impulse / (pair.tangential_mass * scales.tangential_speed),
         restitution=hit.normal_restitution + normal_impulse / (pair.normal_mass * hit.normal_speed),
-        duration_error=samples.end / hit.duration - 1.0,
+        duration_error=float(samples.time[-1]) / hit.duration - 1.0,
         peak_error=float(normal.max() - exact_normal.max()) / scales.force,
     )
 
@@ -222,47 +232,35 @@ def _middles(values: Array) -> Array:
     return 0.5 * (values[1:] + values[:-1])
 
 
-def score_history(
-    results: UserTable, hit: Impact, expected: float, limit: float
-) -> tuple[Points, tuple[Finding, ...], tuple[str, ...], Forces]:
-    """Return the one point that a history makes, what is found, notes, and the forces."""
+def score_history(results: UserTable, case: ScoredCase, limit: float) -> Scored:
+    """Return the one point that a history makes, what is found on the way, and the forces."""
+    hit = case.impact
     results.require("time", "normal_force", "tangential_force")
-    _refuse_large(results, hit.scales)
+    scales = hit.scales
+    largest = scales.force, scales.force, scales.tangential_speed
+    for name, scale in zip(NAMES[1:], largest, strict=True):
+        if name in results.columns:
+            results.refuse(name, np.abs(results[name]) > LARGEST_PSI * scale, "check its unit")
     forces = forces_of(hit, contact_samples(results, hit))
-    change = np.array([_energy_change(forces)])
     before, after = np.array([hit.psi_in]), forces.psi[-1:]
     one = UserTable({}, np.array([1]), "impact")
-    refuse_large(before, after, one)
-    points = compared(before, after, np.array([hit.pair.chi]), expected, change, one)
-    unit = 0.5 * hit.pair.tangential_mass * np.array([hit.scales.tangential_speed]) ** 2
-    findings = (
+    scored.refuse_large(before, after, one)
+    unit = 0.5 * hit.pair.tangential_mass * np.array([scales.tangential_speed]) ** 2
+    lost = unit * (forces.psi[0] - after) * (forces.psi[0] + after)
+    change, chi = scales.energy * (forces.restitution**2 - 1.0) - lost, np.array([hit.pair.chi])
+    points = scored.compared(before, after, chi, case.restitution, change, one)
+    audit = (
         _off("tangential force", forces, forces.tangential_error, "mu P_max", limit),
         _off("normal force", forces, forces.normal_error, "P_max", limit),
         _share("peak force", forces.peak_error, "of P_max", limit),
         _share("duration", forces.duration_error, "of the exact one", limit),
         _cone_audit(results, forces, limit),
         _work_audit(forces, limit),
-        energy_audit(points, unit, "J", limit),
-        restitution_audit(points, np.array([forces.restitution]), limit),
+        scored.energy_audit(points, unit, "J", limit),
+        scored.restitution_audit(points, np.array([forces.restitution]), limit),
         *_velocity_audit(results, forces, limit),
     )
-    return points, findings, _notes(forces), forces
-
-
-def _refuse_large(results: UserTable, scales: Scales) -> None:
-    """Raise InputError for numbers in a unit that cannot be theirs."""
-    units = {"normal_force": scales.force, "tangential_force": scales.force}
-    units["contact_velocity"] = scales.tangential_speed
-    for name, unit in units.items():
-        if name in results.columns:
-            results.refuse(name, np.abs(results[name]) > LARGEST * unit, "check its unit")
-
-
-def _energy_change(forces: Forces) -> float:
-    psi, scales = forces.psi, forces.hit.scales
-    unit = 0.5 * forces.hit.pair.tangential_mass * scales.tangential_speed**2
-    lost = float(unit * (psi[0] - psi[-1]) * (psi[0] + psi[-1]))
-    return scales.energy * (forces.restitution**2 - 1.0) - lost
+    return Scored(points, audit, _notes(forces), hit.inputs(), forces)
 
 
 def _off(name: str, forces: Forces, error: Array, unit: str, limit: float) -> Finding:
@@ -282,7 +280,7 @@ def _cone_audit(results: UserTable, forces: Forces, limit: float) -> Finding:
     friction, peak = forces.hit.pair.friction, forces.hit.scales.force
     over = np.abs(results["tangential_force"]) - friction * np.maximum(results["normal_force"], 0.0)
     over = over / (friction * peak)
-    outside, value = over > PRINTED * limit, max(float(over.max()), 0.0)
+    outside, value = over > PRINTED_DIGITS * limit, max(float(over.max()), 0.0)
     verdict = "|F_t| <= mu F_n at all times"
     if outside.any():
         most = results.one(int(np.argmax(over)))
@@ -295,7 +293,7 @@ def _work_audit(forces: Forces, limit: float) -> Finding:
     gain = np.abs(forces.psi) - abs(forces.hit.psi_in)
     worst = int(np.argmax(gain))
     value, verdict = max(float(gain[worst]), 0.0), "friction never adds to the motion"
-    if value > PRINTED * limit:
+    if value > PRINTED_DIGITS * limit:
         when = f"at t = {text(forces.time[worst], 's', 4)} after the touch"
         verdict = f"the tangential force adds to the motion, most {when}: {value:.3g} of psi"
     return within("work", value, limit, verdict)

@@ -6,14 +6,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.tables import GAP
-from carom.io.user_table import Column, UserTable
+from carom.io.user_table import GAP, Column, UserTable
 from carom.quantities.refusals import refusal
 
 NAMES = ("code", "law")  # columns, or comments "# code: ..." of a file
-MOST = 8  # that are told apart in one table
-LONGEST = 60  # characters of a name
-UNTOLD = ("", GAP, "nan", "None")
+MOST_ORIGINS = 8  # that are told apart in one table
+LONGEST_NAME = 60
+NO_NAME = ("", GAP, "nan", "None")
 
 
 class Origin(NamedTuple):
@@ -28,61 +27,52 @@ class Origin(NamedTuple):
         return ", ".join(filter(None, self))
 
 
-NOBODY = Origin()
-
-
 class Origins(NamedTuple):
-    """The origins of results in the order in which they come, and the place of each row's there."""
+    """The distinct origins of results in their order, and the place there of each row's."""
 
-    known: tuple[Origin, ...]
+    distinct: tuple[Origin, ...]
     places: NDArray[np.int64]
 
 
-def of_all(rows: int, one: Origin = NOBODY) -> Origins:
-    """Return one origin for all results, by default none."""
-    return Origins((one,), np.zeros(rows, dtype=np.int64))
-
-
 def origins_of(
-    table: UserTable, given: Mapping[str, Any], most: int = MOST
+    table: UserTable, names: Mapping[str, Any], most: int = MOST_ORIGINS
 ) -> tuple[Origins, tuple[str, ...]]:
     """Return the origins of the rows of a table, and notes on columns that do not tell them.
 
     Names that are given count for all rows; else columns do, and else comments of the file. Names
     that differ are left out if there are more than `most`; with one, all rows are one impact.
     """
-    rows = len(table.rows) if most > 1 else 1
-    names = [_named(name, given[name], table) for name in NAMES]
-    varied = [name for name, each in zip(NAMES, names, strict=True) if len(set(each)) > 1]
-    if not varied:
-        one = Origin(*(each[0] for each in names))
-        return of_all(rows, one), ()
-    pairs = [*zip(*(each * (len(table.rows) // len(each)) for each in names), strict=True)]
-    known = {pair: place for place, pair in enumerate(dict.fromkeys(pairs))}
-    if len(known) <= most:
-        places = np.array([known[pair] for pair in pairs], dtype=np.int64)
-        return Origins(tuple(Origin(*pair) for pair in known), places), ()
-    one = Origin(*("" if n in varied else each[0] for n, each in zip(NAMES, names, strict=True)))
-    told = f"the names in {' and '.join(varied)} are left out: {len(known)} of them"
-    notes = (f"{told}, at most {most} are told apart",)
-    return of_all(rows, one), notes
+    rows = len(table.rows)
+    columns = {name: _names(name, names[name], table) for name in NAMES}
+    varied = [name for name, column in columns.items() if len(set(column)) > 1]
+    notes: tuple[str, ...] = ()
+    pairs = [*zip(*(each * (rows // len(each)) for each in columns.values()), strict=True)]
+    distinct = {pair: place for place, pair in enumerate(dict.fromkeys(pairs))}
+    if varied and len(distinct) > most:
+        words = f"the names in {' and '.join(varied)} are left out: {len(distinct)} of them"
+        notes = (f"{words}, at most {most} are told apart",)
+        pairs = [tuple("" if name in varied else columns[name][0] for name in NAMES)] * rows
+        distinct = {pairs[0]: 0}
+    places = np.array([distinct[pair] for pair in pairs], dtype=np.int64)
+    origins = tuple(Origin(*pair) for pair in distinct)
+    return Origins(origins, places if most > 1 else places[:1]), notes
 
 
-def _named(name: str, given: Any, table: UserTable) -> list[str]:
+def _names(name: str, value: Any, table: UserTable) -> list[str]:
     """Return a name for every row of a table, or one for all."""
-    if given is not None:
-        if not isinstance(given, str) or not _clean(given):
-            raise refusal(name, given, "must be a text, e.g. 'mindlin'")
-        return [_clean(given)]
+    if value is not None:
+        if not isinstance(value, str) or not _clean(value):
+            raise refusal(name, value, "must be a text, e.g. 'mindlin'")
+        return [_clean(value)]
     column = table.cells.get(name, Column(name, (), "", "none"))
     if column.fault:
         return [_clean(table.comments.get(name, ""))]
-    found = [_clean(cell) for cell in column.cells]
-    return found if len(set(found)) > 1 else found[:1]
+    cells = [_clean(cell) for cell in column.cells]
+    return cells if len(set(cells)) > 1 else cells[:1]
 
 
 def _clean(cell: Any) -> str:
     """Return a name in one line, "" for none."""
     text = f"{cell:g}" if isinstance(cell, float) else str(cell)
     line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
-    return "" if line in UNTOLD else line[:LONGEST]
+    return "" if line in NO_NAME else line[:LONGEST_NAME]

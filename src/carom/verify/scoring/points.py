@@ -1,29 +1,30 @@
 """Results as points psi_2(psi_1, chi), the exact answer to each, and the errors."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.rebounds import rebound, regime_borders
+from carom.dimensionless.rebounds import rebound, regime_borders, solved
 from carom.impacts.curves import REGIMES, regime_map
 from carom.io.labels import Finding
 from carom.io.progress import advancing
-from carom.io.user_table import SHOWN, Rows, UserTable
+from carom.io.user_table import MOST_NAMED_ROWS, Rows, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
 from carom.verify.errors import losses_of
 
-CHUNK = 1 << 16  # impacts after which the bar moves
-LARGEST = 1e9  # of |psi|: there rounding is as large as errors that matter
-ROUNDING = 1e-12  # of psi; what is smaller is no gain of energy
-SAME = 1e-3  # of ratios that should be one
-PRINTED = 1e-3  # of the limit; so much is due to numbers that were rounded when printed
+IMPACTS_AT_ONCE = 1 << 16  # after which the bar moves
+LARGEST_PSI = 1e9  # there rounding is as large as errors that matter
+ROUNDING_OF_PSI = 1e-12  # less is no gain of energy
+RATIO_TOLERANCE = 1e-3  # of ratios that should be one
+FEWEST_POINTS = 3
+PRINTED_DIGITS = 1e-3  # of the limit: numbers were rounded when printed
 
 
 class Group(NamedTuple):
@@ -80,12 +81,22 @@ class Points(Rows):
         return tuple(self.group(self.sequence_names[i], members[i]) for i in order)
 
 
+class Scored(NamedTuple):
+    """What is found of results of one kind; forces are those of a history."""
+
+    points: Points
+    audit: tuple[Finding, ...]
+    notes: tuple[str, ...]
+    inputs: Mapping[str, Any]
+    forces: Any = None
+
+
 def refuse_large(psi_in: Array, psi_out: Array, results: UserTable) -> None:
     """Raise InputError for velocities in a unit that cannot be theirs."""
-    large = ~(np.maximum(np.abs(psi_in), np.abs(psi_out)) <= LARGEST)
+    large = ~(np.maximum(np.abs(psi_in), np.abs(psi_out)) <= LARGEST_PSI)
     if large.any():
         where = results.named(large)
-        raise InputError(f"results: |psi| is above {LARGEST:g} in {where}; check the units")
+        raise InputError(f"results: |psi| is above {LARGEST_PSI:g} in {where}; check the units")
 
 
 def compared(
@@ -109,8 +120,8 @@ def compared(
         sequence, names = _sequences(psi_in, chi, codes)
     else:
         sequence, names = codes, REGIMES
-    given = psi_in, psi_out, chi, restitution, exact, sequence, names, energy_change
-    return Points(*given, results.rows, results.word)
+    columns = psi_in, psi_out, chi, restitution, exact, sequence, names, energy_change
+    return Points(*columns, results.rows, results.word)
 
 
 def _solved(
@@ -120,8 +131,8 @@ def _solved(
     one = solved if restitution == 1.0 else partial(_with_losses, restitution=restitution)
     parts = []
     with advancing("solving the exact impacts", psi.size, unit="impacts") as advance:
-        for start in range(0, psi.size, CHUNK):
-            part = slice(start, start + CHUNK)
+        for start in range(0, psi.size, IMPACTS_AT_ONCE):
+            part = slice(start, start + IMPACTS_AT_ONCE)
             parts.append(one(np.array(psi[part]), np.array(chi[part])))
             advance(parts[-1][0].size)
     exact, status, codes = map(np.concatenate, zip(*parts, strict=True))
@@ -147,9 +158,9 @@ def _sequences(
     """
     _, first, inverse = np.unique(codes, return_index=True, return_inverse=True)
     maps = [regime_map([abs(float(psi[i]))], [float(chi[i])]) for i in first]
-    found = [str(each["sequence_name"].values[0]) for each in maps]
-    names = tuple(dict.fromkeys(found))
-    places = np.array([names.index(name) for name in found], dtype=np.int64)
+    sequences = [str(each["sequence_name"].values[0]) for each in maps]
+    names = tuple(dict.fromkeys(sequences))
+    places = np.array([names.index(name) for name in sequences], dtype=np.int64)
     return places[inverse], names
 
 
@@ -167,12 +178,12 @@ def energy_audit(points: Points, unit: Array, symbol: str, limit: float) -> Find
     before = np.abs(points.psi_in)
     change = np.maximum(points.energy_change, unit * (points.psi_out**2 - before**2))
     excess = np.sqrt(np.maximum(before**2 + change / unit, 0.0)) - before
-    gains = excess > ROUNDING * np.maximum(1.0, before)
+    gains = excess > ROUNDING_OF_PSI * np.maximum(1.0, before)
     if not gains.any():
         return within("energy gain", 0.0, limit, "no impact gains energy")
-    order = np.argsort(-np.where(gains, change, -np.inf))[: min(SHOWN, gains.sum())]
+    order = np.argsort(-np.where(gains, change, -np.inf))[: min(MOST_NAMED_ROWS, gains.sum())]
     largest = "; ".join(f"{points.one(i)}: {text(change[i], symbol)}" for i in order)
-    more = f"; and {gains.sum() - SHOWN} more" if gains.sum() > SHOWN else ""
+    more = f"; and {gains.sum() - MOST_NAMED_ROWS} more" if gains.sum() > MOST_NAMED_ROWS else ""
     verdict = f"energy is gained in {largest}{more}"
     return within("energy gain", float(excess.max()), limit, verdict)
 
@@ -181,10 +192,8 @@ def friction_audit(points: Points, restitution: Array, limit: float) -> Finding:
     """Return whether friction can give the impulse: |psi_1 - psi_2| <= 2 (1 + e) chi."""
     needed = np.abs(points.psi_in - points.psi_out)
     excess = needed - 2.0 * (1.0 + restitution) * points.chi
-    above, verdict = (
-        excess > PRINTED * limit,
-        "no tangential impulse exceeds mu times the normal one",
-    )
+    above = excess > PRINTED_DIGITS * limit
+    verdict = "no tangential impulse exceeds mu times the normal one"
     if above.any():
         verdict = f"tangential above mu times normal impulse in {points.named(above)}"
         verdict += f", most in {points.one(int(np.argmax(excess)))}"
@@ -216,7 +225,7 @@ def notes_on(points: Points) -> tuple[str, ...]:
     most = 2.0 * (1.0 + points.restitution) * points.chi
     slides = np.abs(points.psi_in) > np.maximum(most, 1.0)
     ratio = np.abs(points.psi_in - points.psi_out)[slides] / most[slides]
-    if ratio.size > 1 and np.ptp(ratio) < SAME and abs(ratio[0] - 1.0) > SAME:
+    if ratio.size > 1 and np.ptp(ratio) < RATIO_TOLERANCE and abs(ratio[0] - 1.0) > RATIO_TOLERANCE:
         times = f"{ratio[0]:.4g} times"
         factor = f"{2.0 * (1.0 + points.restitution):g} chi"
         notes.append(f"in gross slip psi_1 - psi_2 is {times} {factor}: is chi {times} as large?")

@@ -13,21 +13,21 @@ from carom import plots
 from carom.dimensionless.rebounds import regime_borders
 from carom.impacts.curves import curve
 from carom.io.citations import IMPACT, bibtex
-from carom.io.labels import MARKS, Finding, flags, labelled, labelled_dataset
+from carom.io.labels import MARKS, Finding, flags, labelled_dataset, pure
 from carom.plots.result import Result, card
 from carom.quantities.glossary import GLOSSARY
-from carom.verify.errors import losses_of, pure
+from carom.verify.errors import losses_of
 from carom.verify.scoring.histories import Forces
-from carom.verify.scoring.origins import Origins, of_all
+from carom.verify.scoring.origins import Origins
 from carom.verify.scoring.points import Group, Points
+from carom.verify.tables import text_table
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-LISTED = 40  # points; of more, as many of the worst are listed
-CURVES = 5  # chi of which the exact curve is part of the dataset
-SMOOTH = 401  # psi_1 of such a curve
+MOST_LISTED = 40  # points; of more, as many of the worst
+MOST_CURVES, CURVE_POINTS = 5, 401  # exact curves in the dataset, one for each chi
 NUMBERS = {
     "tolerance": "largest error that passes",
     "restitution": "restitution of the exact impacts",
@@ -58,10 +58,10 @@ class Score(Result):
     tolerance: float
     points: Points = field(repr=False)
     audit: tuple[Finding, ...] = field(repr=False)
-    notes: tuple[str, ...] = ()
-    forces: Forces | None = field(default=None, repr=False)
-    inputs: Mapping[str, Any] = field(default_factory=dict, repr=False)
-    told_origins: Origins | None = field(default=None, repr=False)
+    notes: tuple[str, ...]
+    inputs: Mapping[str, Any] = field(repr=False)
+    forces: Forces | None = field(repr=False)
+    origins: Origins = field(repr=False)  # of each point
 
     @cached_property
     def overall(self) -> Group:
@@ -93,18 +93,13 @@ class Score(Result):
         """Errors by the sequence of phases of the exact impact, as for psi_1 > 0."""
         return self.points.groups
 
-    @cached_property
-    def origins(self) -> Origins:
-        """By which code and law each point was computed."""
-        return self.told_origins or of_all(self.points.rows.size)
-
     @property
     def by_origin(self) -> tuple[Group, ...]:
         """Errors by code and law, in the order in which they come."""
-        known, places = self.origins
+        origins, places = self.origins
         return tuple(
             self.points.group(origin.label or "no name", places == place)
-            for place, origin in enumerate(known)
+            for place, origin in enumerate(origins)
         )
 
     @property
@@ -121,7 +116,7 @@ class Score(Result):
     def __str__(self) -> str:
         groups = (*self.groups, self.overall)
         parts = [*_listed(self), *_table("By sequence of phases, for psi_1 > 0", groups)]
-        parts += _table("By law", self.by_origin) if len(self.origins.known) > 1 else []
+        parts += _table("By law", self.by_origin) if len(self.origins.distinct) > 1 else []
         parts += _audited(self)
         parts += [f"note: {note}" for note in self.notes]
         return "\n".join([*parts, verdict(self)])
@@ -136,15 +131,9 @@ class Score(Result):
             by column, phases, laws by code and name, audit, notes.
         """
         points = self.points
-        columns = {
-            points.word: points.rows,
-            "psi_in": points.psi_in,
-            "psi_out": points.psi_out,
-            "chi": points.chi,
-            "psi_out_exact": points.exact,
-            "error": points.error,
-            "energy_change": points.energy_change,
-        }
+        columns = {points.word: points.rows, "psi_in": points.psi_in, "psi_out": points.psi_out}
+        columns |= {"chi": points.chi, "psi_out_exact": points.exact, "error": points.error}
+        columns["energy_change"] = points.energy_change
         names = ("kind", "restitution", "max_error", "rms_error", "mean_error")
         return {
             "passed": self.passed,
@@ -156,13 +145,11 @@ class Score(Result):
             "laws": [
                 {"code": origin.code or None, "law": origin.law or None}
                 | {name: value for name, value in group._asdict().items() if name != "name"}
-                for origin, group in zip(self.origins.known, self.by_origin, strict=True)
+                for origin, group in zip(self.origins.distinct, self.by_origin, strict=True)
             ],
             "audit": [finding._asdict() for finding in self.audit],
             "notes": list(self.notes),
         }
-
-    as_record = to_dict  # its name before
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
@@ -186,7 +173,25 @@ class Score(Result):
             the errors as numbers. Exact curves along `curve` where chi are few; forces of a history
             in N along `time` in s.
         """
-        return score_dataset(self)
+        attrs = {
+            "title": "results against the exact impact",
+            "kind": self.kind,
+            "verdict": verdict(self),
+            "inputs": dict(self.inputs),
+        }
+        numbers = {name: ((), getattr(self, name), pure(words)) for name, words in NUMBERS.items()}
+        passed = {"passed": ((), np.int8(self.passed), flags(("failed", "passed")))}
+        variables = {**_points(self), **_findings(self), **numbers, **passed}
+        points, words = self.points, {"long_name": f"{self.points.word} of the results"}
+        names = {"long_name": "phases of the exact impact for psi_1 > 0, with losses its regime"}
+        coords = {
+            "row": ("point", points.rows, words),
+            "sequence_name": ("sequence_name", list(points.sequence_names), names),
+        }
+        if self.forces is None:
+            return labelled_dataset(variables | _curves(points), coords, attrs)
+        whole = labelled_dataset(variables, coords, attrs)
+        return self.forces.to_dataset().merge(whole).assign_attrs(whole.attrs)
 
     def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
         return plots.plot_score(dataset, **look)
@@ -196,8 +201,8 @@ def verdict(score: Score) -> str:
     """Return pass or fail in one line."""
     points = score.points
     worst = f"max |error in psi_2| = {score.max_error:.4g}"
-    known, places = score.origins
-    if label := known[int(places[points.worst])].label:
+    origins, places = score.origins
+    if label := origins[int(places[points.worst])].label:
         worst += f" with {label}"
     if points.rows.size > 1:
         worst += f" in {points.one(points.worst)}, rms {score.rms_error:.4g}"
@@ -213,27 +218,19 @@ def _listed(score: Score) -> list[str]:
     title = "psi_2 against the exact impact"
     if score.restitution != 1.0:
         title += f" with e = {score.restitution:g}"
-    if shown.size > LISTED:
-        shown = np.sort(np.argsort(-np.abs(points.error))[:LISTED])
-        title += f", the worst {LISTED} of {points.rows.size} points"
-    columns = f"{'psi_1':>12s} {'chi':>10s} {'psi_2':>14s} {'exact':>14s} {'error':>11s}"
-    rows = [
-        f"  {points.rows[i]:8d} {points.psi_in[i]:12.6g} {points.chi[i]:10.5g}"
-        f" {points.psi_out[i]:14.9f} {points.exact[i]:14.9f} {points.error[i]:11.3e}"
-        for i in shown
-    ]
-    return [title, f"  {points.word:>8s} {columns}", *rows]
+    if shown.size > MOST_LISTED:
+        shown = np.sort(np.argsort(-np.abs(points.error))[:MOST_LISTED])
+        title += f", the worst {MOST_LISTED} of {points.rows.size} points"
+    columns = points.rows, points.psi_in, points.chi, points.psi_out, points.exact, points.error
+    rows = zip(*(column[shown] for column in columns), strict=True)
+    numbers = "psi_1:12.6g chi:10.5g psi_2:14.9f exact:14.9f error:11.3e"
+    return [title, *text_table(f"{points.word}:8d {numbers}", rows)]
 
 
 def _table(title: str, groups: Sequence[Group]) -> list[str]:
-    head = f"{'points':>7s} {'max |error|':>12s} {'rms':>11s} {'mean':>11s}"
     wide = max(44, *(len(group.name) for group in groups))
-    rows = [
-        f"  {group.name:{wide}s} {group.points:7d} {group.max_error:12.4e}"
-        f" {group.rms_error:11.4e} {group.mean_error:+11.3e}"
-        for group in groups
-    ]
-    return [title, f"  {'':{wide}s} {head}", *rows]
+    numbers = "points:7d max~|error|:12.4e rms:11.4e mean:+11.3e"
+    return [title, *text_table(f":<{wide}s {numbers}", groups)]
 
 
 def _audited(score: Score) -> list[str]:
@@ -241,32 +238,6 @@ def _audited(score: Score) -> list[str]:
         f"  {MARKS[finding.holds]} {finding.name + f' = {finding.value:.3g}':32s} {finding.verdict}"
         for finding in score.audit
     ]
-
-
-def score_dataset(score: Score) -> xr.Dataset:
-    """Return the score as a dataset: errors along `point`, findings along `audit`.
-
-    Exact curves of few chi lie along `curve`, one after the other; a history along `time`.
-    """
-    attrs = {
-        "title": "results against the exact impact",
-        "kind": score.kind,
-        "verdict": verdict(score),
-        "inputs": dict(score.inputs),
-    }
-    numbers = {name: ((), getattr(score, name), pure(words)) for name, words in NUMBERS.items()}
-    passed = {"passed": ((), np.int8(score.passed), flags(("failed", "passed")))}
-    variables = {**_points(score), **_findings(score), **numbers, **passed}
-    points, words = score.points, {"long_name": f"{score.points.word} of the results"}
-    names = {"long_name": "phases of the exact impact for psi_1 > 0, with losses its regime"}
-    coords = {
-        "row": ("point", points.rows, words),
-        "sequence_name": ("sequence_name", list(points.sequence_names), names),
-    }
-    if score.forces is None:
-        return labelled_dataset(variables | _curves(score), coords, attrs)
-    whole = labelled_dataset(variables, coords, attrs)
-    return _history(score.forces).merge(whole).assign_attrs(whole.attrs)
 
 
 def _points(score: Score) -> dict[str, Any]:
@@ -290,12 +261,12 @@ def _points(score: Score) -> dict[str, Any]:
 
 def _origins(score: Score) -> dict[str, Any]:
     """Return code and law of each point, where any is known."""
-    known, places = score.origins
-    if not any(origin.label for origin in known):
+    origins, places = score.origins
+    if not any(origin.label for origin in origins):
         return {}
     words = {"code": "program that computed the results", "law": "contact law of the results"}
     return {
-        name: ("point", [getattr(known[place], name) for place in places], {"long_name": meaning})
+        name: ("point", [getattr(origins[place], name) for place in places], {"long_name": meaning})
         for name, meaning in words.items()
     }
 
@@ -314,49 +285,20 @@ def _findings(score: Score) -> dict[str, Any]:
     return {f"audit_{name}": ("audit", columns[name], words[name]) for name in words}
 
 
-def _curves(score: Score) -> dict[str, Any]:
+def _curves(points: Points) -> dict[str, Any]:
     """Return the exact curves, if they are few, and the borders of the regimes of a single one."""
-    points = score.points
-    chis = np.unique(points.chi)
-    if chis.size > CURVES:
+    chis, e = np.unique(points.chi), points.restitution
+    if chis.size > MOST_CURVES:
         return {}
     low, high = min(0.0, float(points.psi_in.min())), max(0.0, float(points.psi_in.max()))
-    psi = np.linspace(low, high, SMOOTH)
-    e = points.restitution
+    psi = np.linspace(low, high, CURVE_POINTS)
     exact = curve(chis.tolist(), psi, losses=losses_of(e))["psi_out"].values.ravel()
     lines = {
-        "curve_chi": ("curve", np.repeat(chis, SMOOTH), pure(GLOSSARY["chi"].meaning)),
+        "curve_chi": ("curve", np.repeat(chis, CURVE_POINTS), pure(GLOSSARY["chi"].meaning)),
         "curve_psi_in": ("curve", np.tile(psi, chis.size), pure("psi_1")),
         "curve_psi_out": ("curve", exact, pure("exact psi_2")),
     }
-    if chis.size > 1:
-        return lines
-    words = pure("|psi_1| at which the regime changes")
-    return lines | {"border": ("regime_border", regime_borders(float(chis[0]), e), words)}
-
-
-def _history(forces: Forces) -> xr.Dataset:
-    hit = forces.hit
-    dataset = labelled(
-        {
-            "time": forces.time,
-            "normal_force": forces.normal_force,
-            "tangential_force": forces.tangential_force,
-        },
-        {"friction": hit.pair.friction, "max_force": hit.max_force, "duration": hit.duration},
-        hit.phases,
-        hit.inputs(),
-    )
-    exact = {
-        "normal force": forces.exact_normal_force,
-        "tangential force": forces.exact_tangential_force,
-    }
-    newton = {
-        f"{name.replace(' ', '_')}_exact": (
-            "time",
-            values,
-            {"units": "N", "long_name": f"exact {name}"},
-        )
-        for name, values in exact.items()
-    }
-    return dataset.assign(labelled_dataset(newton, {}, {}).data_vars)
+    if chis.size == 1:
+        words = pure("|psi_1| at which the regime changes")
+        lines["border"] = ("regime_border", regime_borders(float(chis[0]), e), words)
+    return lines

@@ -12,17 +12,11 @@ from carom.datasets.observables import FASTEST, SLOWEST
 from carom.io.labels import Finding
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import InputError
-from carom.verify.scoring.points import (
-    Points,
-    compared,
-    energy_audit,
-    friction_audit,
-    refuse_large,
-    restitution_audit,
-    within,
-)
+from carom.verify.scoring import points as scored
+from carom.verify.scoring.cases import ScoredCase
+from carom.verify.scoring.points import FEWEST_POINTS, Scored, within
 
-UNITS = {  # by the ratio of the impulse in the spins to that in the speeds
+UNIT_MISTAKES = {  # by the ratio of the impulse in the spins to that in the speeds
     30.0 / pi: "in rpm; head the columns 'spin [rpm]' and 'spin_out [rpm]'",
     180.0 / pi: "in deg/s; head the columns 'spin [deg/s]' and 'spin_out [deg/s]'",
     0.5 / pi: "in turns/s; head the columns 'spin [turn/s]' and 'spin_out [turn/s]'",
@@ -36,7 +30,7 @@ CAUSES = {
     0.5: "is the radius in the case half of the true one?",
     0.8: "is the moment of inertia in the results that of a disc?",
 }
-CLOSE = 0.02  # how near a ratio is to one that is known, relative
+CLOSE = 0.02  # relative difference of ratios that are taken for the same
 BEFORE = ("normal_speed", "tangential_speed", "speed", "angle", "spin", "spin2")
 AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out", "spin2_out")
 
@@ -47,21 +41,20 @@ class Velocities(NamedTuple):
     normal_speed: Any
     tangential: Tangential
 
-    def psi(self, pair: Pair, normal_speed: Any) -> Any:
-        """Return kappa V_x/(mu V_1)."""
-        return pair.psi(self.tangential.contact_velocity(pair), normal_speed)
-
     def energy(self, pair: Pair) -> Any:
         """Return the kinetic energy in the frame of the centre of mass, in J."""
         centres = self.normal_speed**2 + self.tangential.tangential_speed**2
         return 0.5 * pair.normal_mass * centres + self.tangential.spin_energy(pair)
 
 
-def score_velocities(
-    results: UserTable, pair: Pair, expected: float, limit: float
-) -> tuple[Points, tuple[Finding, ...], tuple[str, ...]]:
-    """Return the points that velocities make, what is found of them, and notes."""
-    _refuse_second_spin(results, pair)
+def score_velocities(results: UserTable, case: ScoredCase, limit: float) -> Scored:
+    """Return the points that velocities make, and what is found of them."""
+    results.require_rows(FEWEST_POINTS)
+    pair, expected = case.pair, case.restitution
+    for name in ("spin2", "spin2_out"):
+        if name in results.columns and not isinstance(pair.second, Sphere):
+            only = "only a second sphere can spin; leave the column out"
+            results.refuse(name, results[name] != 0.0, only)
     normal, tangential = _speeds(results)
     nothing = np.zeros(len(results))
     spins: list[Any] = [results.columns.get(name, nothing) for name in ("spin", "spin2")]
@@ -69,20 +62,24 @@ def score_velocities(
     after, notes = _after(results, pair, before, expected)
     name = "normal_speed" if "normal_speed" in results.columns else "speed"
     results.refuse(name, (normal < SLOWEST) | (normal > FASTEST), "check its unit")
-    psi = before.psi(pair, normal), after.psi(pair, normal)
-    refuse_large(*psi, results)
-    momentum = momentum_audit(results, pair, before.tangential, after.tangential, normal, limit)
-    chi, change = np.full(len(results), pair.chi), after.energy(pair) - before.energy(pair)
-    points = compared(*psi, chi, expected, change, results)
-    unit: Any = 0.5 * pair.tangential_mass * pair.scales(normal).tangential_speed ** 2
-    restitution = after.normal_speed / normal
-    findings = (
-        energy_audit(points, unit, "J", limit),
-        momentum,
-        friction_audit(points, restitution, limit),
-        restitution_audit(points, restitution, limit),
+    psi_in, psi_out = (
+        np.asarray(pair.psi(each.tangential.contact_velocity(pair), normal))
+        for each in (before, after)
     )
-    return points, findings, notes
+    scored.refuse_large(psi_in, psi_out, results)
+    speed_unit: Any = pair.scales(normal).tangential_speed
+    momentum = momentum_audit(results, pair, before.tangential, after.tangential, speed_unit, limit)
+    chi, change = np.full(len(results), pair.chi), after.energy(pair) - before.energy(pair)
+    points = scored.compared(psi_in, psi_out, chi, expected, change, results)
+    unit: Any = 0.5 * pair.tangential_mass * speed_unit**2
+    restitution = after.normal_speed / normal
+    audit = (
+        scored.energy_audit(points, unit, "J", limit),
+        momentum,
+        scored.friction_audit(points, restitution, limit),
+        scored.restitution_audit(points, restitution, limit),
+    )
+    return Scored(points, audit, notes, case.inputs)
 
 
 def _speeds(results: UserTable) -> tuple[Any, Any]:
@@ -117,18 +114,8 @@ def _after(
         notes.append(
             "spin2_out is not given; it was computed from the impulse that changed the first spin"
         )
-    return Velocities(normal, Tangential(results["tangential_speed_out"], spin, spin2)), tuple(
-        notes
-    )
-
-
-def _refuse_second_spin(results: UserTable, pair: Pair) -> None:
-    if isinstance(pair.second, Sphere):
-        return
-    for name in ("spin2", "spin2_out"):
-        if name in results.columns:
-            only = "only a second sphere can spin; leave the column out"
-            results.refuse(name, results[name] != 0.0, only)
+    tangential = Tangential(results["tangential_speed_out"], spin, spin2)
+    return Velocities(normal, tangential), tuple(notes)
 
 
 def momentum_audit(
@@ -136,14 +123,14 @@ def momentum_audit(
     pair: Pair,
     before: Tangential,
     after: Tangential,
-    normal_speed: Any,
+    speed_unit: Any,
     limit: float,
 ) -> Finding:
     """Return whether spins and speeds changed by the same impulse, in units of psi."""
     linear = pair.normal_mass * (before.tangential_speed - after.tangential_speed)
     spins = zip(pair.moving, before[1:], after[1:], strict=False)
     angular = [(was - now) * inertia(body) / body.radius for body, was, now in spins]
-    unit = pair.tangential_mass * pair.scales(normal_speed).tangential_speed
+    unit = pair.tangential_mass * speed_unit
     off = np.max([np.abs(linear - other) for other in angular], axis=0) / unit
     ratio = _constant_ratio(angular[0], linear, limit * unit)
     _refuse_units(ratio)
@@ -168,7 +155,7 @@ def _constant_ratio(angular: Any, linear: Any, small: Any) -> float:
 
 
 def _refuse_units(ratio: float) -> None:
-    for factor, words in UNITS.items():
+    for factor, words in UNIT_MISTAKES.items():
         if abs(abs(ratio) / factor - 1.0) < CLOSE:
             wrong = "spins" if "spin" in words else "speeds"
             raise InputError(
@@ -181,5 +168,5 @@ def _cause(ratio: float) -> str:
     """Return what may be wrong if the impulses differ by the same factor in all rows."""
     if abs(ratio - 1.0) < CLOSE:
         return ""
-    known = (words for factor, words in CAUSES.items() if abs(ratio / factor - 1.0) < CLOSE)
-    return f", by the same factor {ratio:.4g}; {next(known, 'check units and sizes')}"
+    causes = (words for factor, words in CAUSES.items() if abs(ratio / factor - 1.0) < CLOSE)
+    return f", by the same factor {ratio:.4g}; {next(causes, 'check units and sizes')}"

@@ -8,8 +8,8 @@ slower than the sphere by (5/4) lambda P. lambda = 0 is a thick wall.
 
 import numpy as np
 
+from carom.dimensionless.lossy.springs import springs as of
 from carom.dimensionless.lossy.springs.motion import DEPTH, DRAG, EDGE, LOAD, SPEED
-from carom.dimensionless.lossy.springs.springs import LIMIT, NEXT, RATE, S, X
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -19,10 +19,10 @@ def press(give: float, now: Array, new: Array, springs: Array, laid: int) -> int
     """Fill in what the contact and its springs bear after a step; return how many touch."""
     edge = np.sqrt(max(new[DEPTH], 0.0))
     new[EDGE], new[LOAD], new[DRAG] = edge, edge**3, 1.5 * give * edge
-    touching = int(np.searchsorted(springs[X, :laid], edge))
+    touching = int(np.searchsorted(springs[of.X, :laid], edge))
     for j in range(max(touching, 1)):
-        springs[LIMIT, j], springs[RATE, j] = springs[NEXT, j], now[SPEED]
-        springs[NEXT, j] = new[DEPTH] - springs[S, j]
+        springs[of.LIMIT, j], springs[of.RATE, j] = springs[of.NEXT, j], now[SPEED]
+        springs[of.NEXT, j] = new[DEPTH] - springs[of.S, j]
     return touching
 
 

@@ -6,34 +6,40 @@
 f that of springs in shear, whose Coulomb limit is what they bear in compression. The solid says
 what that is and what load it makes: hertz, thornton and relaxing; a new one is a file beside them
 and a line in `press`, in `stored` and, if it changes where the bodies turn, in `turn`. Springs are
-laid at the edge as it grows, every second step. Of second order in the number of springs.
+laid at the edge as it grows, every second step. Of second order in the number of springs; what
+comes of two numbers of springs is extrapolated.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.law import LARGEST_PSI, Loss, keep_energy, why_not
 from carom.dimensionless.lossy.springs import hertz, motion as at, relaxing, springs as of, thornton
 from carom.dimensionless.lossy.springs.motion import Inertia, Solid
-from carom.dimensionless.numerics.arrays import Array, Cube, Matrix, Vector
-from carom.dimensionless.numerics.kernels import kernel
+from carom.dimensionless.numerics.arrays import Array, Codes, Cube, Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 MOST_SPRINGS = 500
 SPARE_SPRINGS = 40
 PER_SPRING = 2  # steps of the loading to a spring
 LONGEST = 20 * PER_SPRING * MOST_SPRINGS
 ELASTIC_CLOCK = 1.26  # of the loading of elastic bodies
-NEVER = 1e300  # relaxation time of an elastic solid
+ENDLESS = 1e300  # relaxation time of an elastic solid
 
 # Of a row that is kept, besides those of the layout: whether springs slip, either way.
 FORTH, BACK = layout.ROWS, layout.ROWS + 1
 ROWS = layout.ROWS + 2
-AT_LIMIT = 1e-9  # of the limit: a spring nearer to it slips
+LIMIT_TOLERANCE = 1e-9  # of the limit: a spring nearer to it slips
 # Of a frame, for each spring: what it bears in compression and in shear, and how far it is behind.
 PRESSED, PULLED, LAGGING = range(3)
 FRAMES = 3
+
+TRIAL_SPRINGS = 40  # with which the clock of the loading is found
+LEAST_ERROR = 1e-6  # of psi_2, in max(1, psi_1)
+FEW, MANY = MOST_SPRINGS // 2, MOST_SPRINGS
 
 
 class Arrays(NamedTuple):
@@ -51,7 +57,7 @@ def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arra
     """Return the arrays of an impact: with rows for so many steps, frames of so many springs."""
     return Arrays(
         motion=np.zeros((3, at.MOTION)),
-        springs=np.zeros((of.COLUMNS, most + SPARE_SPRINGS + 2)),
+        springs=np.zeros((of.SPRING_COLUMNS, most + SPARE_SPRINGS + 2)),
         state=np.zeros(at.STATE),
         coarse=np.zeros(layout.NUMBERS),
         rows=np.zeros((steps + 1 if steps else 0, ROWS)),
@@ -61,7 +67,7 @@ def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arra
 
 @kernel
 def march(
-    psi: float, inertia: Inertia, solid: Solid, h: float, work: Arrays, numbers: Array
+    psi_1: float, inertia: Inertia, solid: Solid, h: float, work: Arrays, numbers: Array
 ) -> tuple[int, float]:
     """March an impact in steps of the clock; return their number, and the clock of the loading.
 
@@ -69,7 +75,7 @@ def march(
     """
     now, new, turned = work.motion[0], work.motion[1], work.motion[2]
     springs, state = work.springs, work.state
-    begin(psi, work)
+    begin(psi_1, work)
     laid, touching, since, widest, strongest, clock = 0, 0, 0, 0.0, 0.0, 0.0
     for i in range(LONGEST):
         again = now[at.SPEED] > 0.0 and turned[at.EDGE] > 0.0
@@ -110,14 +116,14 @@ def march(
 
 
 @kernel
-def begin(psi: float, work: Arrays) -> None:
+def begin(psi_1: float, work: Arrays) -> None:
     """Put the bodies to their first touch."""
     work.motion[:], work.springs[:], work.state[:] = 0.0, 0.0, 0.0
     work.motion[0, at.SPEED], work.motion[0, at.PACE] = 1.0, 1.0
-    work.state[at.PSI] = psi
+    work.state[at.PSI] = psi_1
     if work.rows.shape[0] > 0:
         work.rows[0] = 0.0
-        work.rows[0, layout.AT_V], work.rows[0, layout.AT_PSI] = 1.0, psi
+        work.rows[0, layout.AT_V], work.rows[0, layout.AT_PSI] = 1.0, psi_1
 
 
 @kernel
@@ -181,7 +187,7 @@ def kick_and_stretch(
 ) -> None:
     """Move velocities and springs on by a step."""
     g, dt = solid.extra, new[at.TIME] - now[at.TIME]
-    theta = solid.parameter if g > 0.0 else NEVER
+    theta = solid.parameter if g > 0.0 else ENDLESS
     rate = -at.braking(inertia, now[at.LOAD], state[at.FORCE])
     half = state[at.PSI] + 0.5 * dt * rate
     step = of.step_of(g, theta, dt, state[at.PSI], half, rate)
@@ -212,7 +218,7 @@ def keep(solid: Solid, now: Array, springs: Array, touching: int, state: Array, 
             weight += of.rim(springs, j, now[at.EDGE])
         row[layout.AT_SQUARE] += weight * (u * u + solid.extra * m * m)
         force = u + solid.extra * m
-        if most - abs(force) > AT_LIMIT * most:
+        if most - abs(force) > LIMIT_TOLERANCE * most:
             outer = springs[of.X, j + 1] if springs[of.OUTER, j] > 0.0 else now[at.EDGE]
             row[layout.AT_STUCK] += min(outer, now[at.EDGE]) - springs[of.X, j]
         else:
@@ -237,3 +243,95 @@ def note(now: Array, turned: Array, state: Array, numbers: Array) -> None:
     numbers[layout.TIME], numbers[layout.PENETRATION] = now[at.TIME], now[at.DEPTH]
     numbers[layout.LOST], numbers[layout.SHEAR_LOST] = 1.0 - e * e, state[at.LOST]
     numbers[layout.DEEPEST], numbers[layout.WIDEST] = turned[at.DEPTH], turned[at.EDGE]
+
+
+@kernel
+def step_for(psi_1: float, inertia: Inertia, solid: Solid, count: int, work: Arrays) -> float:
+    """Return the step of the clock with which the contact is cut into so many springs."""
+    trial = ELASTIC_CLOCK / (PER_SPRING * TRIAL_SPRINGS)
+    _, clock = march(psi_1, inertia, solid, trial, work, work.coarse)
+    return float(clock / (PER_SPRING * count))
+
+
+@entry_point()
+def run(
+    psi_1: float, inertia: Inertia, solid: Solid, work: Arrays, numbers: Vector
+) -> tuple[int, float]:
+    """Run an impact of any psi_1; return its status, and an estimate of the error of psi_2.
+
+    Beyond LARGEST_PSI psi_1 - psi_2 is the same. Numbers are Richardson's (1911), of two numbers of
+    springs, and the error is what he adds, but not below LEAST_ERROR, as that may be by chance.
+    """
+    status, error = why_not(psi_1, inertia.chi), 0.0
+    if status == Status.SOLVED.value:
+        speed = min(abs(psi_1), LARGEST_PSI)
+        if psi_1 < 0.0:
+            inertia = Inertia(inertia.chi, -inertia.eps, -inertia.zeta)
+        h = step_for(speed, inertia, solid, FEW, work)
+        coarse, _ = march(speed, inertia, solid, h, work, work.coarse)
+        fine, _ = march(speed, inertia, solid, h * FEW / MANY, work, numbers)
+        if coarse == 0 or fine == 0:
+            status = Status.UNRESOLVED.value
+        for j in range(numbers.size):
+            more = (numbers[j] - work.coarse[j]) / ((MANY / FEW) ** 2 - 1.0)
+            if j == layout.PSI_OUT:
+                error = max(abs(more), LEAST_ERROR * max(speed, 1.0))
+            numbers[j] += more
+            if not np.isfinite(numbers[j]):
+                status = Status.UNRESOLVED.value
+        if inertia.eps == 0.0 and inertia.zeta == 0.0:
+            if solid.loss == Loss.PLASTIC.value:
+                thornton.come_to(solid.parameter, numbers)
+            keep_energy(speed, numbers)
+        numbers[layout.PSI_OUT] += abs(psi_1) - speed
+        numbers[layout.PSI_OUT] *= np.copysign(1.0, psi_1)
+    if status != Status.SOLVED.value:
+        numbers[:], error = np.nan, np.nan
+    return status, error
+
+
+@entry_point()
+def trace(
+    psi_1: float, inertia: Inertia, solid: Solid, count: int, trial: Arrays, work: Arrays
+) -> int:
+    """Fill in a row for each step over so many springs; return the number of steps."""
+    h = step_for(psi_1, inertia, solid, count, trial)
+    return march(psi_1, inertia, solid, h, work, work.coarse)[0]
+
+
+@entry_point()
+def fill(
+    psi_1: Vector,
+    chi: Vector,
+    loss: int,
+    parameter: Vector,
+    extra: Vector,
+    work: Arrays,
+    numbers: Matrix,
+    status: Codes,
+) -> None:
+    """Write what every impact comes to, and its status."""
+    for i in range(psi_1.size):
+        solid = Solid(loss, parameter[i], extra[i] if loss == Loss.RELAXING.value else 0.0)
+        status[i], _ = run(psi_1[i], Inertia(chi[i], 0.0, 0.0), solid, work, numbers[i])
+
+
+def march_rebound(psi_1: float, inertia: Inertia, solid: Solid) -> tuple[float, float]:
+    """Return psi_2 by the march, and an estimate of its error; NaN if it is not solved.
+
+    >>> from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
+    >>> from carom.dimensionless.lossy.springs.march import march_rebound
+    >>> psi_2, error = march_rebound(0.3, Inertia(chi=4.0), ELASTIC)
+    >>> round(psi_2, 6), error < 1e-5
+    (-0.3, True)
+    """
+    numbers = np.empty(layout.NUMBERS)
+    _, error = run(psi_1, inertia, solid, new_work(), numbers)
+    return float(numbers[layout.PSI_OUT]), error
+
+
+def marched(psi_1: float, inertia: Inertia, solid: Solid, springs: int) -> Vector:
+    """Return what an impact comes to over so many springs, not extrapolated."""
+    work = new_work(most=springs)
+    steps = trace(psi_1, inertia, solid, springs, work, work)
+    return work.coarse if steps else np.full(layout.NUMBERS, np.nan)

@@ -7,29 +7,19 @@ elastic impact of the relaxed modulus.
 
 import numpy as np
 
+from carom.dimensionless.lossy.springs import springs as of
 from carom.dimensionless.lossy.springs.motion import DEPTH, EDGE, KEPT, LOAD, SPEED, TIME
-from carom.dimensionless.lossy.springs.springs import (
-    LIMIT,
-    NEXT,
-    PRESSED,
-    RATE,
-    WEIGHT,
-    S,
-    faded,
-    integral,
-    rim,
-)
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 
-RESOLVED = 2.0  # steps to a relaxation time, below which a rate is that of the whole step
+RESOLVING_STEPS = 2.0  # steps to a relaxation time, below which a rate is that of the whole step
 
 
 @kernel
 def press(g: float, theta: float, now: Array, new: Array, springs: Array, laid: int) -> int:
     """Fill in what the contact and its springs bear after a step; return how many touch."""
     dt = new[TIME] - now[TIME]
-    left, part, growing = faded(dt, theta)
+    left, part, growing = of.faded(dt, theta)
     if now[SPEED] > 0.0:
         b, edge = now[EDGE], np.sqrt(new[DEPTH])
         change = new[SPEED] * edge - now[SPEED] * b
@@ -39,13 +29,15 @@ def press(g: float, theta: float, now: Array, new: Array, springs: Array, laid: 
         return laid
     bear(g, theta, now, new, springs, laid + 1)
     count = 0
-    while count < laid and springs[NEXT, count] > 0.0:
+    while count < laid and springs[of.NEXT, count] > 0.0:
         count += 1
     if count > 0:
         inner, outer = count - 1, count
-        part = springs[NEXT, inner] / (springs[NEXT, inner] - springs[NEXT, outer])
-        new[EDGE] = np.sqrt(springs[S, inner] + part * (springs[S, outer] - springs[S, inner]))
-        new[LOAD] = 1.5 * integral(springs, NEXT, count, new[EDGE])
+        part = springs[of.NEXT, inner] / (springs[of.NEXT, inner] - springs[of.NEXT, outer])
+        new[EDGE] = np.sqrt(
+            springs[of.S, inner] + part * (springs[of.S, outer] - springs[of.S, inner])
+        )
+        new[LOAD] = 1.5 * of.integral(springs, of.NEXT, count, new[EDGE])
     return count
 
 
@@ -53,16 +45,16 @@ def press(g: float, theta: float, now: Array, new: Array, springs: Array, laid: 
 def bear(g: float, theta: float, now: Array, new: Array, springs: Array, count: int) -> None:
     """Fill in what springs bear before and after a step, and its rate before."""
     dt = new[TIME] - now[TIME]
-    left, part, growing = faded(dt, theta)
+    left, part, growing = of.faded(dt, theta)
     grown = (new[DEPTH] - now[DEPTH]) * part + growing * (new[SPEED] - now[SPEED])
     for j in range(count):
-        springs[RATE, j] = (1.0 + g) * now[SPEED] - g * springs[PRESSED, j] / theta
-        springs[PRESSED, j] = springs[PRESSED, j] * left + grown
-        springs[LIMIT, j] = springs[NEXT, j]
-        springs[NEXT, j] = new[DEPTH] - springs[S, j] + g * springs[PRESSED, j]
-    if theta < RESOLVED * dt:
+        springs[of.RATE, j] = (1.0 + g) * now[SPEED] - g * springs[of.PRESSED, j] / theta
+        springs[of.PRESSED, j] = springs[of.PRESSED, j] * left + grown
+        springs[of.LIMIT, j] = springs[of.NEXT, j]
+        springs[of.NEXT, j] = new[DEPTH] - springs[of.S, j] + g * springs[of.PRESSED, j]
+    if theta < RESOLVING_STEPS * dt:
         for j in range(count):
-            springs[RATE, j] = (springs[NEXT, j] - springs[LIMIT, j]) / dt
+            springs[of.RATE, j] = (springs[of.NEXT, j] - springs[of.LIMIT, j]) / dt
 
 
 @kernel
@@ -70,8 +62,8 @@ def stored(g: float, edge: float, springs: Array, count: int) -> float:
     """Return the energy in springs in compression, both branches, of m_n V_1^2/2."""
     total = 0.0
     for j in range(count):
-        k = springs[PRESSED, j]
-        w = springs[NEXT, j] - g * k
-        weight = springs[WEIGHT, j] + (rim(springs, j, edge) if j == count - 1 else 0.0)
+        k = springs[of.PRESSED, j]
+        w = springs[of.NEXT, j] - g * k
+        weight = springs[of.WEIGHT, j] + (of.rim(springs, j, edge) if j == count - 1 else 0.0)
         total += weight * (w * w + g * k * k)
     return 1.875 * total

@@ -18,9 +18,9 @@ from carom.dimensionless.numerics.kernels import kernel
 # or by how much a spring that yields is softer; Coulomb's limit before and after, and its rate.
 X, S, WEIGHT, OUTER, U, RELAXING, PRESSED, LIMIT, NEXT, RATE = range(10)
 SOFTER = PRESSED
-COLUMNS = 10
+SPRING_COLUMNS = 10
 
-SHORT = 1e-3  # of a step, in relaxation times: where its functions are series
+SHORT_STEP = 1e-3  # of a step, in relaxation times: where its functions are series
 
 
 class Step(NamedTuple):
@@ -84,7 +84,7 @@ def faded(time: float, relaxation: float) -> tuple[float, float, float]:
     """
     q = time / relaxation
     left = np.exp(-q)
-    if q < SHORT:
+    if q < SHORT_STEP:
         return left, 1.0 - 0.5 * q + q * q / 6.0, time * q / 12.0
     kept = -np.expm1(-q) / q
     return left, kept, relaxation * (0.5 * (1.0 + left) - kept)
@@ -111,19 +111,9 @@ def step_of(
     left, kept, growing = faded(time, relaxation)
     slower = (1.0 + extra) * relaxation
     slipping, forced, _ = faded(time, slower)
-    return Step(
-        time,
-        psi,
-        half * time,
-        half * time * kept + growing * rate * time,
-        extra,
-        1.0 / (1.0 + extra),
-        1.0 / relaxation,
-        left,
-        kept,
-        slipping,
-        forced / (1.0 + extra),
-    )
+    moved, relaxing = half * time, half * time * kept + growing * rate * time
+    give, fading, forced = 1.0 / (1.0 + extra), 1.0 / relaxation, forced / (1.0 + extra)
+    return Step(time, psi, moved, relaxing, extra, give, fading, left, kept, slipping, forced)
 
 
 @kernel

@@ -12,8 +12,8 @@ While unloading N = (b^2 - x^2)/rho.
 import numpy as np
 
 from carom.dimensionless.lossy import layout
+from carom.dimensionless.lossy.springs import springs as of
 from carom.dimensionless.lossy.springs.motion import DEPTH, EDGE, LOAD, PACE, SPEED
-from carom.dimensionless.lossy.springs.springs import LIMIT, NEXT, RATE, SOFTER, WEIGHT, S, U, X
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
@@ -34,7 +34,7 @@ def press(y: float, now: Array, new: Array, turned: Array, springs: Array, laid:
     else:
         load = edge**3 if edge <= y else y**3 + 1.5 * y * (d - y * y)
     new[EDGE], new[LOAD] = edge, load
-    touching = int(np.searchsorted(springs[X, :laid], edge))
+    touching = int(np.searchsorted(springs[of.X, :laid], edge))
     bear(y, now, new, shrunk, springs, max(touching, 1))
     return touching
 
@@ -46,17 +46,17 @@ def bear(y: float, now: Array, new: Array, shrunk: float, springs: Array, count:
     shrunk is 1/rho while unloading, else 0.
     """
     for j in range(count):
-        springs[LIMIT, j] = springs[NEXT, j]
-        springs[RATE, j] = (1.0 - springs[SOFTER, j]) * now[SPEED]
-        w = new[DEPTH] - springs[S, j]
+        springs[of.LIMIT, j] = springs[of.NEXT, j]
+        springs[of.RATE, j] = (1.0 - springs[of.SOFTER, j]) * now[SPEED]
+        w = new[DEPTH] - springs[of.S, j]
         if shrunk > 0.0:
-            springs[NEXT, j] = (new[EDGE] ** 2 - springs[S, j]) * shrunk
+            springs[of.NEXT, j] = (new[EDGE] ** 2 - springs[of.S, j]) * shrunk
         elif w <= y * y:
-            springs[NEXT, j] = w
+            springs[of.NEXT, j] = w
         else:
             slope = np.arcsin(y / np.sqrt(w)) * 2.0 / np.pi
-            springs[NEXT, j] = 2.0 / np.pi * y * np.sqrt(w - y * y) + w * slope
-            springs[SOFTER, j] = 1.0 - slope
+            springs[of.NEXT, j] = 2.0 / np.pi * y * np.sqrt(w - y * y) + w * slope
+            springs[of.SOFTER, j] = 1.0 - slope
 
 
 @kernel
@@ -68,10 +68,10 @@ def turn(now: Array, springs: Array, count: int) -> float:
     force, shrunk = 0.0, now[LOAD] / now[EDGE] ** 3
     now[PACE] = now[EDGE] ** -2.5  # 1/(rho e), as the edge recedes faster on a flatter sphere
     for j in range(count):
-        most = (now[EDGE] ** 2 - springs[S, j]) * shrunk
-        springs[NEXT, j], springs[SOFTER, j] = most, 0.0
-        springs[U, j] = max(min(springs[U, j], most), -most)
-        force += springs[WEIGHT, j] * springs[U, j]
+        most = (now[EDGE] ** 2 - springs[of.S, j]) * shrunk
+        springs[of.NEXT, j], springs[of.SOFTER, j] = most, 0.0
+        springs[of.U, j] = max(min(springs[of.U, j], most), -most)
+        force += springs[of.WEIGHT, j] * springs[of.U, j]
     return force
 
 

@@ -6,24 +6,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.fields import surface
-from carom.dimensionless.fields.profile import Profile, coefficients, radii, stacked
+from carom.dimensionless.fields.profile import Profile, Read, piecewise, stacked
 from carom.dimensionless.lossy.layout import NUMBERS
-from carom.dimensionless.lossy.panels import work as at
-from carom.dimensionless.lossy.panels.collocation import NODES, place
-from carom.dimensionless.lossy.panels.work import new_work
-from carom.dimensionless.lossy.viscoelastic import passed
-from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE, run_until
-from carom.dimensionless.lossy.viscoelastic.memory import FLAT, row_of
+from carom.dimensionless.lossy.viscoelastic import contact, work as at
+from carom.dimensionless.lossy.viscoelastic.contact import FLAT, Mode, row_of
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE, Solid, run
 from carom.dimensionless.lossy.viscoelastic.record import new_record
-from carom.dimensionless.lossy.viscoelastic.ring import Mode
+from carom.dimensionless.lossy.viscoelastic.work import NODES, new_work, place
 from carom.dimensionless.numerics.arrays import Array
 
 OF_SLOPE = np.polynomial.chebyshev.chebder(np.eye(NODES))  # of a series on a panel
-REPLAYS = 64  # that are kept
-RESOLVED, NARROW = 1e-10, 1e-6  # of a series on a panel; panels that are not halved any more
-
-Read = Callable[[Array], tuple[Array, Array]]  # value and slope in s, at radii
+REPLAYS_KEPT = 64  # that are kept
+SERIES_TOLERANCE, NARROWEST_PANEL = 1e-10, 1e-6  # of a series on a panel
 
 
 class Stretch(NamedTuple):
@@ -40,9 +34,8 @@ class Replay:
 
     def __init__(self, psi: float, chi: float, alpha: float, number: int) -> None:
         work, numbers, record = new_work(), np.zeros(NUMBERS), new_record(False)
-        given = psi, chi, alpha, TOLERANCE, number
         self.alpha, self.number = alpha, number
-        self.pieces = run_until(*given, work, numbers, record)
+        _, self.pieces = run(psi, Solid(chi, alpha, TOLERANCE), number, work, numbers, record)
         self.work = work._replace(
             series=work.series[: number + 1].copy(),
             pieces=work.pieces[: self.pieces].copy(),
@@ -50,7 +43,7 @@ class Replay:
         )
 
 
-replay = lru_cache(REPLAYS)(Replay)
+replay = lru_cache(REPLAYS_KEPT)(Replay)
 
 
 class Instant:
@@ -133,13 +126,10 @@ class Instant:
         self, read: Callable[[Stretch, Array], tuple[Array, Array]], rim: float
     ) -> Profile:
         """Return a profile of values and minus their slopes."""
-        edges: list[float] = []
-        rows: list[tuple[Array, Array]] = []
-        for part in self.stretches:
-            for outer, row in panels_of(partial(read, part), part.inner, part.outer):
-                edges.append(outer)
-                rows.append(row)
-        return stacked(edges, rows, rim)
+        stretches = [
+            (partial(read, it), it.inner, it.outer, SERIES_TOLERANCE) for it in self.stretches
+        ]
+        return piecewise(stretches, NARROWEST_PANEL, rim)
 
     def _at(self, panel: int, row: int, x: Array | float) -> Array:
         return np.asarray(_terms(x) @ self.work.series[panel, row])
@@ -201,14 +191,14 @@ class Instant:
             return
         inner = self.stuck
         depth = int(self.work.ring[at.DEPTH])
-        entries = [(row, float(row[passed.X_INNER])) for row in self.work.passed[:depth].copy()]
+        entries = [(row, float(row[contact.X_INNER])) for row in self.work.passed[:depth].copy()]
         if self.mode == Mode.RETREATS:
             row = np.zeros(self.work.passed.shape[1])
-            row[[passed.PANEL, passed.X_OUTER]] = self.number, -1.0
-            row[passed.R_OUTER] = np.sqrt(self.work.values[at.FRONT, 0])
+            row[[contact.PASSED_PANEL, contact.X_OUTER]] = self.number, -1.0
+            row[contact.R_OUTER] = np.sqrt(self.work.values[at.FRONT, 0])
             entries.append((row, self.x))
         for row, x_inner in reversed(entries):
-            outer = min(float(row[passed.R_OUTER]), self.radius)
+            outer = min(float(row[contact.R_OUTER]), self.radius)
             if outer > inner:
                 yield Stretch(inner, outer, self.sign, self._left(row, x_inner))
                 inner = outer
@@ -217,13 +207,13 @@ class Instant:
 
     def _left(self, row: Array, x_inner: float) -> Read:
         """Return what reads h on an entry of the stack, and its slope in s."""
-        n, alpha = int(row[passed.PANEL]), self.alpha
+        n, alpha = int(row[contact.PASSED_PANEL]), self.alpha
 
         def read(r: Array) -> tuple[Array, Array]:
-            if row[passed.PANEL] == passed.AT_ONCE:
-                h = row[passed.EXCESS] * np.exp((row[passed.INSTANT] - self.time) / alpha)
+            if row[contact.PASSED_PANEL] == contact.AT_ONCE:
+                h = row[contact.EXCESS] * np.exp((row[contact.INSTANT] - self.time) / alpha)
                 return np.full(r.shape, h), np.zeros(r.shape)
-            x = self._place(n, at.FRONT, r * r, row[passed.X_OUTER], x_inner)
+            x = self._place(n, at.FRONT, r * r, row[contact.X_OUTER], x_inner)
             decay = np.exp((self._at(n, at.TIME, x) - self.time) / alpha)
             excess = self.sign * self._at(n, at.PSI, x) - self._at(n, at.SPEED, x)
             change = self.sign * self._slope(n, at.PSI, x) - self._slope(n, at.SPEED, x)
@@ -233,13 +223,6 @@ class Instant:
         return read
 
 
-def displaced(profile: Profile, radii: Array) -> Array:
-    """Return the radial functions w_0, w_2 of what springs with this profile have slipped."""
-    out = np.empty((radii.size, 5))
-    surface.sample(profile, 0.0, 0.0, 0.0, np.ascontiguousarray(radii), out)
-    return np.asarray(out[:, 3:] * np.array([1.0, -1.0]))
-
-
 def _terms(x: Array | float) -> Array:
     """Return the Chebyshev polynomials at places of a panel, shape (..., NODES)."""
     return np.asarray(np.cos(np.multiply.outer(np.arccos(x), np.arange(NODES))))
@@ -247,16 +230,3 @@ def _terms(x: Array | float) -> Array:
 
 def _nothing(r: Array) -> tuple[Array, Array]:
     return np.zeros(r.shape), np.zeros(r.shape)
-
-
-def panels_of(read: Read, low: float, high: float) -> Iterator[tuple[float, tuple[Array, Array]]]:
-    """Yield the outer edges and rows of as many panels as a stretch needs."""
-    value, slope = read(radii(low, high))
-    series = coefficients(slope)
-    tail = np.max(np.abs(series[-3:])) * np.sqrt(high - low)
-    if tail <= RESOLVED or high - low <= NARROW:
-        yield high, (coefficients(value), series)
-        return
-    middle = 0.5 * (low + high)
-    yield from panels_of(read, low, middle)
-    yield from panels_of(read, middle, high)

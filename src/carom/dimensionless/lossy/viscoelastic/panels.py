@@ -2,26 +2,17 @@
 
 import numpy as np
 
-from carom.dimensionless.lossy.panels import collocation, normal, work as at
-from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, TO_SERIES, expand, integrate
-from carom.dimensionless.lossy.panels.normal import Motion
-from carom.dimensionless.lossy.panels.work import Arrays, Panel, state_at_node
-from carom.dimensionless.lossy.viscoelastic import ring
-from carom.dimensionless.lossy.viscoelastic.memory import rim, row_of
-from carom.dimensionless.lossy.viscoelastic.ring import Mode
+from carom.dimensionless.lossy.viscoelastic import contact, normal, work as at
+from carom.dimensionless.lossy.viscoelastic.contact import Mode, piece_force, rim, row_of
+from carom.dimensionless.lossy.viscoelastic.normal import Motion
+from carom.dimensionless.lossy.viscoelastic.work import NODES, PLACES, Arrays, Panel, state_at_node
 from carom.dimensionless.numerics.kernels import kernel
 
-
-def _slopes() -> np.ndarray:
-    """Return the matrix that makes derivatives by the even clock of values at the nodes."""
-    chebyshev = np.polynomial.chebyshev
-    slopes = [chebyshev.chebval(PLACES, chebyshev.chebder(series)) for series in TO_SERIES.T]
-    return np.ascontiguousarray(2.0 * np.array(slopes).T)
-
-
-SLOPES = _slopes()
-MAX_ITERATIONS = 30
-SETTLED = 1e-13
+chebyshev = np.polynomial.chebyshev
+# What makes derivatives by the even clock of values at the nodes.
+SLOPES = np.ascontiguousarray(2.0 * chebyshev.chebval(PLACES, chebyshev.chebder(at.TO_SERIES)).T)
+MOST_ITERATIONS = 30
+PSI_SETTLED = 1e-13
 
 
 @kernel
@@ -37,26 +28,28 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
     b, psi = values[at.RADIUS], values[at.PSI]
     psi0, u0 = psi[0], values[at.MOVED, 0]
     follow_normal(work, panel)
-    ring.add_up(work, panel)
+    whole = panel.pieces - 1 if contact.ring_of(work).mode == Mode.RETREATS else panel.pieces
+    work.ring[at.WHOLE] = 0.0
+    for i in range(whole):
+        work.ring[at.WHOLE] += piece_force(work.pieces, i)
     if not guess(work, panel, before):
         psi[:] = psi0
-    for iteration in range(MAX_ITERATIONS):
+    for iteration in range(MOST_ITERATIONS):
         follow(work, motion, panel, u0)
         for j in range(NODES):
             now = state_at_node(work, j)
-            border = ring.front(work, motion, panel, now, values[at.TIME, j])
+            border = contact.front(work, motion, panel, now)
             values[at.FRONT, j] = border.radius * border.radius
-            rates[1, j] = (
-                -7.5 * motion.chi * b[j] * ring.force(work, motion, panel, PLACES[j], now, border)
-            )
+            force = contact.force(work, motion, panel, PLACES[j], now, border)
+            rates[1, j] = -7.5 * motion.chi * b[j] * force
             rates[2, j] = -7.5 * motion.chi * b[j] * border.radius
         if iteration == 0:
             factorise(work, panel, motion.alpha)
         change = correct(work, panel, psi0)
-        if change <= SETTLED * (1.0 + abs(psi0)):
+        if change <= PSI_SETTLED * (1.0 + abs(psi0)):
             follow(work, motion, panel, u0)
-            expand(psi, series[at.PSI])
-            expand(values[at.FRONT], series[at.FRONT])
+            at.expand(psi, series[at.PSI])
+            at.expand(values[at.FRONT], series[at.FRONT])
             return True
     return False
 
@@ -67,9 +60,9 @@ def follow_normal(work: Arrays, panel: Panel) -> None:
     values, rates, series = work.values, work.rates, work.series[panel.number]
     for j in range(NODES):
         rates[0, j] = 2.0 * values[at.RADIUS, j]
-    integrate(panel.clock, values[at.TIME, 0], panel.length, rates[0], values[at.TIME])
+    at.integrate(panel.clock, values[at.TIME, 0], panel.length, rates[0], values[at.TIME])
     for row in (at.RADIUS, at.SPEED, at.TIME):
-        expand(values[row], series[row])
+        at.expand(values[row], series[row])
 
 
 @kernel
@@ -78,9 +71,9 @@ def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
     values, rates, series = work.values, work.rates, work.series[panel.number]
     for j in range(NODES):
         rates[0, j] = 2.0 * values[at.RADIUS, j] * values[at.PSI, j]
-    integrate(panel.clock, u0, panel.length, rates[0], values[at.MOVED])
-    expand(values[at.MOVED], series[at.MOVED])
-    mode = ring.ring_of(work).mode
+    at.integrate(panel.clock, u0, panel.length, rates[0], values[at.MOVED])
+    at.expand(values[at.MOVED], series[at.MOVED])
+    mode = contact.ring_of(work).mode
     if mode == Mode.STICKS:
         lay_at_edge(work, motion, panel)
     elif mode == Mode.RETURNS:
@@ -88,7 +81,7 @@ def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
     else:
         return
     for row in (at.LAID, at.LAID_SQUARE, at.LAID_A, at.LAID_B, at.LAID_RADIUS):
-        expand(values[row], series[row])
+        at.expand(values[row], series[row])
 
 
 @kernel
@@ -100,23 +93,23 @@ def lay_at_edge(work: Arrays, motion: Motion, panel: Panel) -> None:
         values[at.LAID_RADIUS, j] = b[j]
         values[at.LAID_A, j], values[at.LAID_B, j] = b[j] * b[j] - u[j], b[j] * b[j] + u[j]
         rates[0, j] = u[j] * normal.edge_rate(motion, b[j], values[at.SPEED, j])
-    integrate(panel.clock, 0.0, panel.length, rates[0], values[at.LAID])
+    at.integrate(panel.clock, 0.0, panel.length, rates[0], values[at.LAID])
     for j in range(NODES):
         rates[0, j] *= u[j]
-    integrate(panel.clock, 0.0, panel.length, rates[0], values[at.LAID_SQUARE])
+    at.integrate(panel.clock, 0.0, panel.length, rates[0], values[at.LAID_SQUARE])
 
 
 @kernel
 def lay_at_front(work: Arrays, motion: Motion, panel: Panel) -> None:
     """Write what a front lays that returns, and the integral of r over the level."""
-    values, rates, sign = work.values, work.rates, ring.ring_of(work).sign
+    values, rates, sign = work.values, work.rates, contact.ring_of(work).sign
     levels = values[row_of(sign)]
     for j in range(NODES):
         now = state_at_node(work, j)
-        r = ring.front(work, motion, panel, now, values[at.TIME, j]).radius
+        r = contact.front(work, motion, panel, now).radius
         if j == 0:
             r = rim(work.pieces, panel.pieces)
-        levels[j] = ring.level_now(motion, sign, now)
+        levels[j] = contact.level_now(motion, sign, now)
         values[at.LAID_RADIUS, j] = r
         values[row_of(-sign), j] = 2.0 * r * r - levels[j]
     for j in range(NODES):
@@ -124,7 +117,7 @@ def lay_at_front(work: Arrays, motion: Motion, panel: Panel) -> None:
         for k in range(NODES):
             slope += SLOPES[j, k] * levels[k]
         rates[0, j] = values[at.LAID_RADIUS, j] * slope
-    integrate(collocation.EVEN, 0.0, 1.0, rates[0], values[at.LAID])
+    at.integrate(at.EVEN, 0.0, 1.0, rates[0], values[at.LAID])
 
 
 @kernel
@@ -134,9 +127,9 @@ def guess(work: Arrays, panel: Panel, before: Panel) -> bool:
         return False
     ratio = panel.length / before.length
     for j in range(1, NODES):
-        part = min(collocation.CLOCKS[panel.clock, j] * ratio, 1.0)
-        x = collocation.place_of_clock(before.clock, part)
-        work.values[at.PSI, j] = collocation.evaluate(work.series, panel.number, at.PSI, x)
+        part = min(at.CLOCKS[panel.clock, j] * ratio, 1.0)
+        x = at.place_of_clock(before.clock, part)
+        work.values[at.PSI, j] = at.evaluate(work.series, panel.number, at.PSI, x)
     return True
 
 
@@ -144,7 +137,7 @@ def guess(work: Arrays, panel: Panel, before: Panel) -> bool:
 def correct(work: Arrays, panel: Panel, psi0: float) -> float:
     """Do a step of Newton's method, from the rates of psi; return by how much psi has changed."""
     rates, psi, change = work.rates, work.values[at.PSI], 0.0
-    integrate(panel.clock, psi0, panel.length, rates[1], rates[0])
+    at.integrate(panel.clock, psi0, panel.length, rates[1], rates[0])
     for j in range(NODES):
         rates[0, j] -= psi[j]
     back_substitute(work)
@@ -161,7 +154,7 @@ def factorise(work: Arrays, panel: Panel, alpha: float) -> None:
 
     alpha is the retardation time in shear.
     """
-    s, h, b = collocation.INTEGRALS[panel.clock], panel.length, work.values[at.RADIUS]
+    s, h, b = at.INTEGRALS[panel.clock], panel.length, work.values[at.RADIUS]
     matrix = work.matrix
     for i in range(NODES):
         for j in range(NODES):

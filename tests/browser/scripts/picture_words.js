@@ -1,0 +1,27 @@
+async ([query, part, width, height, shares]) => {
+  const { scene } = await Carom.source.answer(query);
+  const made = Carom.scene.of(scene);
+  const canvas = document.createElement("canvas");
+  canvas.style.cssText = `display: block; width: ${width}px; height: ${height}px`;
+  document.body.append(canvas);
+  const kind = CanvasRenderingContext2D.prototype;
+  const fillText = kind.fillText;
+  let found = [];
+  kind.fillText = function (text, x, y) {
+    const box = this.measureText(text);
+    const size = parseFloat(this.font);
+    const sides = [x - box.actualBoundingBoxLeft, y - box.actualBoundingBoxAscent,
+      x + box.actualBoundingBoxRight, y + box.actualBoundingBoxDescent];
+    if (text) found.push([text, size, ...sides]);
+    return fillText.apply(this, arguments);
+  };
+  const all = shares.map(share => {
+    found = [];
+    Carom.canvas.forget(canvas);
+    Carom[part].draw(canvas, made, share);
+    return found;
+  });
+  kind.fillText = fillText;
+  canvas.remove();
+  return all;
+}

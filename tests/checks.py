@@ -1,0 +1,65 @@
+"""What many tests assert: that a call is refused in one line, that the text of a figure is seen."""
+
+import itertools
+import re
+
+import pytest
+import xarray as xr
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+import carom
+
+
+def refused(words, function, *given, **named):
+    """Assert that a call is refused in one line with these words, a pattern; return the line."""
+    with pytest.raises(carom.InputError) as error:
+        function(*given, **named)
+    line = str(error.value)
+    assert "\n" not in line
+    assert len(line) < 10_000
+    assert re.search(words, line), line
+    return line
+
+
+def seen_texts(figure):
+    """Return all texts that are seen: not the labels of ticks outside the limits."""
+    hidden = set()
+    for axis in figure.axes:
+        for side, limits in ((axis.xaxis, axis.get_xlim()), (axis.yaxis, axis.get_ylim())):
+            for tick in side.get_major_ticks():
+                if not min(limits) <= tick.get_loc() <= max(limits):
+                    hidden |= {id(tick.label1), id(tick.label2)}
+    texts = [t for t in figure.findobj(Text) if t.get_visible() and t.get_text().strip()]
+    return [t for t in texts if id(t) not in hidden]
+
+
+def is_legible(figure, least=11):
+    """Assert that every text that is seen lies within the figure and clear of every other."""
+    FigureCanvasAgg(figure).draw()
+    page = figure.bbox
+    boxes = [(text.get_text(), text.get_window_extent()) for text in seen_texts(figure)]
+    assert len(boxes) >= least
+    for text, box in boxes:
+        inside = box.x0 >= -0.5 and box.y0 >= -0.5 and box.x1 <= page.x1 and box.y1 <= page.y1
+        assert inside, text
+    for (first, box), (second, other) in itertools.combinations(boxes, 2):
+        wide = min(box.x1, other.x1) - max(box.x0, other.x0)
+        high = min(box.y1, other.y1) - max(box.y0, other.y0)
+        assert wide <= 0.5 or high <= 0.5, (first, second)
+    return True
+
+
+def one_line(error, longest=10_000):
+    """Return the line that a refusal is; it begins with what is refused."""
+    assert re.fullmatch(r"[^\n:]+: .+", str(error)), error
+    assert len(str(error)) < longest
+    return str(error)
+
+
+def is_stored(result, folder):
+    """Assert that the file of a result gives it back, and that it is drawn and shown."""
+    dataset = result.to_dataset()
+    xr.testing.assert_identical(carom.read(carom.save(result, folder / "result.nc")), dataset)
+    result.plot(folder / "result.png")
+    assert "<table" in result._repr_html_()
