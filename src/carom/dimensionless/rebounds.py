@@ -254,6 +254,6 @@ def answered(
             f"{len(unsolved)} of {status.size} impacts give NaN ({where}); "
             "return_status=True tells each",
             RuntimeWarning,
-            stacklevel=3,
+            stacklevel=4,  # past `known_keywords` to the user
         )
     return result
