@@ -15,6 +15,7 @@ from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.rebounds import lossy_rebounds
 from carom.explorer.files import NumbersImpact
+from carom.explorer.views import View
 from carom.impacts.validity import judge_losses
 from carom.io.labels import spheres
 
@@ -289,6 +290,6 @@ def test_titles_call_bodies_elastic_only_if_they_are(law: LossLaw | None) -> Non
 @pytest.mark.parametrize("restitution", [0.8, 1.0])
 def test_figures_without_units_know_of_losses(restitution: float) -> None:
     """The page's figures of psi_1 and chi."""
-    losses = None if restitution == 1.0 else carom.KelvinVoigt(restitution=restitution)
-    title = NumbersImpact(carom.solve(1.5, 1.44, losses=losses)).history(5).attrs["title"]
-    assert title == f"oblique impact of {spheres(losses is not None)}"
+    view = View(psi=1.5, chi=1.44, restitution=restitution)
+    title = NumbersImpact(view).history(5).attrs["title"]
+    assert title == f"oblique impact of {spheres(view.losses is not None)}"

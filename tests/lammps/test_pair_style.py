@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import carom
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.dimensionless.numerics.hertz import DURATION
 
 RADIUS, FRICTION, SHALLOW = 5e-3, 0.2, 1e-6  # d_max/R: the normal of a pair hardly turns
@@ -81,7 +82,7 @@ def test_losses_by_restitution_at_a_speed_and_by_time(lammps):
     np.testing.assert_allclose(e, 0.8, atol=1e-3)
     exact = carom.rebound(PSI, PAIR.chi, losses=carom.KelvinVoigt(0.8))
     assert np.abs(by_e - exact).max() < 1.5e-3
-    loss = carom.dem.ExactContactLaw(32, restitution=0.8)._losses()[0]
+    loss = viscous_loss(0.8)
     by_time, _ = rebounds(lammps, retardation=loss * PAIR.scales(SPEED).time)
     np.testing.assert_allclose(by_time, by_e, atol=1e-6)
 

@@ -105,7 +105,8 @@ class Kinematics(ABC):
     spin2: float
 
     @property
-    def _before(self) -> Tangential:
+    def before(self) -> Tangential:
+        """Tangential speed of the centre and spins before."""
         return Tangential(self.tangential_speed, self.spin, self.spin2)
 
     @property
@@ -126,7 +127,7 @@ class Kinematics(ABC):
     @cached_property
     def contact_velocity(self) -> float:
         """Tangential velocity of the contact point before the impact, V_x in m/s."""
-        return self._before.contact_velocity(self.pair)
+        return self.before.contact_velocity(self.pair)
 
     @cached_property
     def psi_in(self) -> float:
@@ -136,7 +137,7 @@ class Kinematics(ABC):
     @cached_property
     def _after(self) -> Tangential:
         """Tangential speed of the centre and spins after."""
-        return self._before.after(self.pair, self.tangential_impulse)
+        return self.before.after(self.pair, self.tangential_impulse)
 
     @property
     def normal_speed_out(self) -> float:

@@ -79,7 +79,7 @@ def history_columns(outcome: "Outcome", n: int) -> dict[str, Any]:
     impulse_unit = pair.tangential_mass * scales.tangential_speed
     energy_unit = impulse_unit * scales.tangential_speed
     velocity = h.psi * scales.tangential_speed + drift
-    now = outcome._before.after(pair, impulse_unit * _psi_lost(pair.chi, solution, h))
+    now = outcome.before.after(pair, impulse_unit * _psi_lost(pair.chi, solution, h))
     return {
         "time": h.time * scales.time,
         "penetration": h.penetration * scales.length,
@@ -204,12 +204,12 @@ class Outcome(Kinematics):
             "second": describe(self.pair.second),
             "friction": self.pair.friction,
             "normal_speed": self.normal_speed,
-            **self._before._asdict(),
+            **self.before._asdict(),
             **({} if self.losses is None else {"losses": self.losses.describe()}),
         }
 
 
 def outcome_fits(outcome: Outcome) -> bool:
     """Return whether floating point holds the numbers of an impact; an array for many."""
-    parts = outcome.tangential_speed, *outcome._before.carried(outcome.pair)
+    parts = outcome.tangential_speed, *outcome.before.carried(outcome.pair)
     return scales_fit(outcome.pair, outcome.scales, outcome.contact_velocity, *parts)

@@ -3,14 +3,12 @@
 from collections.abc import Iterable
 from html import escape
 
-INNER = frozenset(  # what the parts of Carom say to each other
-    (
-        *("arguments", "builder", "called", "coefficients", "command", "coords", "describe"),
-        *("description", "doubts", "executable", "files", "greeting", "inputs", "largest_chi"),
-        *("loss", "most_steps", "outcomes", "remedy", "result", "rule", "sampled", "scale_free"),
-        *("statuses", "supports", "symmetric", "versions", "written"),
-    )
-)
+WORDS = """
+arguments before builder called coefficients command coords describe description doubts
+executable files greeting inputs largest_chi loss most_steps outcomes remedy result rule
+sampled scale_free statuses supports symmetric versions written
+"""
+INNER = frozenset(WORDS.split())  # what the parts of Carom say to each other
 
 
 class Shown:

@@ -7,6 +7,7 @@ springs let go, b^2 = D; b' = v - (5/4) alpha b^3, v' = -(5/2) b^4.
 """
 
 from enum import IntEnum
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -199,6 +200,7 @@ def restitution(alpha: float, work: Arrays) -> float:
     return np.nan
 
 
+@lru_cache(256)
 def viscous_loss(wanted: float) -> float:
     """Return alpha, loss time in d_max/V_1, that gives a restitution 0 < e <= 1, to 1e-12 or so.
 
