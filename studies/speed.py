@@ -87,7 +87,7 @@ def each(solve: Callable[[float], float]) -> Callable[[Any], Any]:
 def methods() -> list[Method]:
     """Return all methods but LAMMPS and the boundary elements."""
     chi, kappa = PAIR.chi, PAIR.kappa
-    law, mixture = carom.laws.ReboundLaw(chi), carom.laws.MixtureLaw(1.1, 1.8)
+    law, mixture = carom.laws.ReboundLaw(chi), carom.laws.ReboundLaw((1.1, 1.8))
     weak = carom.KelvinVoigt(restitution=0.9)
     softer = carom.dem.LammpsMindlin("mindlin_rescale/force", stiffness=0.78)
     dem = {
@@ -104,7 +104,7 @@ def methods() -> list[Method]:
         Method("collide", "tables", most, lambda psi: collided(psi, None)),
         Method("collide, Walton", "contact law", most, lambda p: collided(p, walton())),
         Method("ReboundLaw", "tables", most, law),
-        Method("MixtureLaw", "tables", most, lambda psi: mixture(psi, chi)),
+        Method("ReboundLaw over chi", "tables", most, lambda psi: mixture(psi, chi)),
         *(
             Method(f"annuli and steps, {n} springs", "numerical", some, by_springs(chi, n))
             for n in (500, 125)

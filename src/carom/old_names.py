@@ -10,7 +10,7 @@ LAWS_OF_CODES = (
     *("LammpsMindlin", "LiggghtsHertz", "LinearSpring", "StrongeLaw", "ThorntonLaw"),
     *("WaltonBraunLaw", "YadeMindlin"),
 )
-REBOUND_LAWS = ("MixtureLaw", "ReboundLaw", "RoughLaw", "SmoothLaw", "WaltonLaw", "fit_walton")
+REBOUND_LAWS = ("ReboundLaw", "RoughLaw", "SmoothLaw", "WaltonLaw", "fit_walton")
 RESULTS = ("Collisions", "Fit", "HalfspaceImpact", "Impact", "JudgedCollisions", "LoadPath")
 STATUSES = ("CollisionStatus", "Judgement", "PointStatus", "Status")
 
@@ -27,6 +27,7 @@ NEW_NAMES = {
     "carom.verify.restitution": "carom.verify.restitution_from_damping",
 }
 NEW_CALLS: dict[str, tuple[str, Callable[[], Any]]] = {  # what a name alone no longer gives
+    "carom.MixtureLaw": ("carom.laws.ReboundLaw((low, high))", lambda: _law_of_a_range),
     "carom.material_sources": ("carom.material(name).sources", lambda: _sources),
     "carom.verify.CATALOGUE": (
         "carom.verify.catalogue()",
@@ -43,6 +44,10 @@ def _get(path: str) -> Any:
 
 def _sources(name: str) -> dict[str, str]:
     return dict(_get("carom.material")(name).sources)
+
+
+def _law_of_a_range(low: float, high: float) -> Any:
+    return _get("carom.laws.ReboundLaw")((low, high))
 
 
 def with_old_names(package: str, load: Callable[[str], Any]) -> Callable[[str], Any]:

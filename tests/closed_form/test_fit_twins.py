@@ -5,7 +5,8 @@ import pytest
 from scipy.optimize import brentq, least_squares
 
 import carom
-from carom.dimensionless import interpolation as curves
+from carom.dimensionless.rebound_tables import psi_at, psi_out, stored
+from carom.dimensionless.rebounds import regime_borders
 from carom.fitting import fit
 
 MU, SIGMA = 0.12, 0.02
@@ -115,38 +116,29 @@ def test_a_start_far_away_ends_in_the_same_minimum(data, found):
 
 
 @pytest.mark.parametrize(
-    ("chi", "e", "error"),
-    [
-        (0.3, 1.0, 5e-5),
-        (0.52, 1.0, 5e-5),
-        (1.1667, 1.0, 5e-5),
-        (1.4412, 1.0, 5e-5),
-        (1.75, 1.0, 5e-5),
-        (1.4412, 0.97, 5e-5),
-        (1.2, 0.83, 5e-5),
-        (1.4412, 0.6, 5e-5),
-        (1.3, 0.35, 5e-5),
-        (2.1, 0.93, 2e-4),
-        (2.55, 0.985, 6e-4),
-        (3.8, 1.0, 5e-3),
-        (3.5, 0.95, 5e-3),
-    ],
+    ("chis", "error"),
+    [((0.248, 1.75), 1e-5), ((1.75, 2.2), 5e-5), ((2.2, 3.0), 5e-4), ((3.0, 4.09), 2e-3)],
 )
-def test_interpolated_curves_are_those_of_the_solver(chi, e, error):
-    """psi_2 between the curves of the table, against the solver, to what the docstring says."""
-    psi = np.random.default_rng(5).uniform(-1.6, 1.6, 200) * max(1.0, 4.0 * chi - 1.0)
-    psi[:2] = 1e-3, 30.0 * psi[1]
-    found = curves.psi_out(psi[np.newaxis], np.array([chi]), np.array([e]))[0]
-    law = None if e == 1.0 else carom.KelvinVoigt(restitution=e)
-    assert np.abs(found - carom.rebound(psi, chi, losses=law)).max() < error
+def test_the_table_is_the_solver(chis, error):
+    """psi_2 at random chi, e and psi_1, also close to kinks, to what the manual says; odd."""
+    rng = np.random.default_rng(5)
+    chi, e = rng.uniform(*chis, 60), rng.choice([1.0, 0.985, 0.93, 0.6, 0.35], 60)
+    place = rng.uniform(0.0, 3.2, (60, 20))
+    place[:, 15:] = [1.0, 1.0 + 1e-6, 2.0, 3.0 - 1e-9, 1e-7]
+    psi = psi_at(place, *np.broadcast_arrays(chi[:, np.newaxis], e[:, np.newaxis], place)[:2])
+    found = psi_out(stored(), psi, chi, e)
+    for one in np.unique(e):
+        some, law = e == one, carom.KelvinVoigt(restitution=one)
+        exact = carom.rebound(psi[some], chi[some, np.newaxis], losses=law)
+        assert np.abs(found[some] - exact).max() < error
+    np.testing.assert_array_equal(psi_out(stored(), -psi, chi, e), -found)
+    assert np.all(np.abs(found) <= np.abs(psi))
 
 
 @pytest.mark.parametrize("chi", [0.3, 1.4412])
 def test_curves_hardly_change_across_a_kink(chi):
-    """psi_2 is continuous at the borders of the regimes, and odd."""
-    borders = curves.panel_starts(chi, 1.0)[1:]
+    """psi_2 is continuous at the borders of the regimes."""
+    borders = np.unique(regime_borders(chi))
     psi = np.sort(np.concatenate([borders - 1e-9, borders + 1e-9]))[np.newaxis]
-    chis, ones = np.array([chi]), np.array([1.0])
-    found = curves.psi_out(psi, chis, ones)[0]
+    found = psi_out(stored(), psi, np.array([chi]), np.array([1.0]))[0]
     assert np.abs(found[1::2] - found[::2]).max() < 1e-6
-    np.testing.assert_array_equal(curves.psi_out(-psi, chis, ones)[0], -found)

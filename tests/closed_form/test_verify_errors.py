@@ -8,7 +8,7 @@ import xarray as xr
 from tests.oracles.springs import spring_force
 
 import carom
-from carom.dem.base import Law
+from carom.dem.base import ContactLaw
 from carom.verify import advised_steps, error_map, force_error, step_error
 
 CHI = 1.4412
@@ -149,7 +149,7 @@ def test_advised_steps_suffice_and_fewer_do_not(law, allowed):
         assert step_error(law, round(advice.steps / 2**0.5)) > allowed
 
 
-class Lucky(Law):
+class Lucky(ContactLaw):
     """A law that errs by 1 in fewer than 100 steps, but for 20 of them."""
 
     def _rebound(self, psi, chi, kappa, steps):
@@ -161,7 +161,7 @@ def test_a_lucky_number_of_steps_is_not_advised():
     assert advised_steps(Lucky(), 0.1) == (113, 0.0)
 
 
-class Sticky(Law):
+class Sticky(ContactLaw):
     """Bodies that never part."""
 
     def _rebound(self, psi, chi, kappa, steps):

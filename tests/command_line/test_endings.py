@@ -130,14 +130,14 @@ def test_ctrl_c_in_sampling_is_told_in_one_line(there):
     program = AT_IMPORT.format(module="", number="SIGINT").replace(
         "sys.addaudithook(hook)",
         """\
-import carom.dimensionless.interpolation as rebounds
+import carom.fitting.model as laws
 from carom.fitting import datasets
-sampled, read = datasets.sample, rebounds.table
+sampled, read = datasets.sample, laws.stored
 def interrupted():
     signal.raise_signal(signal.SIGINT)
     return read()
 def sample(*given):
-    rebounds.table = interrupted
+    laws.stored = interrupted
     return sampled(*given)
 import carom.fitting.result
 carom.fitting.result.sample = sample

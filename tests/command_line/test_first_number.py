@@ -27,7 +27,7 @@ FIRST = {
     "load path": "carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.0, -1.0])",
     "collide": "carom.collide(pair, velocity1=[[1.0, 0.0, -2.0]], normal=[0.0, 0.0, -1.0])",
     "law": "carom.laws.ReboundLaw(1.44)(0.5)",
-    "mixture": "carom.laws.MixtureLaw(1.4, 1.5)(0.5, 1.45)",
+    "mixture": "carom.laws.ReboundLaw((1.4, 1.5))(0.5, 1.45)",
     "contact law": "carom.dem.LammpsMindlin().rebound([0.5], 1.44, steps=100)",
     "sweep": "carom.sweep({'first': {'radius': 0.005, 'material': 'steel'}, 'speed': 1.0, "
     "'friction': 0.2}, carom.Grid({'angle': [0.1, 0.2]}), progress=False, workers=1)",

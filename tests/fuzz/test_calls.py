@@ -141,7 +141,7 @@ def rebounds(calls):
 
 
 def tabulated(calls):
-    law, mixed = carom.laws.ReboundLaw(1.44), carom.laws.MixtureLaw(1.2, 1.3)
+    law, mixed = carom.laws.ReboundLaw(1.44), carom.laws.ReboundLaw((1.2, 1.3))
     for name, each in (("law", law), ("impulse", law.impulse), ("dissipation", law.dissipation)):
         calls.add(name, each, psi=[0.5, 2.0])
     from_dict = carom.laws.ReboundLaw.from_dict
@@ -240,7 +240,7 @@ def slow_ones(calls):
     hit = carom.impact(PAIR, speed=2.0, angle="30 deg")
     path = carom.load_path(PAIR, normal_force="10 N", tangential_force=[0.0, 1.0])
     calls.add("ReboundLaw", carom.laws.ReboundLaw, chi=1.44, losses=None)
-    calls.add("MixtureLaw", lambda low: carom.laws.MixtureLaw(low, 1.3), low=1.2)
+    calls.add("MixtureLaw", lambda low: carom.laws.ReboundLaw((low, 1.3)), low=1.2)
     calls.add("fit_walton", carom.laws.fit_walton, pair=PAIR, span=5.0)
     below = {"x": [0.0, 1e-5], "z": [0.0, 1e-5], "points": None, "body": "second"}
     calls.add("hit.stress", hit.stress, at=5e-6, **below)

@@ -71,7 +71,7 @@ NEVER_REFUSE = {
 FORMULAS = """
 BoundaryElements ElasticPlastic KelvinVoigt StandardLinearSolid Pair Pair.contact_scales Pair.scales
 Pair.lateral_ratio dem.HertzLinearHistory dem.LammpsMindlin dem.LinearSpring dem.StrongeLaw
-dem.ThorntonLaw dem.WaltonBraunLaw laws.MixtureLaw laws.ReboundLaw laws.RoughLaw laws.WaltonLaw
+dem.ThorntonLaw dem.WaltonBraunLaw laws.ReboundLaw laws.RoughLaw laws.WaltonLaw
 laws.fit_walton results.HalfspaceImpact results.Impact results.Impact.fields results.Impact.stress
 results.Impact.wear results.LoadPath results.Solution results.Solution.traction
 results.Solution.slip_angles results.Fit.advice results.Fit.posterior collide convert_observables

@@ -20,9 +20,10 @@ from carom.native.numba_internals import CODE, PATCHES
 
 PACKAGE = Path(carom.__file__).parent
 OWN = {  # private to Carom: classes that share a file or a folder
-    "laws/exact.py": {"_hold"},
-    "laws/header.py": {"_rule"},
+    "laws/exact.py": {"_hold", "_of", "_rule", "_table"},
+    "laws/header.py": {"_one_chi", "_rule"},
     "impacts/wear.py": {"_slip_borders"},
+    "verify/entries.py": {"_damped"},
     "verify/errors.py": {"_why"},
 }
 PUBLIC = {"_replace", "_asdict", "_fields", "_make", "_value_", "_exit"}  # documented by Python

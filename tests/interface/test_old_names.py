@@ -50,6 +50,9 @@ def test_what_is_called_otherwise_is_the_same():
     assert carom.verify.catalogue() == carom.verify.CATALOGUE
     assert carom.material_sources("steel") == carom.material("steel").sources
     assert carom.material_sources("rigid") == {}
+    law = carom.MixtureLaw(1.2, 1.3)
+    assert law.chi == (1.2, 1.3)
+    assert law(0.7, 1.25) == carom.laws.ReboundLaw((1.2, 1.3))(0.7, 1.25)
 
 
 def test_the_warning_is_where_the_name_stands():

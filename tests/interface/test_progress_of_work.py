@@ -111,16 +111,16 @@ def test_a_sweep_that_goes_on_counts_from_what_is_stored(tmp_path, capsys):
 @pytest.mark.usefixtures("_at_once")
 def test_a_table_with_losses_counts_its_impacts(monkeypatch, capsys):
     """How many there will be is not known; what is shown is what `rebound` got."""
-    import carom.laws.panels as panels
+    from carom.dimensionless import rebound_tables as tables
 
     solved = []
-    genuine = panels.lossy_rebounds
+    genuine = tables.lossy_rebounds
 
-    def counted(psi, *given):
+    def counted(psi, *given, **options):
         solved.append(np.size(psi))
-        return genuine(psi, *given)
+        return genuine(psi, *given, **options)
 
-    monkeypatch.setattr(panels, "lossy_rebounds", counted)
+    monkeypatch.setattr(tables, "lossy_rebounds", counted)
     monkeypatch.setattr("carom.io.progress.place", lambda progress: Place.TEXT)
     carom.laws.ReboundLaw(1.0, losses=carom.KelvinVoigt(restitution=0.8))
     shown = capsys.readouterr().err

@@ -191,7 +191,7 @@ ALONG = {
     "rebound": lambda a, b: carom.rebound(a, b),
     "contact law": lambda a, b: carom.dem.LinearSpring().rebound(a, b),
     "contact law, kappa": lambda a, b: carom.dem.LinearSpring().rebound(a, 1.44, kappa=b),
-    "mixture": lambda a, b: carom.laws.MixtureLaw(1.2, 1.3)(a, b),
+    "mixture": lambda a, b: carom.laws.ReboundLaw((1.2, 1.3))(a, b),
     "convert": lambda a, b: carom.convert_observables(
         PAIR, known={"angle": a, "contact_beta": b, "normal_restitution": 1.0}, wanted="psi_out"
     ),
@@ -321,7 +321,7 @@ TINY = {"material": "steel", "radius": 1e-120}
         (lambda: carom.Sphere(material="steel", radius=10**400), ("radius: ", "cannot hold")),
         (lambda: carom.Sphere(material=10**5000, radius=1.0), ("material: this int",)),
         (lambda: carom.laws.ReboundLaw(1e15), ("chi: ", "at most 100")),
-        (lambda: carom.laws.MixtureLaw(0.5, 1e15), ("chi: ", "within 0.5 to 5")),
+        (lambda: carom.laws.ReboundLaw((0.5, 1e15)), ("chi: ", "within 0.5 to 5")),
         (lambda: carom.verify.tune(chi=1e15), ("chi: ", "at most 10000")),
         (lambda: carom.verify.rank(chi=1e15), ("chi: ", "at most 10000")),
         (lambda: carom.rebound(np.zeros((10**5, 1)), np.ones(10**5)), ("psi_1, chi: ", "at once")),

@@ -7,7 +7,7 @@ import pytest
 
 import carom
 from carom.dem import lattice
-from carom.dimensionless import interpolation
+from carom.dimensionless import rebound_tables
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
@@ -119,7 +119,7 @@ def laws(rng):
         law.history(0.7, 1.44, steps=40)
     memory, load = np.zeros(lattice.places(16)), np.empty(3)
     lattice.step(memory, 16, 0.1, np.array([1.0, 0.5, 0.2]), 0.1, 0.2, 0.2, load)
-    mixed = carom.laws.MixtureLaw(1.4, 1.45)
+    mixed = carom.laws.ReboundLaw((1.4, 1.45))
     mixed(psi, 1.42)
     for kind in (np.float32, np.float64):
         velocity = rng.normal(size=(700, 3)).astype(kind)
@@ -146,9 +146,9 @@ def numbers(rng):
     for t in rng.uniform(0.0, 1.0, 20):
         hertz.time(t * t, t)
         hertz.elapsed(t)
-        interpolation.cubic(t)
         chebyshev.evaluate(rng.normal(size=9), 0.0, 1.0, t)
-    interpolation.psi_out(rng.uniform(-5, 5, (4, 9)), np.full(4, 1.3), np.full(4, 0.9))
+    psi, numbers = rng.uniform(-5, 5, (4, 9)), (np.full(4, 1.3), np.full(4, 0.9))
+    rebound_tables.psi_out(rebound_tables.stored(), psi, *numbers)
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ PAIR = carom.Pair(
 )
 VISCOUS = carom.KelvinVoigt(restitution=0.8)
 HIT = carom.impact(PAIR, speed=1.0, angle=0.6)
-LAW, MIXTURE = carom.laws.ReboundLaw(1.44), carom.laws.MixtureLaw(1.2, 1.6)
+LAW, MIXTURE = carom.laws.ReboundLaw(1.44), carom.laws.ReboundLaw((1.2, 1.6))
 rng = np.random.default_rng(4)
 PSI, CHI = rng.uniform([[0.1], [0.8]], [[6.0], [2.0]], (6, 2, 8)).swapaxes(0, 1)
 PLACES = 1e-4 * rng.uniform(-1.0, 1.0, (40, 3))

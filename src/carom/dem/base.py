@@ -4,9 +4,9 @@ import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from inspect import cleandoc
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,8 +16,8 @@ from carom.dem.coefficients import Coefficients
 from carom.dem.damping import damped_restitution
 from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped
 from carom.dimensionless.numerics.threads import available_cores
-from carom.dimensionless.rebounds import warn_of_unsolved
-from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
+from carom.dimensionless.rebounds import answered
+from carom.quantities.arrays import Array
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.shown import Shown
@@ -104,7 +104,7 @@ def described(names: re.Match[str]) -> str:
 
 @dataclass(frozen=True)
 class Law(Shown, ABC):
-    """A law of impact that stands for the exact one.
+    """What gives psi_2 from psi_1 and chi: contact laws, a function, the exact table.
 
     In docstrings of laws a line with names of `PARAMETERS` alone stands for what is said there.
     """
@@ -113,6 +113,7 @@ class Law(Shown, ABC):
     source: ClassVar[str]
     largest_chi: ClassVar[float] = np.inf
     most_steps: ClassVar[int] = MOST_STEPS  # that are tried for a time step
+    statuses: ClassVar[type[WordedStatus]] = LawStatus  # of impacts
 
     def __init_subclass__(cls) -> None:
         text, count = NAMES_ALONE.subn(described, cleandoc(cls.__doc__ or ""))
@@ -124,9 +125,15 @@ class Law(Shown, ABC):
             if name in vars(self):
                 object.__setattr__(self, name, parameter.read(name, getattr(self, name)))
 
+    def _damped(self, restitution: float) -> Self:
+        """Return the law with another restitution."""
+        return replace(self, restitution=restitution)  # type: ignore[call-arg]
+
     @abstractmethod
-    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
-        """Return psi_2 of impacts with one chi."""
+    def _solved(
+        self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
+    ) -> tuple[Array, Codes]:
+        """Return psi_2 and the status of impacts, arrays of one length."""
 
     @known_keywords
     def rebound(
@@ -181,29 +188,38 @@ class Law(Shown, ABC):
         if steps is not None:
             steps = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
         threads, return_status = threads_or_none(threads), flag("return_status", return_status)
-        along_the_same(psi_1=psi_1, chi=chi, kappa=kappa)
-        inputs = {"psi_1": pure_numbers("psi_1", psi_1), "chi": pure_numbers("chi", chi)}
-        inputs["kappa"] = SOLID * inputs["chi"] if kappa is None else pure_numbers("kappa", kappa)
-        shape = together(inputs)
-        psis, chis, kappas = (np.broadcast_to(each, shape).ravel() for each in inputs.values())
-        result, status = self._solved(psis, chis, kappas, steps, threads)
-        psi_out = result.reshape(shape) if shape else float(result[0])
-        if return_status:
-            return psi_out, status.reshape(shape) if shape else int(status[0])
-        lost, reason = np.flatnonzero(status), ""
-        if lost.size and status[lost[0]] in OF_FUNCTIONS:
-            reason = self._why(*(float(each[lost[0]]) for each in (psis, chis, kappas)))
-        warn_of_unsolved(status.reshape(shape), LawStatus, reason)
-        return psi_out
+
+        def solve(psi: Array, chi: Array, kappa: Array | None = None) -> tuple[Array, Codes, str]:
+            own = SOLID * chi if kappa is None else kappa
+            result, status = self._solved(psi, chi, own, steps, threads)
+            lost, reason = np.flatnonzero(status)[:1], ""
+            if not return_status and lost.size and status[lost[0]] in OF_FUNCTIONS:
+                reason = self._why(*(float(each[lost[0]]) for each in (psi, chi, own)))
+            return result, status, reason
+
+        arguments = {"psi_1": psi_1, "chi": chi} | ({} if kappa is None else {"kappa": kappa})
+        return answered(arguments, solve, self.statuses, return_status)
 
     def _why(self, psi: float, chi: float, kappa: float) -> str:
         """Return what the function of a law did wrong in an impact, "" if nothing."""
         return ""
 
+
+@dataclass(frozen=True)
+class ContactLaw(Law):
+    """A law of the forces in a contact, from the first touch to separation."""
+
+    largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
+    symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
+    default_steps: ClassVar[int | None] = None  # None: of adaptive size
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        raise NotImplementedError(f"{self.name} is more than coefficients")
+
     def _solved(
         self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
     ) -> tuple[Array, Codes]:
-        """Return psi_2 and the status of impacts, in threads."""
         status = status_of(psi, chi, kappa, self.largest_chi)
         result, good = np.full(psi.size, np.nan), np.flatnonzero(status == LawStatus.SOLVED)
 
@@ -223,33 +239,8 @@ class Law(Shown, ABC):
         result[lost], status[lost] = np.nan, LawStatus.UNRESOLVED
         return result, status
 
-
-def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
-    """Return the places of impacts of the same bodies, some for each thread."""
-    bodies, members = np.unique(np.stack([chi, kappa]), axis=1, return_inverse=True)
-    members = members.ravel()  # NumPy 2.0 gives it two dimensions
-    order = np.argsort(members, kind="stable")
-    groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
-    return [
-        group[i : i + IMPACTS_AT_ONCE]
-        for group in groups
-        for i in range(0, group.size, IMPACTS_AT_ONCE)
-    ]
-
-
-@dataclass(frozen=True)
-class ContactLaw(Law):
-    """A law of the forces in a contact, from the first touch to separation."""
-
-    largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
-    symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
-    default_steps: ClassVar[int | None] = None  # None: of adaptive size
-
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
-        raise NotImplementedError(f"{self.name} is more than coefficients")
-
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
+        """Return psi_2 of impacts with one chi."""
         steps = steps or self.default_steps
         if steps is None:
             out = np.empty(psi.size)
@@ -315,3 +306,16 @@ class ContactLaw(Law):
         for name in ("psi", "tangential_force"):
             columns[name] *= sign
         return columns
+
+
+def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
+    """Return the places of impacts of the same bodies, some for each thread."""
+    bodies, members = np.unique(np.stack([chi, kappa]), axis=1, return_inverse=True)
+    members = members.ravel()  # NumPy 2.0 gives it two dimensions
+    order = np.argsort(members, kind="stable")
+    groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
+    return [
+        group[i : i + IMPACTS_AT_ONCE]
+        for group in groups
+        for i in range(0, group.size, IMPACTS_AT_ONCE)
+    ]

@@ -185,9 +185,6 @@ class ByFunction(Law):
     def _one(self, psi: float, chi: float, kappa: float, steps: int | None) -> float:
         """Return psi_2 of one impact, or raise Fault."""
 
-    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
-        return np.array([self._one(value, chi, kappa, steps) for value in psi.tolist()])
-
     def _why(self, psi: float, chi: float, kappa: float) -> str:
         try:
             self._one(psi, chi, kappa, None)

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.dem.base import Law
+from carom.dem.base import Codes, Law, status_of
 from carom.quantities.arrays import Array
 from carom.quantities.units import within
 
@@ -45,8 +45,11 @@ class HardSphere(Law):
         beta = within("tangential_restitution", self.tangential_restitution, -1.0, 1.0, "1")
         object.__setattr__(self, "tangential_restitution", beta)
 
-    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
-        most = 2.0 * chi * (1.0 + self.restitution)
-        with np.errstate(over="ignore"):
+    def _solved(
+        self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
+    ) -> tuple[Array, Codes]:
+        status = status_of(psi, chi, kappa, self.largest_chi)
+        with np.errstate(over="ignore", invalid="ignore"):
+            most = 2.0 * chi * (1.0 + self.restitution)
             lost = np.minimum(most, (1.0 + self.tangential_restitution) * np.abs(psi))
-        return np.asarray(psi - np.copysign(lost, psi))
+            return np.where(status, np.nan, psi - np.copysign(lost, psi)), status

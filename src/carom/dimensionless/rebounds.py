@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from enum import IntEnum
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -24,8 +24,10 @@ from carom.dimensionless.numerics.threads import in_blocks
 from carom.quantities.arrays import along_the_same, pure_numbers, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
+from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import threads_or_none
 
+THROUGHOUT = 3  # place of the regime of gross slip throughout
 STEP_TOLERANCE = 1e-10  # of one Taylor step; keeps psi_2 to a tenth of what `rebound` promises
 LINEAR_PSI = 1e-6  # below, psi_2 is taken proportional to psi_1: rounding would cost more
 BLOCK, SMALLEST_BLOCK = 256, 8  # impacts that a thread takes at once
@@ -193,20 +195,14 @@ def rebound(
     array([0.00384, 0.528  ])
     """
     threads, return_status = threads_or_none(threads), flag("return_status", return_status)
-    along_the_same(psi_1=psi_1, chi=chi)
-    numbers = {"psi_1": pure_numbers("psi_1", psi_1), "chi": pure_numbers("chi", chi)}
-    shape = together(numbers)
-    flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in numbers.values())
-    if losses is None:
-        psi_2, status, _ = solved(flat_psi, flat_chi, threads)
-    else:
-        outcome = lossy_rebounds(flat_psi, flat_chi, law.scale_free(losses), threads)
-        psi_2, status = outcome.psi_out, outcome.status
-    result = psi_2.reshape(shape) if shape else float(psi_2[0])
-    if return_status:
-        return result, status.reshape(shape) if shape else int(status[0])
-    warn_of_unsolved(status.reshape(shape))
-    return result
+
+    def solve(psi: Array, chi: Array) -> tuple[Array, Codes, str]:
+        if losses is None:
+            return *solved(psi, chi, threads)[:2], ""
+        lossy = lossy_rebounds(psi, chi, law.scale_free(losses), threads)
+        return lossy.psi_out, lossy.status, ""
+
+    return answered({"psi_1": psi_1, "chi": chi}, solve, Status, return_status)
 
 
 def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
@@ -222,22 +218,42 @@ def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
     return np.asarray(np.maximum(np.stack(borders, axis=-1), 1.0))
 
 
-def warn_of_unsolved(
-    status: NDArray[np.int8], kind: type[IntEnum] = Status, reason: str = ""
-) -> None:
-    """Warn once of impacts that were not solved, with their number and the reason of the first.
+def regimes(psi: Array, chi: float, restitution: float) -> NDArray[np.int8]:
+    """Return the place of the regime of each psi_1 in `carom.impacts.curves.REGIMES`."""
+    borders = regime_borders(chi, restitution)
+    return np.searchsorted(borders, np.abs(psi), side="right").astype(np.int8)
 
-    A status of zero means solved; other members of `kind` have a `message`, which is the reason
-    unless one is given.
+
+def answered(
+    arguments: Mapping[str, Any],
+    solve: Callable[..., tuple[Array, Codes, str]],
+    kind: type[WordedStatus],
+    return_status: bool,
+) -> Any:
+    """Return psi_2 of impacts whose arguments broadcast, and the status of each if asked for.
+
+    `solve` takes flat arrays and returns psi_2, a status, zero where an impact is solved, and the
+    reason of the first that is not, "" if its status of this `kind` says it. Of such impacts there
+    is one warning, unless the status is asked for.
     """
+    along_the_same(**arguments)
+    numbers = {name: pure_numbers(name, values) for name, values in arguments.items()}
+    shape = together(numbers)
+    flat = (np.array(np.broadcast_to(values, shape)).ravel() for values in numbers.values())
+    psi_out, codes, reason = solve(*flat)
+    result = psi_out.reshape(shape) if shape else float(psi_out[0])
+    status = codes.reshape(shape)
+    if return_status:
+        return result, status if shape else int(codes[0])
     unsolved = np.argwhere(status)
     if len(unsolved):
-        first = tuple(int(i) for i in unsolved[0]) if status.ndim else ()
-        reason = reason or kind(int(status[first])).message  # type: ignore[attr-defined]
+        first = tuple(int(i) for i in unsolved[0])
+        reason = reason or kind(int(status[first])).message
         where = f"first at index {first}: {reason}" if first else reason
         warnings.warn(
             f"{len(unsolved)} of {status.size} impacts give NaN ({where}); "
             "return_status=True tells each",
             RuntimeWarning,
-            stacklevel=3,
+            stacklevel=4,  # past `known_keywords` to the user
         )
+    return result

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import ndtri, stdtrit
 
-from carom.dimensionless.interpolation import THROUGHOUT
+from carom.dimensionless.rebounds import THROUGHOUT
 from carom.fitting.estimation import WEAK, Best, Information, estimate
 from carom.fitting.least_squares import descend
 from carom.fitting.model import OFFSET, Model

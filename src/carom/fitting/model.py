@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from carom.bodies.kinematics import Rebound, Tangential
 from carom.bodies.pairs import Pair
-from carom.dimensionless.interpolation import LEAST_CHI, LEAST_E, MOST_CHI, psi_out, regimes
+from carom.dimensionless.rebound_tables import STORED_CHI, STORED_E, psi_out, stored
+from carom.dimensionless.rebounds import regimes
 from carom.fitting.least_squares import BoxBounds, Residuals
 from carom.fitting.problem import FitProblem, IncomingMotion, RobustLoss, Weights
 from carom.quantities.arrays import Array
@@ -86,7 +87,7 @@ def exact(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
     """Return V_x' = mu V_n psi_2/kappa, psi_1 = kappa V_x/(mu V_n), chi = (kappa/2)(m_n/m_t)."""
     unit = values["friction"] * normal_speed / values["kappa"]
     chi = half_ratio(pair) * values["kappa"][:, 0]
-    return unit * psi_out(velocity / unit, chi, values["restitution"][:, 0])
+    return unit * psi_out(stored(), velocity / unit, chi, values["restitution"][:, 0])
 
 
 def untouched(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
@@ -108,7 +109,7 @@ def rigid(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
 
 FRICTION = Parameter("friction", 1e-3, 10.0, None)
 KAPPA = Parameter("kappa", 0.1, 4.0, None)
-RESTITUTION = Parameter("restitution", LEAST_E, 1.0)
+RESTITUTION = Parameter("restitution", *STORED_E)
 BETA = Parameter("tangential_restitution", -1.0, 1.0)
 
 ANY_RESTITUTION = RESTITUTION._replace(low=1e-3)  # where the table of psi_2 is not asked
@@ -126,7 +127,8 @@ def ranged(parameter: Parameter, pair: Pair) -> Parameter:
     if parameter.name != "kappa":
         return parameter
     half = half_ratio(pair)
-    low, high = max(parameter.low, LEAST_CHI / half), min(parameter.high, MOST_CHI / half)
+    least, most = (chi / half for chi in STORED_CHI)
+    low, high = max(parameter.low, least), min(parameter.high, most)
     return parameter._replace(low=low * (1.0 + ROUNDING), high=high * (1.0 - ROUNDING))
 
 

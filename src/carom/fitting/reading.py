@@ -11,7 +11,7 @@ from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair, alike, checked_pair
 from carom.datasets import observables
 from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
-from carom.dimensionless.interpolation import LEAST_CHI, MOST_CHI
+from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged
 from carom.fitting.problem import NOTHING, FitProblem, IncomingMotion
 from carom.io.tables import read_table
@@ -116,10 +116,11 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
             "Python or --case FILE in a shell, or write the bodies as JSON into a comment "
             "'# case: {...}' of the file"
         )
-    if not LEAST_CHI <= bodies.chi <= MOST_CHI:
+    least, most = STORED_CHI
+    if not least <= bodies.chi <= most:
         raise InputError(
-            f"pair: a chi of {bodies.chi:.3g} cannot be fitted, only one from {LEAST_CHI:.2g} to "
-            f"{MOST_CHI:.2g}; check radii and gyration_radius"
+            f"pair: a chi of {bodies.chi:.3g} cannot be fitted, only one from {least:.2g} to "
+            f"{most:.2g}; check radii and gyration_radius"
         )
     known = bodies.friction > 0.0
     return bodies if known else Pair(bodies.first, bodies.second, START), known

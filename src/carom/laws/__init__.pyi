@@ -1,4 +1,3 @@
 from .exact import ReboundLaw as ReboundLaw
-from .mixture import MixtureLaw as MixtureLaw
 from .rigid import RoughLaw as RoughLaw, SmoothLaw as SmoothLaw, WaltonLaw as WaltonLaw
 from .walton_fit import fit_walton as fit_walton

@@ -1,64 +1,76 @@
-"""The exact rebound as a table of psi_2(psi_1) at one chi and e, in series between its kinks."""
+"""The exact rebound as a table: at one chi and e, or over a range of chi."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
 from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair
+from carom.dem.base import Codes, Law
+from carom.dimensionless import rebound_tables as tables
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.numerics.chebyshev import Panels
-from carom.dimensionless.rebounds import lossy_rebounds
+from carom.dimensionless.numerics.patches import Patches
+from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
 from carom.io.citations import IMPACT, VISCOUS, bibtex
-from carom.laws.panels import LARGEST_CHI, panel_ends, panels
+from carom.io.progress import advancing
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
 from carom.quantities.arrays import Array, pure_numbers
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, refusal
+from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import positive
+
+LARGEST_CHI = 100.0  # tables of larger ones would take minutes
+RANGE = (0.5, 5.0)  # of chi, in which a table over a range takes minutes at most
+RETURNING = 3.0  # chi above which the front of slip returns, with losses
+ELASTIC, ELASTIC_RANGE, VISCOUS_SOLID, ROUGH = 4e-10, 1e-8, 1e-8, 2e-7  # tolerances of tables
 
 
 @dataclass(frozen=True, eq=False)
-class ReboundLaw:
-    """The exact rebound at one chi, tabulated for arrays of impacts.
+class ReboundLaw(Law):
+    """The exact rebound, tabulated for arrays of impacts: at one chi, or over a range of it.
 
-        psi_2 = psi_1 r(|psi_1|)
+        psi_2 = psi_1 r(|psi_1|, chi)
         psi_2 = psi_1 -+ 2 chi (1 + e) in gross slip throughout
 
     The ratio r (Maw, Barber & Fawcett 1976; Barber 1979, (33)) is stored as Chebyshev series on
-    panels. The error is below 1e-9 for chi up to 10, where impacts have few phases, and 2e-9 above.
-    With losses it is below 3e-8 max(1, |psi_1|) for e >= 0.01 and chi up to 3, and 1e-6 above.
+    patches between the regime borders. At one chi the error is below 1e-9 for chi up to 10, where
+    impacts have few phases, and 2e-9 above; with losses below 3e-8 max(1, |psi_1|) for e >= 0.01
+    and chi up to 3, and 1e-6 above. Over a range of chi it is below 1e-7, with losses 1e-6.
 
     Parameters
     ----------
-    chi : float
+    chi : float, or two of them
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive, up to 100; spheres have 0.5 to
-        3. The table takes 20 to 70 ms up to 3, and seconds beyond 30.
+        3. The table takes 20 to 70 ms up to 3, and seconds beyond 30. Or a range within 0.5 to 5:
+        0.1 s for (1.2, 1.5), a second for (0.9, 1.8), and several seconds for chi beyond 2.
     losses : KelvinVoigt, optional
         Loss of energy that is the same at all speeds, which means a restitution. The table takes
-        0.1 to 0.3 s for chi up to 3, and some seconds above.
+        0.1 to 0.3 s for chi up to 3, and some seconds above; over a range some ten times as long.
 
     Attributes
     ----------
     restitution : float
         Coefficient of restitution e, 1 without losses.
     edges : ndarray, shape (n + 1,)
-        Ends of the panels in psi_1, from 0 to max(1, 2 chi (1 + e) - e).
+        Ends of the panels in psi_1, from 0 to max(1, 2 chi (1 + e) - e); empty for a range.
     coefficients : ndarray, shape (n, 11)
-        Chebyshev coefficients of r on each panel.
+        Chebyshev coefficients of r on each panel; empty for a range.
 
     Raises
     ------
     InputError
-        If chi is not positive or above 100, or if the losses depend on the speed.
+        If chi is not positive or above 100, if a range is empty or goes beyond 0.5 to 5, or if the
+        losses depend on the speed.
 
     Examples
     --------
@@ -68,37 +80,106 @@ class ReboundLaw:
     array([ 0.047131, -0.429967,  1.477247,  0.24    ])
     >>> law.nbytes < 4000
     True
+    >>> carom.laws.ReboundLaw((1.2, 1.5))([0.5, 1.5, -3.5], [1.25, 1.44, 1.5]).round(6)
+    array([-0.079793, -0.429967,  1.471999])
     >>> lossy = carom.laws.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
     (array([0.00384, 0.528  ]), 2.9186)
     """
 
-    chi: float
+    name: ClassVar[str] = "exact rebound"
+    source: ClassVar[str] = "Maw, Barber & Fawcett (1976), Wear 38:101"
+    statuses: ClassVar[type[WordedStatus]] = Status
+
+    chi: float | tuple[float, float]
     restitution: float
     edges: Array
     coefficients: Array
+    _table: Patches | None  # over a range
 
     @known_keywords
-    def __init__(self, chi: float, *, losses: KelvinVoigt | None = None) -> None:
-        value, e = positive("chi", chi), _restitution_of(losses)
-        if value > LARGEST_CHI:
+    def __init__(
+        self, chi: float | tuple[float, float], *, losses: KelvinVoigt | None = None
+    ) -> None:
+        e, wide = _restitution_of(losses), isinstance(chi, tuple | list) and len(chi) == 2
+        ends: Any = chi if wide else (chi, chi)
+        low, high = (positive("chi", each) for each in ends)
+        if wide and not RANGE[0] <= low < high <= RANGE[1]:
+            allowed = "must be a range within {:g} to {:g}; carom.rebound takes any chi"
+            raise refusal("chi", (low, high), allowed.format(*RANGE))
+        if high > LARGEST_CHI:
             allowed = f"must be at most {LARGEST_CHI:g} in a table; carom.rebound takes any chi"
             raise refusal("chi", chi, allowed)
-        self._hold(value, e, panels(value, e))
+        degrees = (8, 8, 8 if wide and e == 1.0 else DEGREE)
+        tolerance = ELASTIC_RANGE if wide else ELASTIC
+        if e < 1.0:
+            tolerance = ROUGH if wide or high > RETURNING else VISCOUS_SOLID
+        with advancing("tabulating the rebounds", None, unit="impacts") as advance:
+            table = tables.tabulated((low, high), (e, e), tolerance, advance, degrees=degrees)
+        if wide:
+            self._hold((low, high), e, np.empty(0), np.empty((0, 0)), table)
+        else:
+            self._hold(low, e, *tables.panels(table, low, e), None)
 
-    def _hold(self, chi: float, restitution: float, panels: Panels) -> None:
-        object.__setattr__(self, "chi", chi)
-        object.__setattr__(self, "restitution", restitution)
-        for name, values in zip(("edges", "coefficients"), panels, strict=True):
-            values.setflags(write=False)
-            object.__setattr__(self, name, values)
+    def _hold(self, *values: Any) -> Self:
+        for field, value in zip(fields(self), values, strict=True):
+            object.__setattr__(self, field.name, value)
+        for array in (self.edges, self.coefficients):
+            array.setflags(write=False)
+        return self
 
-    def __call__(self, psi: Any) -> Any:
+    @classmethod
+    def _of(cls, *values: Any) -> Self:
+        return object.__new__(cls)._hold(*values)
+
+    def __call__(self, psi: Any, chi: Any = None, *, return_status: bool = False) -> Any:
         """Return psi_2 for an array of any library that follows the array API standard.
 
-        Masked elements give NaN, and NaN and infinity are kept.
+        Masked elements give NaN, and NaN and infinity are kept. A law over a range needs chi, too,
+        and takes NumPy arrays; where chi is outside of the range, impacts are solved, and
+        `return_status` asks for a `Status` of each.
         """
-        return applied(lambda incoming, xp: incoming - lost(incoming, self._rule, xp), "psi", psi)
+        if chi is None and not return_status:
+            rule = self._rule
+            return applied(lambda incoming, xp: incoming - lost(incoming, rule, xp), "psi", psi)
+        own = self._one_chi() if chi is None else chi
+        outgoing = self.rebound(psi, own, return_status=return_status)
+        return outgoing if return_status else np.asarray(outgoing)[()]
+
+    def _solved(
+        self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
+    ) -> tuple[Array, Codes]:
+        result, status = np.empty(psi.size), np.zeros(psi.size, dtype=np.int8)
+        low, high = self._ends
+        inside = (low <= chi) & (chi <= high) & (np.abs(psi) < np.inf)
+        some = slice(None) if np.all(inside) else inside  # without copies
+        if self._table is None:
+            result[some] = psi[some] - lost(psi[some], self._rule, np)
+        else:
+            impacts = psi[some, np.newaxis], chi[some], np.full(inside.sum(), self.restitution)
+            result[some] = tables.psi_out(self._table, *impacts)[:, 0]
+        if not np.all(inside):
+            result[~inside], status[~inside] = rebound(
+                psi[~inside], chi[~inside], losses=self._losses, threads=threads, return_status=True
+            )
+        return result, status
+
+    @property
+    def _ends(self) -> tuple[float, float]:
+        return self.chi if isinstance(self.chi, tuple) else (self.chi, self.chi)
+
+    def _one_chi(self) -> float:
+        if isinstance(self.chi, tuple):
+            raise InputError("chi: the law is for a range; make one of one chi")
+        return self.chi
+
+    @property
+    def _losses(self) -> KelvinVoigt | None:
+        return None if self.restitution == 1.0 else KelvinVoigt(restitution=self.restitution)
+
+    def _damped(self, restitution: float) -> ReboundLaw:
+        """Return the law of another restitution, which is tabulated anew."""
+        return ReboundLaw(self.chi, losses=KelvinVoigt(restitution=restitution))
 
     def impulse(self, psi: Any) -> Any:
         """Return the tangential impulse in units of the largest impulse of friction.
@@ -169,38 +250,44 @@ class ReboundLaw:
 
         d_max is the largest penetration of the elastic impact.
         """
-        if self.restitution == 1.0:
+        if self._losses is None:
             return float(hertz.DURATION)
-        losses, one = KelvinVoigt(restitution=self.restitution).scale_free(), np.ones(1)
-        return float(lossy_rebounds(0.0 * one, one, losses).duration[0])
+        psi, chi = np.zeros(1), np.ones(1)
+        return float(lossy_rebounds(psi, chi, self._losses.scale_free()).duration[0])
 
     @property
     def nbytes(self) -> int:
         """Size of the table in bytes."""
-        return self.edges.nbytes + self.coefficients.nbytes
+        parts = self._table or (self.edges, self.coefficients)
+        return sum(part.nbytes for part in parts)
 
     def rule(self, pair: Pair) -> Rule:
-        """Return the numbers that a collision of this pair needs; its chi must be the same."""
-        if abs(pair.chi - self.chi) > 1e-9 * self.chi:
+        """Return the numbers that a collision of this pair needs; its chi must be the law's."""
+        chi, (low, high) = pair.chi, self._ends
+        if not (low <= chi <= high or abs(chi - low) <= 1e-9 * low == 1e-9 * high):
+            own = f"{low:.10g}" if low == high else f"{low:.10g} to {high:.10g}"
             raise InputError(
-                f"law: it is for chi = {self.chi:.10g}, but the pair has chi = {pair.chi:.10g}; "
+                f"law: it is for chi = {own}, but the pair has chi = {chi:.10g}; "
                 "make the law with pair.chi"
             )
+        rule = self._rule if self._table is None else _section(self, chi)._rule
         if pair.friction == 0.0:
-            return self._rule._replace(sliding=0.0)
-        return self._rule._replace(scale=pair.kappa / pair.friction)
+            return rule._replace(sliding=0.0)
+        return rule._replace(scale=pair.kappa / pair.friction)
 
     @cached_property
     def _rule(self) -> Rule:
         """The table in powers, with a last panel on which sliding alone counts."""
+        chi = self._one_chi()
         low, high = self.edges[:-1], self.edges[1:]
         powers = np.zeros((self.edges.size, DEGREE + 1))
-        powers[:-1] = [-chebyshev.cheb2poly(row) for row in self.coefficients]
+        rows = [-chebyshev.cheb2poly(row) for row in self.coefficients]
+        powers[:-1, : self.coefficients.shape[1]] = rows
         powers[:-1, 0] += 1.0
         powers[-1, 0] = 2.0
         slopes = np.append(2.0 / (high - low), 0.0)
         shifts = np.append(-(high + low) / (high - low), 0.0)
-        sliding = 2.0 * self.chi * (1.0 + self.restitution)
+        sliding = 2.0 * chi * (1.0 + self.restitution)
         return frozen(Rule(self.restitution, 1.0, sliding, self.edges, slopes, shifts, powers))
 
     def cite(self) -> str:
@@ -214,9 +301,14 @@ class ReboundLaw:
         -------
         dict
             The values `chi`, `restitution`, `edges` and `coefficients`.
+
+        Raises
+        ------
+        InputError
+            If the law is for a range of chi; pickle it.
         """
         return {
-            "chi": self.chi,
+            "chi": self._one_chi(),
             "restitution": self.restitution,
             "edges": self.edges.tolist(),
             "coefficients": self.coefficients.tolist(),
@@ -257,17 +349,23 @@ class ReboundLaw:
             whole = False
         if not whole:
             raise InputError("table: it is not a table of ReboundLaw; give what to_dict returned")
-        law = object.__new__(cls)
-        law._hold(chi, e, Panels(edges, rows))
-        return law
+        return cls._of(chi, e, edges, rows, None)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self).from_dict, (self.to_dict(),)
+        return type(self)._of, tuple(getattr(self, field.name) for field in fields(self))
 
     def __repr__(self) -> str:
         if self.restitution == 1.0:
             return f"ReboundLaw(chi={self.chi!r})"
         return f"ReboundLaw(chi={self.chi!r}, losses=KelvinVoigt(restitution={self.restitution!r}))"
+
+
+@lru_cache(maxsize=128)
+def _section(law: ReboundLaw, chi: float) -> ReboundLaw:
+    """Return the law at one chi of a range, without solving an impact."""
+    assert law._table is not None
+    panels = tables.panels(law._table, chi, law.restitution)
+    return ReboundLaw._of(chi, law.restitution, *panels, None)
 
 
 @lru_cache(maxsize=128)
@@ -278,10 +376,11 @@ def law_of(chi: float, losses: KelvinVoigt | None = None) -> ReboundLaw:
 
 def _is_whole(chi: float, restitution: float, edges: Array, rows: Array) -> bool:
     """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
-    ends, sliding = panel_ends(chi, restitution), 2.0 * chi * (1.0 + restitution)
+    first = tables.SMALLEST if restitution == 1.0 else tables.SMALLEST_LOSSY
+    last, sliding = regime_borders(chi, restitution)[-1], 2.0 * chi * (1.0 + restitution)
     if rows.shape != (edges.size - 1, DEGREE + 1) or edges.ndim != 1:
         return False
-    if not np.all(np.isfinite(edges)) or [edges[0], edges[-1]] != [ends[0], ends[-1]]:
+    if not np.all(np.isfinite(edges)) or [edges[0], edges[-1]] != [first, last]:
         return False
     places = edges[1:]
     starts = rows @ (-1.0) ** np.arange(rows.shape[1])

@@ -1,6 +1,7 @@
 """The exact rebound as a C header: tables and their evaluation, for simulations in C or C++."""
 
 from collections.abc import Sequence
+from importlib.resources import files
 from string import Template
 
 import numpy as np
@@ -10,67 +11,10 @@ from carom.io.version import __version__
 from carom.laws.exact import ReboundLaw
 from carom.quantities.refusals import InputError
 
-HEADER = Template("""\
-/* The exact oblique impact of spheres: psi_2(psi_1), to $error,
- * at chi = $chis.
- *
- * Written by Carom $version; its licence, BSD 3-Clause, is that of this file.
- *
- * psi = kappa V_x / (mu V_1) is the tangential velocity of the contact point over that of approach,
- * with kappa = G* / E*, chi = (kappa / 2)(m_n / m_t). After the impact
- *
- *     V_x' = (mu V_1 / kappa) psi_2,    J_x = m_t (V_x' - V_x),    V_n' = -e V_n.
- *
- * psi_2 = r(|psi_1|) psi_1, r a polynomial on each panel; psi_2 = psi_1 -+ 2 chi (1 + e) in gross
- * slip throughout (Maw, Barber & Fawcett 1976; Barber 1979); e < 1 of a Kelvin-Voigt solid, viscous
- * in shear as in compression. C99 or C++, nothing to link.
- */
-#ifndef $guard
-#define $guard
-$functions
-#endif
-""")
-
-FUNCTION = Template("""
-/* Return psi_2 at chi = $chi, e = $restitution; NaN of NaN. */
-static inline double $name(double psi)
-{
-    enum { panels = $panels, terms = $terms };
-    /* where panels begin, the first also taking what lies below, and where the last one ends */
-    static const double edges[panels + 1] = {
-$edges
-    };
-    /* place = slope x + shift goes from -1 to 1 over a panel */
-    static const double places[panels][2] = {
-$places
-    };
-    /* 1 - r in rising powers of the place */
-    static const double powers[panels][terms] = {
-$powers
-    };
-    const double limit = $limit; /* 2 chi (1 + e): psi_1 - psi_2 in gross slip */
-    const double size = psi < 0.0 ? -psi : psi;
-    double place, part, lost;
-    int low = 0, high = panels, middle, k;
-
-    if (size >= edges[panels])
-        return psi < 0.0 ? psi + limit : psi - limit;
-    while (high - low > 1) {
-        middle = (low + high) / 2;
-        if (size < edges[middle])
-            high = middle;
-        else
-            low = middle;
-    }
-    place = places[low][0] * size + places[low][1];
-    part = powers[low][terms - 1];
-    for (k = terms - 2; k >= 0; --k)
-        part = part * place + powers[low][k];
-    part = part < 0.0 ? 0.0 : part > 2.0 ? 2.0 : part; /* beyond, energy would grow */
-    lost = part * size > limit ? limit : part * size;
-    return psi < 0.0 ? psi + lost : psi - lost;
-}
-""")
+HERE = files("carom.laws")
+HEADER, FUNCTION = (
+    Template(HERE.joinpath(name).read_text("utf-8")) for name in ("rebound.h", "rebound_function.h")
+)
 
 
 def c_header(laws: Sequence[ReboundLaw]) -> str:
@@ -108,12 +52,12 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
         chis=", ".join(repr(law.chi) for law in laws),
         version=__version__,
         guard=f"CAROM_REBOUND_{'_AND_'.join(suffixes)}_H".upper(),
-        functions="".join(map(_function, names, laws)),
+        functions="".join(f"\n{_function(*each)}" for each in zip(names, laws, strict=True)),
     )
 
 
 def _suffix(law: ReboundLaw) -> str:
-    chi, e = _identifier(law.chi), law.restitution
+    chi, e = _identifier(law._one_chi()), law.restitution
     return chi if e == 1.0 else f"{chi}_e_{_identifier(e)}"
 
 

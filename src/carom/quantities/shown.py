@@ -6,7 +6,7 @@ from html import escape
 WORDS = """
 arguments before builder called coefficients command coords describe description doubts
 executable files greeting inputs largest_chi loss most_steps outcomes remedy result rule
-sampled scale_free supports symmetric versions written
+sampled scale_free statuses supports symmetric versions written
 """
 INNER = frozenset(WORDS.split())  # what the parts of Carom say to each other
 

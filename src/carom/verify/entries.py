@@ -1,7 +1,7 @@
 """Which contact law the programs of the discrete element method have."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import Any, NamedTuple
 
 from carom import dem
@@ -123,7 +123,7 @@ def damped(law: Law, restitution: float) -> Law:
     """Return a law with the damping for a restitution, or raise InputError if it has none."""
     if not hasattr(law, "restitution"):
         raise refusal("restitution", restitution, f"{law.name} has no damping; leave it out")
-    return replace(law, restitution=restitution)  # type: ignore[call-arg]
+    return law._damped(restitution)
 
 
 def parameters(law: Law) -> dict[str, float | str | None]:

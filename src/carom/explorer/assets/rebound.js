@@ -15,7 +15,7 @@ Carom.rebound = (() => {
       const told = Carom.tables.rebounds[restitution];
       const found = { terms: told.terms, smallest: told.smallest };
       for (const name of ["cuts", "corners", "series"]) found[name] = numbers(told[name], Float64Array);
-      for (const name of ["children", "leaf"]) found[name] = numbers(told[name], Int16Array);
+      for (const name of ["axes", "children"]) found[name] = numbers(told[name], Int16Array);
       read.set(restitution, found);
     }
     return read.get(restitution);
@@ -38,17 +38,17 @@ Carom.rebound = (() => {
     return series[from] + at * one - last;
   }
 
-  function valueAt({ cuts, children, corners, series, leaf, terms }, x, y) {
+  // psi_2/psi_1 at a chi and a place.
+  function valueAt({ axes, cuts, children, corners, series, terms }, chi, at) {
     let node = 0;
-    while (cuts[2 * node] >= 0) {
-      const beyond = (cuts[2 * node] === 0 ? x : y) >= cuts[2 * node + 1];
-      node = children[2 * node + (beyond ? 1 : 0)];
-    }
-    const [left, right, low, high] = corners.subarray(4 * node, 4 * node + 4);
-    const across = (2 * y - low - high) / (high - low);
-    const first = leaf[node] * terms * terms;
-    const along = Array.from({ length: terms }, (_, i) => clenshaw(series, first + i * terms, terms, across));
-    return clenshaw(along, 0, terms, (2 * x - left - right) / (right - left));
+    while (axes[node] >= 0) node = children[2 * node + ((axes[node] ? at : chi) >= cuts[node] ? 1 : 0)];
+    const leaf = children[2 * node];
+    const [low, high, left, right] = corners.subarray(4 * leaf, 4 * leaf + 4);
+    const [across, along] = [(2 * chi - low - high) / (high - low), (2 * at - left - right) / (right - left)];
+    const rows = Array.from({ length: terms[0] }, (_, i) =>
+      clenshaw(series, (leaf * terms[0] + i) * terms[1], terms[1], along),
+    );
+    return clenshaw(rows, 0, terms[0], across);
   }
 
   // psi_2; beyond the last border the contact slides throughout.
@@ -57,9 +57,8 @@ Carom.rebound = (() => {
     const sign = psi < 0 ? -1 : 1;
     if (size >= borders(chi, e)[2] && size > 1) return sign * (size - 2 * chi * (1 + e));
     const patches = table(e);
-    const at = Math.max(place(size, chi, e), patches.smallest);
-    const lost = valueAt(patches, at, chi) / (1 + Math.max(size, patches.smallest));
-    return psi * Math.min(1, Math.max(-1, 1 - lost));
+    const ratio = valueAt(patches, chi, Math.max(place(size, chi, e), patches.smallest));
+    return psi * Math.min(1, Math.max(-1, ratio));
   }
 
   return { of, borders };
