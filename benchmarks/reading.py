@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 
 from carom.io.tables import read_table
-from carom.quantities.texts import LONGEST, Unreadable, read_text
+from carom.quantities.texts import LONGEST_TEXT, Unreadable, read_text
 
 SEED = 20261122
 LETTERS = "0123456789.+-eE*/^ ·°%µ²⁻mskgNPadrinfGx_,;'"
@@ -41,7 +41,7 @@ def measure_texts(count: int) -> None:
     """Print the time of usual texts, and the longest of hostile ones up to the limit."""
     rng = random.Random(SEED)
     hostile = [
-        rng.choice(("", "5 ", "5 m")) + "".join(rng.choices(LETTERS, k=rng.randrange(LONGEST - 2)))
+        rng.choice(("", "5 ", "5 m")) + "".join(rng.choices(LETTERS, k=rng.randrange(LONGEST_TEXT - 2)))
         for _ in range(count)
     ]
     attempt("5 mm")  # the first use loads the definitions of units
