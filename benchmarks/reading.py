@@ -41,7 +41,8 @@ def measure_texts(count: int) -> None:
     """Print the time of usual texts, and the longest of hostile ones up to the limit."""
     rng = random.Random(SEED)
     hostile = [
-        rng.choice(("", "5 ", "5 m")) + "".join(rng.choices(LETTERS, k=rng.randrange(LONGEST_TEXT - 2)))
+        rng.choice(("", "5 ", "5 m"))
+        + "".join(rng.choices(LETTERS, k=rng.randrange(LONGEST_TEXT - 2)))
         for _ in range(count)
     ]
     attempt("5 mm")  # the first use loads the definitions of units

@@ -58,7 +58,11 @@ def with_old_names(package: str, load: Callable[[str], Any]) -> Callable[[str], 
         if old not in NEW_NAMES and old not in NEW_CALLS:
             return load(name)
         new, find = NEW_CALLS.get(old) or (NEW_NAMES[old], lambda: _get(NEW_NAMES[old]))
-        warn(f"{old} is now {new}; the old name ends with 0.3", DeprecationWarning, stacklevel=2)
+        warn(
+            f"{old} is now {new}; the old name is gone from 0.4 on",
+            DeprecationWarning,
+            stacklevel=2,
+        )
         value = find()
         setattr(import_module(package), name, value)  # one warning
         return value
@@ -71,6 +75,6 @@ def renamed(name: str, function: str, known: Container[str]) -> str:
     new = OLD_KEYWORDS.get(name, name)
     if name in known or new not in known:
         return name
-    words = f"{name} of {function} is now {new}; the old name ends with 0.3"
+    words = f"{name}=, a keyword of {function}, is now {new}=; the old one is gone from 0.4 on"
     warn(words, DeprecationWarning, stacklevel=3)
     return new

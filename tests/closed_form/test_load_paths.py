@@ -244,7 +244,7 @@ def test_bodies_that_never_touch():
     assert np.all(path.displacement == [1e-6, 2e-6])
     for name in ("normal_force", "tangential_force", "contact_radius", "stick_radius"):
         assert np.all(getattr(path, name) == 0.0)
-    with pytest.raises(InputError, match=r"step: -1 .* do not touch"):
+    with pytest.raises(InputError, match=r"at: -1 .* do not touch"):
         path.contact()
 
 
@@ -287,7 +287,7 @@ def test_what_cannot_be_followed():
     with pytest.raises(InputError, match="pair: "):
         load_path("steel", normal_force=1.0, displacement=0.0)
     for step in (1, -2, 0.5):
-        with pytest.raises(InputError, match=f"step: {step} "):
+        with pytest.raises(InputError, match=f"at: {step} "):
             load_path(PAIR, normal_force=1.0, displacement=0.0).contact(step)
     refused = {0.31: "at most mu P", np.nan: "finite", True: "finite", (1.0, 2.0): "broadcast"}
     for force, message in refused.items():
@@ -377,7 +377,7 @@ def test_what_two_directions_cannot_be():
         with pytest.raises(InputError, match=words):
             load_path(PAIR, normal_force=load, tangential_force=force)
     for look in (bent.contact, bent.fields, bent.radial, bent.stress):
-        with pytest.raises(InputError, match=r"step: -1 .* only for paths in one direction"):
+        with pytest.raises(InputError, match=r"at: -1 .* only for paths in one direction"):
             look()
 
 

@@ -82,7 +82,7 @@ def test_every_point_has_a_status():
         Status.CHI_NOT_POSITIVE,
     ]
     assert np.isfinite(out).tolist() == [True, False, False, False, False]
-    with pytest.warns(RuntimeWarning, match=r"4 of 5 .* index \(1,\): psi must be a finite"):
+    with pytest.warns(RuntimeWarning, match=r"4 of 5 .* index \(1,\): psi_1 must be a finite"):
         carom.rebound(psi, chi)
 
 

@@ -78,16 +78,25 @@ def test_the_old_name_of_psi_1_works():
         lambda **given: carom.curve(1.44, **given).psi_out.item(),
     )
     for call in calls:
-        with pytest.warns(DeprecationWarning, match=r"^psi of \w+ is now psi_1; the old name ends"):
+        with pytest.warns(DeprecationWarning, match=r"^psi=, a keyword of \w+, is now psi_1=; "):
             assert call(psi=0.5) == call(psi_1=0.5)
     with pytest.raises(carom.InputError, match=r"^psi_in: no keyword of solve; "):
         carom.solve(psi_in=0.5, chi=1.44)
+    with (
+        pytest.warns(DeprecationWarning),
+        pytest.raises(
+            carom.InputError, match=r"^psi: the old name of psi_1, which is given as well"
+        ),
+    ):
+        carom.rebound(psi=3.0, psi_1=1.0, chi=1.44)
 
 
 def test_the_old_names_of_the_instant_work(pair, hit):
     path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.0])
     for result, old, at in ((hit, "time", 0.5 * hit.duration), (path, "step", 0)):
         for name in ("contact", "fields", "stress", "radial"):
-            with pytest.warns(DeprecationWarning, match=rf"^{old} of {name} is now at"):
+            with pytest.warns(
+                DeprecationWarning, match=rf"^{old}=, a keyword of {name}, is now at="
+            ):
                 told = getattr(result, name)(**{old: at})
             assert type(told) is type(getattr(result, name)(at))

@@ -254,7 +254,7 @@ def test_a_masked_point_is_a_point_without_number():
     assert out[0] == carom.rebound(0.5, 1.44)
     assert np.isnan(out[1])
     assert status.tolist() == [carom.status.Status.SOLVED, carom.status.Status.PSI_NOT_FINITE]
-    with pytest.warns(RuntimeWarning, match=r"1 of 2 .* index \(1,\): psi must be a finite"):
+    with pytest.warns(RuntimeWarning, match=r"1 of 2 .* index \(1,\): psi_1 must be a finite"):
         carom.rebound(psi, 1.44)
     assert np.isnan(carom.laws.ReboundLaw(1.44)(psi)).tolist() == [False, True]
 

@@ -188,5 +188,5 @@ def test_grids_that_are_too_coarse_are_refused(grid):
 
 
 def test_a_time_outside_the_contact_is_refused(both):
-    with pytest.raises(carom.InputError, match=r"^time: '1 s' cannot be used; must lie within"):
+    with pytest.raises(carom.InputError, match=r"^at: '1 s' cannot be used; must lie within"):
         both[0].fields("1 s")

@@ -122,10 +122,10 @@ class LoadPath(InContact, Result):
         k = self._step(step)
         if self.displacement.ndim == 2:
             allowed = "fields and stresses are available only for paths in one direction"
-            raise refusal("step", step, allowed)
+            raise refusal("at", step, allowed)
         d, u = self.penetration[: k + 1], self.displacement[: k + 1]
         if not d[k] > 0.0:
-            raise refusal("step", step, "the bodies do not touch after this step")
+            raise refusal("at", step, "the bodies do not touch after this step")
         scales = self.scales
         path = paths.follow_path(*self._steps.first(k + 1).dimensionless(scales))
         d, u = d / scales.length, u / scales.tangential_length
@@ -186,7 +186,7 @@ class LoadPath(InContact, Result):
             return range(n)[int(step) if whole else n]
         except IndexError:
             allowed = f"must be a whole number from 0 to {n - 1}, or negative to count from the end"
-            raise refusal("step", step, allowed) from None
+            raise refusal("at", step, allowed) from None
 
 
 def _state(stack: Array) -> dict[str, Any]:

@@ -42,7 +42,7 @@ class LawStatus(WordedStatus):
     """
 
     SOLVED = 0, "solved"
-    PSI_NOT_FINITE = 1, "psi must be a finite number"
+    PSI_NOT_FINITE = 1, "psi_1 must be a finite number"
     CHI_NOT_POSITIVE = 2, "chi must be positive and finite"
     KAPPA_NOT_POSITIVE = 3, "kappa must be positive and finite"
     CHI_TOO_LARGE = 4, "not solved: chi is too large"

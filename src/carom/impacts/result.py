@@ -199,10 +199,10 @@ class ImpactResult(Outcome, Result):
 
     def _instant(self, time: Value) -> float:
         """Return a time within the contact in s, or raise InputError."""
-        instant = number("time", time)
+        instant = number("at", time, "s")
         if not 0.0 <= instant <= self.duration:
             allowed = f"must lie within the contact, from 0 to {text(self.duration, 's')}"
-            raise refusal("time", time, allowed)
+            raise refusal("at", time, allowed)
         return instant
 
     def __str__(self) -> str:

@@ -41,6 +41,10 @@ def known_keywords(function: Callable[Parameters, Result]) -> Callable[Parameter
             if new not in known:
                 words = hint(name, [word for word in known if word != "self"])
                 raise InputError(f"{name}: no keyword of {title}; {words}")
+            if new != name and new in kwargs:
+                raise InputError(
+                    f"{name}: the old name of {new}, which is given as well; leave it out"
+                )
             kwargs[new] = kwargs.pop(name)
         if most < len(args) <= most + len(named):
             nameless = zip(named, args[most:], strict=False)

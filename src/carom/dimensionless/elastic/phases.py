@@ -72,7 +72,7 @@ class Status(WordedStatus):
     """
 
     SOLVED = 0, "solved"
-    PSI_NOT_FINITE = 1, "psi must be a finite number"
+    PSI_NOT_FINITE = 1, "psi_1 must be a finite number"
     CHI_NOT_POSITIVE = 2, "chi must be positive and finite"
     TOO_MANY_PHASES = 3, f"not solved: more than {MAX_PHASES} phases (chi is too large)"
     UNRESOLVED = 4, "not solved: a phase did not end within the allowed number of steps"
