@@ -83,7 +83,7 @@ def test_the_old_name_of_psi_1_works():
     with pytest.raises(carom.InputError, match=r"^psi_in: no keyword of solve; "):
         carom.solve(psi_in=0.5, chi=1.44)
     both = pytest.raises(
-        carom.InputError, match="^psi: the old name of psi_1, which is given as well"
+        carom.InputError, match=r"^psi: the old name of psi_1, which is given as well"
     )
     with pytest.warns(DeprecationWarning, match="psi_1"), both:
         carom.rebound(psi=3.0, psi_1=1.0, chi=1.44)
