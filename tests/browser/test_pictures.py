@@ -32,13 +32,8 @@ def faults(words, width, height):
 @pytest.mark.parametrize(
     "query",
     [
-        "",
-        "angle=2",
-        "angle=0",
-        "friction=0",
-        "restitution=0.7&angle=15",
-        "against=sphere&second_radius=5&angle=20",
-        "against=cup&second_radius=7&angle=20",
+        *("", "angle=2", "angle=0", "friction=0", "restitution=0.7&angle=15"),
+        *("against=sphere&second_radius=5&angle=20", "against=cup&second_radius=7&angle=20"),
         "given=numbers&psi=-1.5&chi=1.9",
     ],
 )

@@ -10,13 +10,9 @@ CHI = 1.4412
 DURATION = 2.94327518432470  # of Hertz's contact, in d_max/V_1
 VARIANTS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
 ELASTIC = [
-    carom.dem.LinearSpring(),
-    carom.dem.LinearSpring(2 / 7),
-    carom.dem.HertzLinearHistory(),
+    *(carom.dem.LinearSpring(), carom.dem.LinearSpring(2 / 7), carom.dem.HertzLinearHistory()),
     *(carom.dem.LammpsMindlin(name) for name in VARIANTS),
-    carom.dem.LiggghtsHertz(),
-    carom.dem.EdemHertzMindlin(),
-    carom.dem.StrongeLaw(),
+    *(carom.dem.LiggghtsHertz(), carom.dem.EdemHertzMindlin(), carom.dem.StrongeLaw()),
     carom.dem.ThorntonLaw(),
 ]
 

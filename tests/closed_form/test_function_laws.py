@@ -208,12 +208,10 @@ def test_a_function_that_fails_is_told_by_status_warning_and_refusal(name):
     with pytest.warns(RuntimeWarning, match=f"2 of 2 impacts give NaN .*{words}"):
         law.rebound([0.5, 2.0], CHI)
     calls = (
-        lambda: law.history(0.5, CHI),
-        lambda: carom.verify.score(law),
+        *(lambda: law.history(0.5, CHI), lambda: carom.verify.score(law)),
         lambda: carom.verify.rank([carom.dem.LinearSpring(), law]),
         lambda: carom.verify.error_map(law, [0.5], [CHI]),
-        lambda: carom.verify.tune(law, chi=CHI),
-        lambda: carom.verify.score(function),
+        *(lambda: carom.verify.tune(law, chi=CHI), lambda: carom.verify.score(function)),
     )
     for call in calls:
         with pytest.raises(carom.InputError, match=words):
@@ -242,12 +240,8 @@ def test_what_is_no_such_function_is_refused(kind, given):
 @pytest.mark.parametrize(
     ("argument", "value"),
     [
-        ("normal", "herz"),
-        ("restitution", 0.0),
-        ("pair", "steel"),
-        ("normal_speed", -1.0),
-        ("name", 3),
-        ("initial_state", (x for x in ())),
+        *(("normal", "herz"), ("restitution", 0.0), ("pair", "steel"), ("normal_speed", -1.0)),
+        *(("name", 3), ("initial_state", (x for x in ()))),
     ],
 )
 def test_bad_parameters_are_refused(argument, value):

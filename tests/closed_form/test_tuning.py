@@ -15,13 +15,9 @@ KAPPA = 4 * CHI / 7
 PSI = np.linspace(0.0, 4 * CHI, 61)[1:]  # as by default
 SOME, FEW = PSI[3::4], PSI[3::6]
 ONE_EACH = (
-    carom.dem.LinearSpring(),
-    carom.dem.HertzLinearHistory(),
-    carom.dem.LammpsMindlin("mindlin"),
-    carom.dem.LammpsMindlin("mindlin/force"),
-    carom.dem.LammpsMindlin("mindlin_rescale"),
-    carom.dem.LammpsMindlin("mindlin_rescale/force"),
-    carom.dem.HardSphere(0.4),
+    *(carom.dem.LinearSpring(), carom.dem.HertzLinearHistory(), carom.dem.LammpsMindlin("mindlin")),
+    *(carom.dem.LammpsMindlin("mindlin/force"), carom.dem.LammpsMindlin("mindlin_rescale")),
+    *(carom.dem.LammpsMindlin("mindlin_rescale/force"), carom.dem.HardSphere(0.4)),
 )
 FIXED = (carom.dem.ThorntonLaw(), carom.dem.LiggghtsHertz(), carom.dem.EdemHertzMindlin())
 

@@ -178,12 +178,9 @@ def test_a_single_impact_tells_that_it_leaves_the_sweep_out(run):
 @pytest.mark.parametrize(
     ("arguments", "word"),
     [
-        (["--store", "sweep.nc"], ".zarr"),
-        (["--store", "nowhere/sweep.zarr"], "folder"),
-        (["--output", "sweep.zarr"], ".nc"),
-        (["--workers", "0"], "workers"),
-        (["--resume"], "store"),
-        (["--scheduler", "nonsense"], "tcp://host:8786"),
+        *((["--store", "sweep.nc"], ".zarr"), (["--store", "nowhere/sweep.zarr"], "folder")),
+        *((["--output", "sweep.zarr"], ".nc"), (["--workers", "0"], "workers")),
+        *((["--resume"], "store"), (["--scheduler", "nonsense"], "tcp://host:8786")),
         (["--scheduler", CLOSED, "--workers", "2"], "workers"),
         (["--scheduler", CLOSED], "dask scheduler"),
     ],

@@ -18,15 +18,10 @@ ROWS = list(csv.DictReader((HERE / "impacts.csv").read_text().splitlines()))
 # the double next to 65/6 leaves a slip ring of 1e-16, taken for stick
 RESOLVED = [row for row in ROWS if float(row["chi"]) != 65 / 6]
 FEATURES = (
-    "stick from the start",
-    "ring closes (slip) unloading",
-    "ring closes on own slip: gross slip at once",
-    "front jumps as its slip starts",
-    "front jumps across own slip unloading",
-    "front crosses opposite slip unloading",
-    "all sticks (slip) loading",
-    "slip reverses (gross slip) unloading",
-    "gross slip throughout",
+    *("stick from the start", "ring closes (slip) unloading"),
+    *("ring closes on own slip: gross slip at once", "front jumps as its slip starts"),
+    *("front jumps across own slip unloading", "front crosses opposite slip unloading"),
+    *("all sticks (slip) loading", "slip reverses (gross slip) unloading", "gross slip throughout"),
 )
 
 

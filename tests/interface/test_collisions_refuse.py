@@ -62,14 +62,9 @@ def test_refuses_bad_threads(threads):
 @pytest.mark.parametrize(
     "make",
     [
-        lambda v: v.tolist(),
-        lambda v: np.round(v).astype(int),
-        lambda v: v.astype(np.float32),
-        lambda v: v.astype(">f8"),
-        np.asfortranarray,
-        lambda v: np.repeat(v, 2, axis=0)[::2],
-        lambda v: v[:1],
-        lambda v: np.broadcast_to(v[0], v.shape),
+        *(lambda v: v.tolist(), lambda v: np.round(v).astype(int), lambda v: v.astype(np.float32)),
+        *(lambda v: v.astype(">f8"), np.asfortranarray, lambda v: np.repeat(v, 2, axis=0)[::2]),
+        *(lambda v: v[:1], lambda v: np.broadcast_to(v[0], v.shape)),
     ],
     ids=["list", "int", "float32", "big-endian", "fortran", "strided", "row", "broadcast"],
 )

@@ -57,14 +57,10 @@ def drawn(folder, progress):
 
 
 LONG = [
-    (by_elements, "solving by boundary elements", 35),
-    (swept, "solving the sweep", 6),
-    (posterior, "sampling the posterior", 120),
-    (ranked, "ranking the laws", 2),
-    (tuned, "tuning the laws", 2),
-    (mapped, "computing the map of regimes", 3),
-    (animated, "animation", 3),
-    (drawn, "animation", 2),
+    *((by_elements, "solving by boundary elements", 35), (swept, "solving the sweep", 6)),
+    *((posterior, "sampling the posterior", 120), (ranked, "ranking the laws", 2)),
+    *((tuned, "tuning the laws", 2), (mapped, "computing the map of regimes", 3)),
+    *((animated, "animation", 3), (drawn, "animation", 2)),
 ]
 
 

@@ -31,11 +31,8 @@ def test_dir_shows_the_public_names_and_nothing_else(package):
     "thing",
     [
         carom.impact(PAIR, speed=2.0),
-        carom.load_path(PAIR, normal_force=1.0, tangential_force=0.0),
-        carom.KelvinVoigt(0.9),
-        carom.Grid({"angle": [0.1]}),
-        carom.dem.LinearSpring(),
-        carom.verify.Lammps(),
+        *(carom.load_path(PAIR, normal_force=1.0, tangential_force=0.0), carom.KelvinVoigt(0.9)),
+        *(carom.Grid({"angle": [0.1]}), carom.dem.LinearSpring(), carom.verify.Lammps()),
     ],
     ids=lambda thing: type(thing).__name__,
 )

@@ -33,16 +33,10 @@ def refused(call, *words):
 @pytest.mark.parametrize(
     "force",
     [
-        UNITS.Quantity(0.01, "kN"),
-        [UNITS.Quantity(10.0, "N")],
-        UNITS.Quantity([0.01], "kN"),
+        *(UNITS.Quantity(0.01, "kN"), [UNITS.Quantity(10.0, "N")], UNITS.Quantity([0.01], "kN")),
         np.array([UNITS.Quantity(0.01, "kN")], dtype=object),
-        xr.DataArray([0.01], attrs={"units": "kN"}),
-        xr.DataArray(UNITS.Quantity([0.01], "kN")),
-        pd.Series(["0.01 kN"]),
-        "0.01 kN",
-        Decimal(10),
-        [Fraction(10)],
+        *(xr.DataArray([0.01], attrs={"units": "kN"}), xr.DataArray(UNITS.Quantity([0.01], "kN"))),
+        *(pd.Series(["0.01 kN"]), "0.01 kN", Decimal(10), [Fraction(10)]),
     ],
 )
 def test_units_of_forces_are_heeded(force):
@@ -139,9 +133,7 @@ PURE = {
 @pytest.mark.parametrize(
     "psi",
     [
-        UNITS.Quantity(0.5, "mm"),
-        UNITS.Quantity([0.5], "mm"),
-        [UNITS.Quantity(0.5, "mm")],
+        *(UNITS.Quantity(0.5, "mm"), UNITS.Quantity([0.5], "mm"), [UNITS.Quantity(0.5, "mm")]),
         xr.DataArray([0.5], attrs={"units": "mm"}),
         *(True, [True], np.array([True]), b"1", bytearray(b"1"), np.array([b"1"]), 1j),
         *(np.complex128(0.5), np.timedelta64(5, "s"), np.array(["2020-01-01"], "M8[D]")),

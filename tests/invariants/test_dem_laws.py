@@ -121,10 +121,8 @@ def test_grazing_of_the_normal_has_a_limit(law):
 @pytest.mark.parametrize(
     ("make", "parameter"),
     [
-        (carom.dem.LinearSpring, 0.6),
-        (carom.dem.StrongeLaw, 0.6),
-        (carom.dem.WaltonBraunLaw, 0.6),
-        (carom.dem.HertzLinearHistory, 1.0),
+        *((carom.dem.LinearSpring, 0.6), (carom.dem.StrongeLaw, 0.6)),
+        *((carom.dem.WaltonBraunLaw, 0.6), (carom.dem.HertzLinearHistory, 1.0)),
         *((lambda s, name=name: carom.dem.LammpsMindlin(name, s), 1.0) for name in VARIANTS),
     ],
 )

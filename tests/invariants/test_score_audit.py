@@ -152,13 +152,9 @@ def test_factors_that_differ_are_no_matter_of_units(columns):
 @pytest.mark.parametrize(
     ("kind", "factor", "unit"),
     [
-        ("spin", 30.0 / np.pi, "rpm"),
-        ("spin", 180.0 / np.pi, "deg/s"),
-        ("spin", -30.0 / np.pi, "rpm"),
-        ("spin", 0.5 / np.pi, "turn/s"),
-        ("speed", 1000.0, "mm/s"),
-        ("speed", 100.0, "cm/s"),
-        ("speed", 3.6, "km/h"),
+        *(("spin", 30.0 / np.pi, "rpm"), ("spin", 180.0 / np.pi, "deg/s")),
+        *(("spin", -30.0 / np.pi, "rpm"), ("spin", 0.5 / np.pi, "turn/s")),
+        *(("speed", 1000.0, "mm/s"), ("speed", 100.0, "cm/s"), ("speed", 3.6, "km/h")),
     ],
 )
 def test_wrong_units_are_refused_by_name(columns, kind, factor, unit):

@@ -238,10 +238,8 @@ def test_descriptions_are_equal_for_equal_sweeps_only():
     )
     assert json.dumps(one.description(), allow_nan=False) == json.dumps(two.description())
     for case, axes, outputs in (
-        ({**BALL, "spin": 1.0}, grid, None),
-        (BALL, {"angle": ["31 deg"]}, None),
-        (BALL, grid, ["psi_out"]),
-        ({**BALL, "second": {"kind": "sphere"}}, grid, one.outputs),
+        *(({**BALL, "spin": 1.0}, grid, None), (BALL, {"angle": ["31 deg"]}, None)),
+        *((BALL, grid, ["psi_out"]), ({**BALL, "second": {"kind": "sphere"}}, grid, one.outputs)),
         ({**BALL, "second": {"material": "rigid"}}, grid, None),
     ):
         assert SweepProblem(case, Grid(axes), outputs).description() != one.description()
