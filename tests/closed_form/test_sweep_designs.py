@@ -6,8 +6,9 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
+from tests.checks import refused
 
-from carom import InputError, sweep
+from carom import sweep
 from carom.sweeps.designs import Grid, LatinHypercube
 from carom.sweeps.tables import Table
 
@@ -155,8 +156,7 @@ def test_a_row_below_the_head_without_numbers_is_no_case(text, words, tmp_path):
     frame = pd.read_csv(path, sep=None, engine="python").rename(columns=str.strip)
     for source in (path, frame, {name: list(column) for name, column in frame.items()}):
         expected = words if source is path else re.sub(r"line (\d)", _row, words)
-        with pytest.raises(InputError, match=expected):
-            Table(source)
+        refused(expected, Table, source)
 
 
 def _row(line):
@@ -230,8 +230,7 @@ CUBE = {"friction": (0.1, 0.2)}
     ],
 )
 def test_what_is_no_design_is_refused_in_a_line(make, message):
-    with pytest.raises(InputError, match=message):
-        make()
+    refused(message, make)
 
 
 @pytest.mark.parametrize("given", ["glass", np.array("glass"), np.array(["glass"])])
@@ -245,5 +244,4 @@ def test_one_name_is_an_axis_of_one(given):
 def test_what_is_no_table_is_refused(tmp_path, text):
     path = tmp_path / "cases.csv"
     path.write_text(text)
-    with pytest.raises(InputError, match="table: "):
-        Table(path)
+    refused("table: ", Table, path)

@@ -121,8 +121,7 @@ def test_a_labelled_dataset_is_a_table():
 def test_variables_of_a_dataset_along_other_dimensions_are_no_columns(variable, words):
     """Refused where they would be used; of other names they are told among those not used."""
     data = xr.Dataset({"angle": ("point", [0.1, 0.2])})
-    with pytest.raises(InputError, match=words):
-        read(data.assign(spin_out=variable))
+    refused(words, read, data.assign(spin_out=variable))
     renamed = data.assign(of_a_spin_out=variable)
     assert read(renamed)["angle"].tolist() == [0.1, 0.2]
     assert "of_a_spin_out" in others(read_table(renamed), KNOWN)
@@ -370,5 +369,4 @@ def test_columns_that_mean_nothing_here_are_named():
 def test_too_few_rows_are_refused():
     given = read({"angle": [0.1, 0.2], "spin_out": [1.0, 2.0]})
     given.require_rows(2)
-    with pytest.raises(InputError, match="too few points: 2, at least 3 are needed"):
-        given.require_rows(3)
+    refused("too few points: 2, at least 3 are needed", given.require_rows, 3)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests.checks import refused
 
 import carom
 from carom.verify.scoring import score
@@ -162,8 +163,7 @@ def test_wrong_units_are_refused_by_name(columns, kind, factor, unit):
     wrong = {name: v * factor if kind in name else v for name, v in columns.items()}
     ratio = abs(factor) if kind == "spin" else 1.0 / factor
     message = rf"{kind}s: .* {ratio:.4g} times as much as .*{kind} \[{unit}\]'"
-    with pytest.raises(carom.InputError, match=message):
-        score(wrong, case=PAIR)
+    refused(message, score, wrong, case=PAIR)
     headed = {f"{name} [{unit}]" if kind in name else name: v for name, v in wrong.items()}
     assert score(headed, case=PAIR).passed == (factor > 0.0)
 
@@ -237,8 +237,7 @@ def test_numbers_that_cannot_be_meant_are_refused(results, words):
         given = {"case": carom.impact(PAIR, speed=1.0, angle=0.3)}
     elif "psi_1" not in results:
         bodies, given = dict.fromkeys(names, [1.0] * rows), {"case": PAIR}
-    with pytest.raises(carom.InputError, match=words):
-        score(bodies | results, **given)
+    refused(words, score, bodies | results, **given)
 
 
 def test_forces_without_friction_cannot_be_scored():
@@ -247,5 +246,4 @@ def test_forces_without_friction_cannot_be_scored():
     hit = carom.impact(pair, speed=1.0, angle=0.0)
     table = {name: hit.to_dataset()[name].values for name in ("time", "normal_force")}
     table["tangential_force"] = np.zeros(len(table["time"]))
-    with pytest.raises(carom.InputError, match="without friction psi is infinite"):
-        score(table, case=hit)
+    refused("without friction psi is infinite", score, table, case=hit)

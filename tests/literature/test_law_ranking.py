@@ -6,6 +6,7 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
+from tests.checks import refused
 from tests.oracles.springs import mindlin_out
 
 import carom
@@ -204,8 +205,7 @@ def test_catalogue_names_each_law_once():
     ],
 )
 def test_refused(options, message):
-    with pytest.raises(carom.InputError, match=message):
-        rank(**({"entries": FEW} | options))
+    refused(message, rank, **({"entries": FEW} | options))
 
 
 def test_damped_laws_are_compared_with_an_impact_of_the_same_restitution() -> None:
@@ -253,5 +253,4 @@ def test_rankings_with_losses() -> None:
         entry for entry in CATALOGUE if isinstance(entry.law, carom.dem.ThorntonLaw)
     )
     for entry in (carom.dem.ThorntonLaw(), of_catalogue):
-        with pytest.raises(carom.InputError, match="Thornton, incremental has no damping"):
-            carom.verify.rank([entry], restitution=0.7)
+        refused("Thornton, incremental has no damping", carom.verify.rank, [entry], restitution=0.7)
