@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 import carom
 from carom.dem import lattice
@@ -106,9 +107,7 @@ def test_sliding_throughout_is_exact_but_for_the_steps():
     history = carom.dem.ExactContactLaw(16).history(9.0, 1.2, steps=100)
     e = -history["normal_velocity"][-1]
     assert history["psi"][-1] == pytest.approx(9.0 - 2.4 * (1.0 + e), abs=2e-3)
-    np.testing.assert_allclose(
-        history["tangential_force"], history["normal_force"], atol=1e-12
-    )  # mu N
+    assert_allclose(history["tangential_force"], history["normal_force"], atol=1e-12)  # mu N
 
 
 @pytest.mark.parametrize("e", [0.9, 0.5])

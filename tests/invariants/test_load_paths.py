@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import quad
 
 import carom
@@ -71,7 +72,7 @@ def springs(d, u, s, parts):
 def test_same_as_springs_one_by_one(walk):
     s = ((np.arange(101) + 0.5) / 101) ** 2
     found = deflections(moved(*walk).stack, s)
-    np.testing.assert_allclose(found, springs(*walk, s, 3), rtol=0, atol=3e-15)
+    assert_allclose(found, springs(*walk, s, 3), rtol=0, atol=3e-15)
 
 
 @EXAMPLES
@@ -84,9 +85,9 @@ def test_force_energy_and_profile_are_those_of_the_memory(walk):
     for low, high, row in zip(edges[:-1], edges[1:], coefficients, strict=True):
         x = 0.5 * (low + high) + 0.5 * (high - low) * nodes
         q = np.array([evaluate(row, low, high, at) for at in x])
-        np.testing.assert_allclose(q, deflections(path.stack, x * x), rtol=0, atol=1e-15)
+        assert_allclose(q, deflections(path.stack, x * x), rtol=0, atol=1e-15)
         sums += 0.5 * (high - low) * np.array([weights @ q, weights @ (0.5 * q * q)])
-    np.testing.assert_allclose(sums, path.results[-1, [TRACTION, STORED]], rtol=0, atol=1e-14)
+    assert_allclose(sums, path.results[-1, [TRACTION, STORED]], rtol=0, atol=1e-14)
 
 
 @EXAMPLES
@@ -131,10 +132,10 @@ def test_a_step_may_be_split(walk, cuts):
     parts[:, :, -1] = walk
     whole, split = moved(*walk), moved(*parts.reshape(2, -1))
     last = split.results[shares.size - 1 :: shares.size]
-    np.testing.assert_allclose(last[:, COLUMNS], whole.results[:, COLUMNS], rtol=0, atol=1e-13)
+    assert_allclose(last[:, COLUMNS], whole.results[:, COLUMNS], rtol=0, atol=1e-13)
     s = np.linspace(0.0, 1.0, 50)
     found, expected = (deflections(path.stack, s) for path in (split, whole))
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14)
+    assert_allclose(found, expected, rtol=0, atol=1e-14)
 
 
 @EXAMPLES
@@ -142,8 +143,8 @@ def test_a_step_may_be_split(walk, cuts):
 def test_mirror(walk):
     one, other = moved(*walk), moved(walk[0], -walk[1])
     mirrored = one.results * np.array([-1.0, -1.0, 1.0, 1.0, 1.0])
-    np.testing.assert_array_equal(mirrored[:, :WORK], other.results[:, :WORK])
-    np.testing.assert_allclose(mirrored[:, WORK], other.results[:, WORK], rtol=0, atol=1e-15)
+    assert_array_equal(mirrored[:, :WORK], other.results[:, :WORK])
+    assert_allclose(mirrored[:, WORK], other.results[:, WORK], rtol=0, atol=1e-15)
 
 
 @EXAMPLES
@@ -153,15 +154,11 @@ def test_control_by_force_and_by_displacement_agree(rows):
     wanted = share * 2 / 3 * depth**1.5
     one = forced(depth, wanted)
     assert one.refused == INSIDE
-    np.testing.assert_allclose(one.results[:, TRACTION], wanted, rtol=0, atol=1e-14)
+    assert_allclose(one.results[:, TRACTION], wanted, rtol=0, atol=1e-14)
     other = moved(depth, one.results[:, DISPLACEMENT])
-    np.testing.assert_allclose(
-        other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-13
-    )
+    assert_allclose(other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-13)
     again = forced(depth, other.results[:, TRACTION])
-    np.testing.assert_allclose(
-        again.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10
-    )
+    assert_allclose(again.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10)
 
 
 @EXAMPLES
@@ -175,9 +172,7 @@ def test_controls_may_alternate(walk, seed):
     targets = np.where(by_force, one.results[:, TRACTION], walk[1])
     other = follow_path(walk[0], targets, by_force)
     assert other.refused == INSIDE
-    np.testing.assert_allclose(
-        other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10
-    )
+    assert_allclose(other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10)
 
 
 def test_small_steps_do_not_drift():
@@ -189,7 +184,7 @@ def test_small_steps_do_not_drift():
     assert many.results[-1, TRACTION] == pytest.approx(one.results[-1, TRACTION], abs=5e-15)
     share = np.linspace(0.0, 0.9, n)
     cattaneo = forced(np.ones(n), 2 / 3 * share).results[:, DISPLACEMENT]
-    np.testing.assert_allclose(cattaneo, 1 - (1 - share) ** (2 / 3), rtol=0, atol=1e-13)
+    assert_allclose(cattaneo, 1 - (1 - share) ** (2 / 3), rtol=0, atol=1e-13)
     cycle = np.tile([0.5, -0.5, 0.2, -0.3], n // 4)
     loop = forced(np.ones(n), cycle)
     assert np.ptp(loop.results[4::4, DISPLACEMENT]) <= 1e-14
@@ -219,7 +214,7 @@ def test_paths_that_rest_to_rounding():
         results = path.results[:, COLUMNS]
         assert np.min(np.diff(results[:, 3], prepend=0.0)) >= -1e-14
         assert np.all(np.abs(results[:, 1]) <= 2.0 / 3.0 * d**1.5 * (1.0 + 1e-15) + 1e-16)
-        np.testing.assert_allclose(results, moved(even, u).results[:, COLUMNS], rtol=0, atol=1e-11)
+        assert_allclose(results, moved(even, u).results[:, COLUMNS], rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("g", [0.0, 0.5, -1.0])
@@ -228,7 +223,7 @@ def test_contact_laid_along_a_line_is_one_annulus(g):
     depth = np.arange(1, 65) / 64
     path = moved(depth, g * depth)
     assert len(path.stack) == 2
-    np.testing.assert_array_equal(path.results[:, STICK], 0.0 if abs(g) == 1 else np.sqrt(depth))
+    assert_array_equal(path.results[:, STICK], 0.0 if abs(g) == 1 else np.sqrt(depth))
 
 
 def test_slip_is_that_of_an_impact_with_the_same_motion():
@@ -238,12 +233,10 @@ def test_slip_is_that_of_an_impact_with_the_same_motion():
     for end in (0.9, 1.6, 2.2):
         history = solution.at(np.linspace(0.0, end, 20001)[1:])
         found = slid(history.penetration, history.displacement, radii)
-        np.testing.assert_allclose(found, solution.slid(end, radii), rtol=0, atol=2e-6)
+        assert_allclose(found, solution.slid(end, radii), rtol=0, atol=2e-6)
         path = moved(history.penetration, history.displacement).results
-        np.testing.assert_allclose(path[:, TRACTION], history.force, rtol=0, atol=1e-7)
-        np.testing.assert_allclose(
-            path[-1, STORED], history.stored[-1] / 3.75 / 1.44, rtol=0, atol=1e-7
-        )
+        assert_allclose(path[:, TRACTION], history.force, rtol=0, atol=1e-7)
+        assert_allclose(path[-1, STORED], history.stored[-1] / 3.75 / 1.44, rtol=0, atol=1e-7)
 
 
 def test_fields_after_a_step():
@@ -263,7 +256,7 @@ def test_fields_after_a_step():
         assert force == pytest.approx(path.tangential_force[k], rel=1e-9)
         inner = np.linspace(0.0, 0.99 * path.stick_radius[1], 7)
         patch = path.fields(k, points=np.column_stack((inner, 0.0 * inner)))
-        np.testing.assert_allclose(patch.displacement_x, path.displacement[k], rtol=1e-9)
+        assert_allclose(patch.displacement_x, path.displacement[k], rtol=1e-9)
         assert np.all(np.abs(patch.slip_x) < 1e-14 * path.displacement[1])
         assert contact.numbers()["tangential_force"] == path.tangential_force[k]
 
@@ -279,9 +272,7 @@ def test_then_is_one_path():
     steps = whole.to_dataset().drop_vars("friction")
     for name in steps.data_vars:
         size = np.abs(getattr(whole, name)).max()
-        np.testing.assert_allclose(
-            getattr(part, name), getattr(whole, name), rtol=0, atol=1e-10 * size
-        )
+        assert_allclose(getattr(part, name), getattr(whole, name), rtol=0, atol=1e-10 * size)
 
 
 def test_outside_coulombs_cone():

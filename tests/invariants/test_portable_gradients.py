@@ -5,6 +5,7 @@ The truth is a central difference of the NumPy path, in every regime and at its 
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
 
@@ -105,9 +106,7 @@ def test_of_collisions(gradient, law):
 
     got, want = gradient(number, given), differences(given, normal, LAWS[law])
     for name in NAMES:
-        np.testing.assert_allclose(
-            got[name] / UNIT[name], want[name] / UNIT[name], rtol=0, atol=1e-6
-        )
+        assert_allclose(got[name] / UNIT[name], want[name] / UNIT[name], rtol=0, atol=1e-6)
 
 
 @pytest.mark.filterwarnings("ignore:of 9 pairs these were left alone")  # torch has values to tell
@@ -133,8 +132,8 @@ def test_of_pairs_that_are_left_alone(gradient):
 
     got = gradient(number, given)
     for name in NAMES:
-        np.testing.assert_array_equal(got[name][:rows], 3.0)
-        np.testing.assert_array_equal(got[name][rows], 0.0)
+        assert_array_equal(got[name][:rows], 3.0)
+        assert_array_equal(got[name][rows], 0.0)
 
 
 def test_of_the_law(gradient):
@@ -144,7 +143,7 @@ def test_of_the_law(gradient):
     for function, size in ((law, 1.0), (law.impulse, 1.0), (law.dissipation, 300.0)):
         got = gradient(lambda arrays, f=function: f(arrays["psi"]).sum(), {"psi": psi})["psi"]
         want = (function(psi + STEP) - function(psi - STEP)) / (2.0 * STEP)
-        np.testing.assert_allclose(got, want, rtol=0, atol=1e-6 * size)
+        assert_allclose(got, want, rtol=0, atol=1e-6 * size)
 
 
 def test_of_the_law_is_that_of_the_exact_rebound(gradient):
@@ -155,7 +154,7 @@ def test_of_the_law_is_that_of_the_exact_rebound(gradient):
     ]
     ends = carom.rebound(psi[:, np.newaxis] + step * np.array([1.0, -1.0, 2.0, -2.0]), 1.44)
     one, two = ends[:, 0] - ends[:, 1], ends[:, 2] - ends[:, 3]
-    np.testing.assert_allclose(got, (8.0 * one - two) / (12.0 * step), rtol=0, atol=2e-5)
+    assert_allclose(got, (8.0 * one - two) / (12.0 * step), rtol=0, atol=2e-5)
 
 
 def test_jit_and_vmap():
@@ -173,4 +172,4 @@ def test_jit_and_vmap():
         for way in (collided, jax.vmap(collided)):
             for name, got in jax.jit(way)(jax.numpy.asarray(normal), arrays).items():
                 assert got.dtype == want[name].dtype
-                np.testing.assert_allclose(got, want[name], rtol=1e-12, atol=1e-12)
+                assert_allclose(got, want[name], rtol=1e-12, atol=1e-12)
