@@ -11,18 +11,15 @@ import numpy as np
 import pytest
 from tests import checks
 
-import carom
-from carom import read, save
+from carom import Material, Pair, Sphere, read, save
 from carom.classical import cattaneo_mindlin, critical_obliquity, loop_energy
 from carom.contacts.load_paths import load_path
 from carom.quantities.refusals import InputError
 
-GLASS = carom.Material(young="70 GPa", poisson=0.23, density=2500)
-STEEL = carom.Material(young="210 GPa", poisson=0.3, density=7850)
-PAIR = carom.Pair(
-    carom.Sphere(radius="5 mm", material=GLASS),
-    carom.Sphere(radius="9 mm", material=STEEL),
-    friction=0.3,
+GLASS = Material(young="70 GPa", poisson=0.23, density=2500)
+STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
+PAIR = Pair(
+    Sphere(radius="5 mm", material=GLASS), Sphere(radius="9 mm", material=STEEL), friction=0.3
 )
 MU, KAPPA = PAIR.friction, PAIR.kappa
 STIFFNESS = 4 / 3 * PAIR.effective_modulus * PAIR.effective_radius**0.5
@@ -281,7 +278,7 @@ def test_bad_input_is_refused_in_one_line(controls, message):
 
 
 def test_what_cannot_be_followed():
-    smooth = carom.Pair(PAIR.first, PAIR.second, friction=0.0)
+    smooth = Pair(PAIR.first, PAIR.second, friction=0.0)
     with pytest.raises(InputError, match=r"friction: 0.0 .* needs friction"):
         load_path(smooth, normal_force=1.0, displacement=0.0)
     checks.refused("pair: ", load_path, "steel", normal_force=1.0, displacement=0.0)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import carom
+from carom import HalfSpace, Material, Pair, Sphere
 from carom.bodies.cases import pair_of
 from carom.bodies.kinematics import inertia
 from carom.verify.pack import VERSION
@@ -267,9 +267,7 @@ def test_errors_are_rounded_up():
 def test_solid_spheres_of_one_material_have_the_chi_that_the_pack_says():
     """nu = 0.5, 0.3 and 0: chi = (7/2)(1 - nu)/(2 - nu)."""
     for poisson, chi in ((0.5, 1.1667), (0.3, 1.4412), (0.0, 1.75)):
-        stuff = carom.Material(young=1e9, poisson=poisson, density=1000.0)
-        pair = carom.Pair(
-            carom.Sphere(radius=0.01, material=stuff), carom.HalfSpace(material=stuff), 0.2
-        )
+        stuff = Material(young=1e9, poisson=poisson, density=1000.0)
+        pair = Pair(Sphere(radius=0.01, material=stuff), HalfSpace(material=stuff), 0.2)
         assert pair.chi == pytest.approx(chi, abs=5e-5)
         assert f"{chi:g}" in frozen_files()["README.md"]

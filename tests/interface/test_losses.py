@@ -11,6 +11,7 @@ from scipy.special import beta
 from tests.checks import refused
 
 import carom
+from carom import HalfSpace, Material, Pair, Sphere
 from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.rebounds import lossy_rebounds
@@ -19,16 +20,12 @@ from carom.explorer.views import View
 from carom.impacts.validity import judge_losses
 from carom.io.labels import spheres
 
-STEEL = carom.Pair(
-    carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2
-)
-UNKNOWN = carom.Material(young="70 GPa", poisson=0.22, density=2500)
-GLASS = carom.Pair(
-    carom.Sphere(radius="1 mm", material=UNKNOWN), carom.HalfSpace(material=UNKNOWN), friction=0.1
-)
+STEEL = Pair(Sphere(radius="5 mm", material="steel"), HalfSpace(material="steel"), friction=0.2)
+UNKNOWN = Material(young="70 GPa", poisson=0.22, density=2500)
+GLASS = Pair(Sphere(radius="1 mm", material=UNKNOWN), HalfSpace(material=UNKNOWN), friction=0.1)
 
 
-def hit(law: object, speed: float = 1.0, pair: carom.Pair = STEEL) -> carom.results.Impact:
+def hit(law: object, speed: float = 1.0, pair: Pair = STEEL) -> carom.results.Impact:
     return carom.impact(pair, normal_speed=speed, tangential_speed=0.4 * speed, losses=law)
 
 
@@ -68,9 +65,9 @@ def test_yield_velocity_of_the_materials() -> None:
 def test_weaker_body_yields_first() -> None:
     soft, hard = (carom.material("steel", yield_strength=y) for y in ("100 MPa", "900 MPa"))
 
-    def speed(first: carom.Material, second: carom.Material) -> float:
-        ball, wall = carom.Sphere(radius=0.01, material=first), carom.HalfSpace(material=second)
-        return float(yield_velocity(carom.Pair(ball, wall, friction=0.2)))
+    def speed(first: Material, second: Material) -> float:
+        ball, wall = Sphere(radius=0.01, material=first), HalfSpace(material=second)
+        return float(yield_velocity(Pair(ball, wall, friction=0.2)))
 
     found = [speed(*bodies) for bodies in ((soft, soft), (hard, hard), (hard, soft))]
     assert found[1] / found[0] == pytest.approx(9.0**2.5, rel=1e-12)

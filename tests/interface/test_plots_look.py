@@ -11,7 +11,7 @@ from matplotlib.text import Text
 from tests.checks import refused
 
 import carom
-from carom import plots
+from carom import plots, verify
 from carom.plots.legends import fitting_columns
 from carom.plots.style import colours
 
@@ -31,11 +31,9 @@ def drawers(pair, hit):
         "plot_strength": carom.bearable_speeds(pair, angle=["0 deg", "60 deg"]),
         "plot_curve": carom.curve(1.44, [0.0, 0.5, 1.0, 6.0]),
         "plot_regime_map": carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]),
-        "plot_laws": carom.verify.rank([law], psi=psi),
-        "plot_error_map": carom.verify.error_map(law, psi, [1.2, 1.4]),
-        "plot_score": carom.verify.score(
-            {"psi_1": psi, "psi_2": carom.rebound(psi, 1.44)}, chi=1.44
-        ),
+        "plot_laws": verify.rank([law], psi=psi),
+        "plot_error_map": verify.error_map(law, psi, [1.2, 1.4]),
+        "plot_score": verify.score({"psi_1": psi, "psi_2": carom.rebound(psi, 1.44)}, chi=1.44),
     }
     assert set(given) == {name for name in plots.__all__ if name.startswith("plot_")}
     return given
