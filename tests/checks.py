@@ -1,4 +1,7 @@
-"""What many tests assert: that a call is refused in one line, that the text of a figure is seen."""
+"""What many tests assert: that a call is refused in one line, that the text of a figure is seen.
+
+And what many tests strike: a ball of steel on a floor of steel.
+"""
 
 import itertools
 import re
@@ -9,6 +12,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 import carom
+
+BALL = carom.Sphere(radius="5 mm", material="steel")
+FLOOR = carom.HalfSpace(material="steel")
+PAIR = carom.Pair(BALL, FLOOR, friction=0.2)
 
 
 def refused(words, function, *given, **named):

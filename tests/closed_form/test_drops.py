@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 from scipy.integrate import solve_ivp
 from tests import checks
+from tests.checks import BALL, PAIR
 
 import carom
 from carom.fitting.comparison import plastic, viscous
@@ -14,8 +15,6 @@ from carom.fitting.reading import AIR, DRAG, GRAVITY, taken_by_air
 from carom.plots.fits import plot_drops
 
 SEED = 20261124
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 HEIGHTS = np.geomspace(0.001, 0.5, 12)
 SPEEDS = np.sqrt(2.0 * GRAVITY * HEIGHTS)
 TRUTHS = {
@@ -189,7 +188,6 @@ REFUSED = {
     },
     "data: no measured response": {"drop_height": [0.1, 0.2]},
 }
-
 
 CENTIMETRES = {"drop_height": [8.0, 10.1, 17.9, 29.9], "rebound_height": [7.4, 8.8, 15.8, 25.0]}
 

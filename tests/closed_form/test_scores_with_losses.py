@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import PAIR, refused
 from tests.closed_form.test_scores import forces, velocities, viscous
 
 import carom
@@ -12,9 +12,6 @@ from carom.impacts.curves import REGIMES
 from carom.verify import score
 
 CHI = 1.4412
-PAIR = carom.Pair(
-    carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2
-)
 BODIES = {
     "friction": 0.2,
     "first": {"radius": "5 mm", "material": "steel"},

@@ -22,7 +22,6 @@ HIT = carom.impact(
 )
 STEEP = carom.impact(HIT.pair, speed=2.0, angle="75 deg")  # slides throughout
 
-
 TIMES = [0.1, 0.3, 0.48, 0.55, 0.7, 0.9]
 
 

@@ -5,12 +5,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from tests.checks import BALL as STEEL, FLOOR as PLANE, PAIR
 
 import carom
 
-STEEL = carom.Sphere(radius="5 mm", material="steel")
-PLANE = carom.HalfSpace(material="steel")
-PAIR = carom.Pair(STEEL, PLANE, friction=0.2)
 LOSSES = carom.KelvinVoigt(restitution=0.7)
 POINTS = np.array([[0.0, 0.0], [0.25, 0.1], [0.1, 0.55], [-0.7, 0.2], [0.0, 0.9]])
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import BALL, PAIR as WALL, refused
 
 import carom
 from carom.dimensionless.numerics.hertz import DURATION
@@ -18,9 +18,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "studies"))
 
 from lammps_unittest import exact
 
-BALL = carom.Sphere(radius=5e-3, material="steel")
 BEAD = carom.Sphere(radius=3e-3, material="aluminium")
-WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 FREE = carom.Pair(BEAD, BALL, friction=0.3)
 
 

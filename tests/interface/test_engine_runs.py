@@ -13,15 +13,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import PAIR as WALL, refused
 
 import carom
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.lammps import Lammps
 from carom.verify.engines.running import EngineError, run
 
-BALL = carom.Sphere(radius=5e-3, material="steel")
-WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 GOOD = "printf '0.01 0.002 1\\n0.01 0.003 2\\n' > results"
 
 

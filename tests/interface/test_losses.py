@@ -8,7 +8,7 @@ import pytest
 from matplotlib.text import Text
 from scipy.optimize import brentq
 from scipy.special import beta
-from tests.checks import refused
+from tests.checks import PAIR as STEEL, refused
 
 import carom
 from carom import HalfSpace, Material, Pair, Sphere
@@ -20,7 +20,6 @@ from carom.explorer.views import View
 from carom.impacts.validity import judge_losses
 from carom.io.labels import spheres
 
-STEEL = Pair(Sphere(radius="5 mm", material="steel"), HalfSpace(material="steel"), friction=0.2)
 UNKNOWN = Material(young="70 GPa", poisson=0.22, density=2500)
 GLASS = Pair(Sphere(radius="1 mm", material=UNKNOWN), HalfSpace(material=UNKNOWN), friction=0.1)
 

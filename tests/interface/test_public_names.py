@@ -6,12 +6,11 @@ import sys
 from importlib import import_module
 
 import pytest
+from tests.checks import PAIR
 
 import carom
 from carom.quantities.shown import INNER
 
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace("steel"), friction=0.2)
 BESIDE = {"carom": ["__version__"], "carom.plots": ["style"]}  # known to dir() alone
 STUBBED = (
     *("carom", "carom.plots", "carom.verify", "carom.dem"),

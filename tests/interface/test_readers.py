@@ -10,6 +10,7 @@ import pint
 import pytest
 import xarray as xr
 from tests import checks
+from tests.checks import PAIR
 
 import carom
 from carom.quantities.refusals import flag, one_of
@@ -17,9 +18,6 @@ from carom.quantities.units import counted, whole
 from carom.status import LawStatus
 
 UNITS = pint.get_application_registry()
-PAIR = carom.Pair(
-    carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2
-)
 LAWS = (carom.dem.LinearSpring(), carom.dem.LammpsMindlin(), carom.dem.HardSphere(0.4))
 
 

@@ -15,7 +15,7 @@ import pint
 import pytest
 import scipy.io
 import xarray as xr
-from tests.checks import refused
+from tests.checks import BALL, refused
 
 import carom
 from carom import read, save
@@ -23,9 +23,6 @@ from carom.io.labels import flags, labelled_dataset
 
 AWKWARD = [0.1, -0.0, 5e-324, 1.7976931348623157e308, 1 / 3, 2.5e-7, np.nan, np.inf, -np.inf]
 OLD = Path(__file__).parent / "of_version_0_2"
-
-
-BALL = carom.Sphere(radius="5 mm", material="steel")
 
 
 def history():

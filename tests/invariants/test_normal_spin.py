@@ -14,7 +14,6 @@ from carom.impacts.boundary_elements import spin_about_normal
 GRID = carom.BoundaryElements(elements=14, steps=60)
 STEEL, GLASS = carom.material("steel"), carom.material("soda-lime-glass")
 
-
 BALL = carom.Sphere(radius="10 mm", material=STEEL)
 
 

@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import BALL, PAIR, refused
 
 import carom
 from carom.verify.scoring import score
 
 CHI = 1.4412
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 HIT = carom.impact(PAIR, speed=2.0, angle="35 deg")
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import BALL, PAIR as WALL, refused
 
 import carom
 from carom.adapters import building, liggghts
@@ -21,8 +21,6 @@ HEADERS = (
     *("contact_models", "error", "global_properties"),
     *("neighbor", "tangential_model_base", "update"),
 )
-BALL = carom.Sphere(radius=5e-3, material="steel")
-WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 SPHERES = carom.Pair(BALL, BALL, friction=0.2)
 compiles = pytest.mark.skipif(
     shutil.which("c++") is None or shutil.which("make") is None,
