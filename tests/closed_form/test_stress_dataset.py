@@ -6,13 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.fields.peaks import (
-    TENSION,
-    VON_MISES,
-    largest,
-    principal_stresses,
-    von_mises,
-)
+from carom.dimensionless.fields import peaks
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 
 STEEL = carom.Material(young="210 GPa", poisson=0.3, density=7850)
@@ -93,10 +87,10 @@ def test_nothing_is_larger_than_the_largest(psi, chi, friction):
 
         given = {"friction": friction, "poisson": 0.3}
         stress = stresses(at, profile, **given)
-        worst = largest(VON_MISES, profile, **given)
-        pulled = largest(TENSION, profile, **given, deepest=0.0)
-        assert worst.value >= von_mises(stress).max()
-        assert pulled.value >= principal_stresses(stress[:2000])[:, 0].max()
+        worst = peaks.largest(peaks.VON_MISES, profile, **given)
+        pulled = peaks.largest(peaks.TENSION, profile, **given, deepest=0.0)
+        assert worst.value >= peaks.von_mises(stress).max()
+        assert pulled.value >= peaks.principal_stresses(stress[:2000])[:, 0].max()
         assert worst.y == pytest.approx(0.0, abs=1e-6)
         assert pulled.y == pytest.approx(0.0, abs=1e-6)
 
