@@ -64,9 +64,7 @@ def picture(page, part, share, colors, width=420, height=360):
     masks = {}
     for name, color in zip(colors, found["colors"], strict=True):
         rgb = [int(pair, 16) for pair in re.findall("..", color.lstrip("#"))]
-        masks[name] = (np.abs(pixels[..., :3] - np.array(rgb)).max(axis=-1) < 8) & (
-            pixels[..., 3] > 200
-        )
+        masks[name] = (np.abs(pixels[..., :3] - rgb).max(axis=-1) < 8) & (pixels[..., 3] > 200)
     return masks
 
 

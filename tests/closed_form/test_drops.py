@@ -165,8 +165,7 @@ def test_what_air_takes_is_said():
 
 def test_drops_are_stored_drawn_and_told(tmp_path):
     found = carom.fit(dropped(restitutions(TRUTHS["KelvinVoigt"][0])), pair=PAIR)
-    dataset = found.to_dataset()
-    carom.save(dataset, tmp_path / "drops.nc")
+    carom.save(found.to_dataset(), tmp_path / "drops.nc")
     stored = carom.read(tmp_path / "drops.nc")
     (axis,) = plot_drops(stored).axes
     assert axis.get_xlabel() == "$V_1$\u00a0(m/s)"

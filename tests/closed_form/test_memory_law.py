@@ -112,9 +112,8 @@ def test_sliding_throughout_is_exact_but_for_the_steps():
 
 @pytest.mark.parametrize("e", [0.9, 0.5])
 def test_it_leaves_the_restitution_it_is_made_for(e):
-    speed = carom.dem.ExactContactLaw(32, restitution=e).history(0.0, 1.2, steps=400)[
-        "normal_velocity"
-    ]
+    law = carom.dem.ExactContactLaw(32, restitution=e)
+    speed = law.history(0.0, 1.2, steps=400)["normal_velocity"]
     assert -speed[-1] == pytest.approx(e, abs=2e-4)
 
 

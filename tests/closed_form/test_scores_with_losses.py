@@ -69,8 +69,7 @@ def test_another_restitution_is_named():
     assert audit.value == pytest.approx(0.1, abs=1e-12)
     assert "e = 0.7, not 0.8" in audit.verdict
     assert "change the damping" in audit.verdict
-    elastic = score(given, case=PAIR)
-    assert "restitution error" in elastic.failures
+    assert "restitution error" in score(given, case=PAIR).failures
     del given["normal_speed_out"]
     assert score(given, case=PAIR, restitution=0.7).notes == (
         "normal_speed_out is not given; it was taken as 0.7 normal_speed, e = 0.7",

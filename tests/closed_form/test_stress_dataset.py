@@ -109,11 +109,7 @@ def test_maxima_of_a_small_contact():
 def test_maxima_do_not_depend_on_the_grid():
     """They belong to the body: the same for a grid, another grid, and one point."""
     time = 0.6 * HIT.duration
-    found = [
-        HIT.stress(time),
-        HIT.stress(time, x=[0.0], z=[1.0]),
-        HIT.stress(time, points=[[0] * 3]),
-    ]
+    found = [HIT.stress(time), HIT.stress(time, x=[0], z=[1]), HIT.stress(time, points=[[0] * 3])]
     for name in ("max_von_mises", "max_von_mises_z", "max_tension", "max_tension_x"):
         assert len({float(dataset[name]) for dataset in found}) == 1
 

@@ -154,13 +154,10 @@ def test_a_row_below_the_head_without_numbers_is_no_case(text, words, tmp_path):
     path = tmp_path / "cases.csv"
     path.write_text(text)
     frame = pd.read_csv(path, sep=None, engine="python").rename(columns=str.strip)
+    in_rows = re.sub(r"line (\d)", lambda line: f"row {int(line[1]) - 1}", words)
     for source in (path, frame, {name: list(column) for name, column in frame.items()}):
-        expected = words if source is path else re.sub(r"line (\d)", _row, words)
+        expected = words if source is path else in_rows
         refused(expected, Table, source)
-
-
-def _row(line):
-    return f"row {int(line[1]) - 1}"
 
 
 def test_rows_that_hold_numbers_may_have_units_of_their_own():

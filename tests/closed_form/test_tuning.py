@@ -145,9 +145,8 @@ def test_kappa_and_chi_reach_the_laws():
     assert two.max_error == pytest.approx(one.max_error, abs=1e-4)
     other = tune([dem.LinearSpring()], chi=1.2, psi=FEW)
     assert (other.chi, other.kappa) == (1.2, pytest.approx(4.8 / 7))
-    assert other.advice[0].max_error == pytest.approx(
-        np.abs(error_of(other.advice[0].law, FEW, 1.2)).max()
-    )
+    advice = other.advice[0]
+    assert advice.max_error == pytest.approx(np.abs(error_of(advice.law, FEW, 1.2)).max())
 
 
 def test_steps_cost_a_tenth_of_what_is_left(tuned):

@@ -185,7 +185,7 @@ def test_a_viscous_ball_near_the_normal_does_not_wear_less_than_nothing():
     assert float(worn.worn_volume) == pytest.approx(volume, rel=1e-4)
     assert float(worn.work_error) > 0.0  # which says that energies differ
     many = carom.wear_of_many(
-        pair, speed=1.0, angle=np.radians([0.01, 0.02, 0.1]), losses=law, area=1.0
+        pair, speed=1.0, angle=np.radians([1e-2, 2e-2, 0.1]), losses=law, area=1.0
     )
     assert (many.dissipated_energy.values >= 0.0).all()
 

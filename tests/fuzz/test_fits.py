@@ -202,8 +202,7 @@ def used(found):
     assert str(found)
     assert repr(found)
     json.dumps(found.to_dict(), allow_nan=False)
-    dataset = found.to_dataset()
-    whole(dataset)
+    whole(found.to_dataset())
     assert found.comparison.verdict
     assert found.cite()
     assert all(isinstance(note, str) and "nan" not in note for note in found.notes), found.notes

@@ -13,9 +13,8 @@ from carom import plots
 
 def test_frequencies_are_those_asked_for(hit):
     assert_array_equal(hit.spectrum(["100 kHz", 0, 2.5e3]).frequency.values, [1e5, 0.0, 2.5e3])
-    assert_array_equal(
-        hit.spectrum(max_frequency="1 MHz", n=5).frequency.values, np.linspace(0.0, 1e6, 5)
-    )
+    found = hit.spectrum(max_frequency="1 MHz", n=5)
+    assert_array_equal(found.frequency.values, np.linspace(0.0, 1e6, 5))
     default = hit.spectrum().frequency.values
     assert (default.size, default[0]) == (601, 0.0)
     assert default[-1] * hit.duration == pytest.approx(6.0, rel=1e-14)

@@ -6,6 +6,7 @@ The truth is a central difference of the NumPy path, in every regime and at its 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
+from tests.invariants.test_portable_collisions import LAWS
 
 import carom
 
@@ -81,19 +82,9 @@ def differences(given, normal, law):
         for k in range(3):
             shift = step * np.eye(3)[k]
             ends = (given | {name: given[name] + shift}, given | {name: given[name] - shift})
-            high, low = (
-                weighted(carom.collide(pair(), **end, normal=normal, law=law)) for end in ends
-            )
+            high, low = (weighted(carom.collide(pair(), **e, normal=normal, law=law)) for e in ends)
             result[name][:, k] = (high - low) / (2.0 * step)
     return result
-
-
-LAWS = {
-    "exact": None,
-    "walton": carom.laws.WaltonLaw(friction=0.3, restitution=0.9, tangential_restitution=0.4),
-    "rough": carom.laws.RoughLaw(restitution=0.95),
-    "smooth": carom.laws.SmoothLaw(),
-}
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -149,9 +140,8 @@ def test_of_the_law(gradient):
 def test_of_the_law_is_that_of_the_exact_rebound(gradient):
     """d(psi_2)/d(psi_1) to 2e-5: a table 1e-9 exact, less so in its derivative."""
     psi, step = np.array(SLOPES[2:]), 1e-3
-    got = gradient(lambda arrays: carom.laws.ReboundLaw(1.44)(arrays["psi"]).sum(), {"psi": psi})[
-        "psi"
-    ]
+    law = carom.laws.ReboundLaw(1.44)
+    got = gradient(lambda arrays: law(arrays["psi"]).sum(), {"psi": psi})["psi"]
     ends = carom.rebound(psi[:, np.newaxis] + step * np.array([1.0, -1.0, 2.0, -2.0]), 1.44)
     one, two = ends[:, 0] - ends[:, 1], ends[:, 2] - ends[:, 3]
     assert_allclose(got, (8.0 * one - two) / (12.0 * step), rtol=0, atol=2e-5)

@@ -70,12 +70,8 @@ def test_friction_opposes_the_slide_at_any_rate_of_approach(model):
 
 
 @compiles
-def test_model_refuses_other_springs(model):
+def test_model_refuses_other_springs_and_cohesion(model):
     assert "springs must be 16, 32 or 64" in model(20, 100, 0, 0.0, 1.0)
-
-
-@compiles
-def test_model_refuses_cohesion(model):
     assert "the normal force must be that of elastic spheres" in model(32, 100, 0, 1e-3, 1.0)
 
 

@@ -53,9 +53,8 @@ def dataset(ranking):
 def test_by_default_it_is_the_published_comparison(ranking):
     assert (ranking.chi, ranking.psi) == (CHI, PSI)
     assert ranking.kappa == pytest.approx(4 * CHI / 7, rel=1e-15)
-    assert [s.entry for s in sorted(ranking.standings, key=lambda s: CATALOGUE.index(s.entry))] == [
-        *CATALOGUE
-    ]
+    entries = [standing.entry for standing in ranking.standings]
+    assert sorted(entries, key=CATALOGUE.index) == [*CATALOGUE]
 
 
 @pytest.mark.parametrize("label", MEASURED)
@@ -228,7 +227,7 @@ def test_damped_laws_are_compared_with_an_impact_of_the_same_restitution() -> No
 
 def test_sliding_impacts_of_damped_laws_have_the_force_of_the_exact_one() -> None:
     """F_x = mu F_n in both; what differs is the shape of F_n, the more the more is lost."""
-    found = [force_error(dem.LammpsMindlin(restitution=e), 9.0, CHI).rms for e in (1.0, 0.9, 0.7)]
+    found = [force_error(dem.LammpsMindlin(restitution=e), 9.0, CHI).rms for e in (1, 0.9, 0.7)]
     assert found[0] < 2e-3
     assert 0.01 < found[1] < found[2] < 0.2
 
@@ -237,8 +236,7 @@ def test_rankings_with_losses() -> None:
     ranking = verify.rank(psi=[0.5, 2.0], restitution=0.7)
     assert {s.restitution for s in ranking.standings} == {0.7}
     assert "Thornton, incremental" not in {s.entry.label for s in ranking.standings}
-    dataset = ranking.to_dataset()
-    assert dataset.psi_out_exact.dims == ("psi_in",)
+    assert ranking.to_dataset().psi_out_exact.dims == ("psi_in",)
     mixed = verify.rank([dem.LinearSpring(), dem.LinearSpring(restitution=0.7)], psi=[0.5, 2.0])
     assert mixed.to_dataset().psi_out_exact.dims == ("law", "psi_in")
     assert "e = 0.7" in str(mixed)
