@@ -13,7 +13,10 @@ from tests.oracles.dem_contact import CHI, KAPPA, MASS
 
 from carom import dem
 
-DAMPED = codes.Code(normal_dashpot=codes.normal_dashpot)
+FULL = {"normal_dashpot": codes.normal_dashpot}
+SOFT = FULL | {"stiffness": lambda d: 2 / 3 * codes.mindlin(d)}
+SOFT |= {"dashpot": lambda d: 0.5 * codes.normal_dashpot(d)}
+DAMPED = codes.Code(**FULL)
 HALF = {"restitution": codes.E, "tangential_damping": 0.5}
 CODES = {
     "mindlin": codes.Code(),
@@ -26,24 +29,11 @@ ALL = (0.3, 0.8, 1.3, 3.0, 4.6)
 CASES = [
     *((dem.LammpsMindlin(name), code, ALL) for name, code in CODES.items()),
     *(
-        (
-            dem.LammpsMindlin(name, restitution=codes.E),
-            replace(code, normal_dashpot=codes.normal_dashpot),
-            (0.3, 3.0),
-        )
+        (dem.LammpsMindlin(name, restitution=codes.E), replace(code, **FULL), (0.3, 3.0))
         for name, code in CODES.items()
     ),
     *(
-        (
-            dem.LammpsMindlin(name, stiffness=2 / 3, **HALF),
-            replace(
-                code,
-                stiffness=lambda d: 2 / 3 * codes.mindlin(d),
-                normal_dashpot=codes.normal_dashpot,
-                dashpot=lambda d: 0.5 * codes.normal_dashpot(d),
-            ),
-            (0.8, 1.3, 4.6),
-        )
+        (dem.LammpsMindlin(name, stiffness=2 / 3, **HALF), replace(code, **SOFT), (0.8, 1.3, 4.6))
         for name, code in CODES.items()
     ),
     (
@@ -130,20 +120,10 @@ SOLID, LIGHT = 3.5, 9.0  # m_n/m_t: of a solid sphere; of one that turns back mo
 SOFTENING = [
     (dem.ThorntonLaw(), softening.Thornton(), SOLID, (0.3, 0.8, 1.3, 3.0, 4.6)),
     (dem.ThorntonLaw(), softening.Thornton(), LIGHT, (0.3, 0.8, 1.5, 3.5)),
-    (
-        dem.WaltonBraunLaw(),
-        softening.Walton(1.0, KAPPA * softening.K_1),
-        SOLID,
-        (0.3, 0.8, 1.3, 3.0),
-    ),
-    (dem.WaltonBraunLaw(), softening.Walton(1.0, KAPPA * softening.K_1), LIGHT, (0.3, 1.5, 3.5)),
-    (
-        dem.WaltonBraunLaw(restitution=0.7),
-        softening.Walton(0.7, KAPPA * softening.K_1),
-        SOLID,
-        (0.3, 1.3, 3.0),
-    ),
-    (dem.WaltonBraunLaw(0.5, 0.7), softening.Walton(0.7, 0.5 * softening.K_1), LIGHT, (0.3, 1.5)),
+    (Braun(), Walton(1.0, K), SOLID, (0.3, 0.8, 1.3, 3.0)),
+    (Braun(), Walton(1.0, K), LIGHT, (0.3, 1.5, 3.5)),
+    (Braun(restitution=0.7), Walton(0.7, K), SOLID, (0.3, 1.3, 3.0)),
+    (Braun(0.5, 0.7), Walton(0.7, 0.5 * softening.K_1), LIGHT, (0.3, 1.5)),
 ]
 
 

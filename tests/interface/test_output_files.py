@@ -42,15 +42,8 @@ WRITERS = {
     ".gif": film,
     ".h": lambda path: main(["curve", "--chi", "1.44", "--export", "c", "--output", str(path)]),
 }
-STARTS = {
-    ".nc": b"\x89HDF",
-    ".csv": b"chi,psi_in",
-    ".png": b"\x89PNG",
-    ".pdf": b"%PDF",
-    ".svg": b"<?xml",
-    ".gif": b"GIF8",
-    ".h": b"/*",
-}
+FIRST = (b"\x89HDF", b"chi,psi_in", b"\x89PNG", b"%PDF", b"<?xml", b"GIF8", b"/*")
+STARTS = dict(zip(WRITERS, FIRST, strict=True))
 
 
 def left(folder):

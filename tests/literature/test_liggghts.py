@@ -31,11 +31,11 @@ present = pytest.mark.skipif(Liggghts().executable() is None, reason="LIGGGHTS i
 @pytest.fixture(scope="module")
 def found(tmp_path_factory: pytest.TempPathFactory) -> engines.Results:
     """Return all experiments with their outcomes."""
-    program = Liggghts()
+    program, cases = Liggghts(), [*HERTZ, *SPRINGS, *DAMPED, STRONGLY_DAMPED]
     return engines.run_all(
         program,
         tmp_path_factory.mktemp("liggghts"),
-        [*HERTZ, *SPRINGS, *DAMPED, STRONGLY_DAMPED],
+        {case: engines.experiment(*case) for case in cases},
         lambda case, impacts: program.files(impacts),
         INPUT,
         lambda place: [f"shell cd {place}", f"include {INPUT}", "clear"],

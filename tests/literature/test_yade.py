@@ -50,10 +50,11 @@ class Otherwise(Yade):
 @pytest.fixture(scope="module")
 def found(tmp_path_factory: pytest.TempPathFactory) -> engines.Results:
     """Return all experiments with their outcomes."""
+    cases = [FINE, *ELASTIC, SPRINGS, *DAMPED, LINEAR_SHEAR, DERESIEWITZ]
     return engines.run_all(
         Yade(),
         tmp_path_factory.mktemp("yade"),
-        [FINE, *ELASTIC, SPRINGS, *DAMPED, LINEAR_SHEAR, DERESIEWITZ],
+        {case: engines.experiment(*case) for case in cases},
         lambda case, impacts: Otherwise(functor=case[-1]).files(impacts),
         SCRIPT,
         lambda place: [
