@@ -1,4 +1,7 @@
-"""What many tests assert: that a call is refused in one line, that the text of a figure is seen."""
+"""What many tests assert: that a call is refused in one line, that the text of a figure is seen.
+
+And what many tests strike: a ball of steel on a floor of steel, as objects and as a file.
+"""
 
 import itertools
 import re
@@ -9,6 +12,25 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 import carom
+
+BALL = carom.Sphere(radius="5 mm", material="steel")
+FLOOR = carom.HalfSpace(material="steel")
+PAIR = carom.Pair(BALL, FLOOR, friction=0.2)
+CASE = """\
+friction = 0.2
+speed = "2 m/s"
+angle = "30 deg"
+[first]
+radius = "5 mm"
+material = "steel"
+"""
+
+
+def experiment(**changed):
+    """Return impacts that an engine is asked for: of linear springs, in 1000 steps."""
+    given = {"pair": PAIR, "law": carom.dem.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
+    given |= {"tangential_speed": (0.005, -0.02), "spin": (0.0, 3.0)}
+    return carom.verify.Experiment(**(given | changed))
 
 
 def refused(words, function, *given, **named):

@@ -160,11 +160,6 @@ def fitted_friction(seen):
     return float(row.locator("td").nth(2).inner_text())
 
 
-def expecting_refusals(seen):
-    """Let the browser tell of what a server refuses."""
-    seen.trouble[:] = [line for line in seen.trouble if "400" not in line]
-
-
 BAD = {
     "text.csv": b"once upon a time\nthere was a ball\n",
     "columns.csv": b"colour,size\n1,2\n3,4\n",
@@ -224,7 +219,7 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
         assert seen.until(lambda: fitted_friction(seen)) == pytest.approx(FRICTION, rel=0.02)
         assert seen.page.inner_text("#fit-notice") == ""
     assert seen.notice() == ""
-    expecting_refusals(seen)
+    seen.trouble[:] = [line for line in seen.trouble if "400" not in line]  # of what is refused
 
 
 def test_the_last_of_file_and_data_set_counts(visit):
@@ -251,8 +246,7 @@ def test_the_last_of_file_and_data_set_counts(visit):
 def test_a_fit_is_drawn_in_one_view_without_anything_cut(visit, width):
     seen = opened(visit("?data=kharaz2001", width=width, alone=True), "fit-panel")
     seen.page.wait_for_selector("#fit .carom-fit-residual .main-svg", state="attached")
-    wide = seen.page.evaluate("document.documentElement.scrollWidth")
-    assert wide <= width
+    assert seen.page.evaluate("document.documentElement.scrollWidth") <= width
     boxes = seen.page.evaluate(
         "[...document.querySelectorAll('#fit .carom-cell, #fit table')].map(each => {"
         " const {left, right, top, bottom} = each.getBoundingClientRect();"

@@ -26,11 +26,6 @@ def hit_of(given):
     return carom.impact(pair, speed=float(given["speed"]), angle=angle, spin=float(given["spin"]))
 
 
-def controls(seen):
-    """What the controls say."""
-    return {name: seen.page.input_value(f"#{name}") for name in BODIES}
-
-
 def checked(seen):
     words = "[...document.querySelectorAll('#laws input:checked')].map(each => each.value)"
     return seen.page.evaluate(words)
@@ -40,7 +35,7 @@ def test_a_link_restores_everything_in_a_fresh_browser(visit):
     words = [*BODIES.items(), *(("law", law) for law in LAWS), ("data", DATA)]
     query = urlencode([*words, ("time", "0.25"), ("pace", "10"), ("theme", "dark")])
     seen, hit = visit(f"?{query}", fresh=True), hit_of(BODIES)
-    assert controls(seen) == BODIES
+    assert {name: seen.page.input_value(f"#{name}") for name in BODIES} == BODIES
     assert checked(seen) == list(LAWS)
     assert seen.number(BEFORE) == pytest.approx(hit.psi_in, rel=1e-5)
     assert seen.number(AFTER) == pytest.approx(hit.psi_out, rel=1e-5)

@@ -32,13 +32,8 @@ def faults(words, width, height):
 @pytest.mark.parametrize(
     "query",
     [
-        "",
-        "angle=2",
-        "angle=0",
-        "friction=0",
-        "restitution=0.7&angle=15",
-        "against=sphere&second_radius=5&angle=20",
-        "against=cup&second_radius=7&angle=20",
+        *("", "angle=2", "angle=0", "friction=0", "restitution=0.7&angle=15"),
+        *("against=sphere&second_radius=5&angle=20", "against=cup&second_radius=7&angle=20"),
         "given=numbers&psi=-1.5&chi=1.9",
     ],
 )
@@ -69,9 +64,7 @@ def picture(page, part, share, colors, width=420, height=360):
     masks = {}
     for name, color in zip(colors, found["colors"], strict=True):
         rgb = [int(pair, 16) for pair in re.findall("..", color.lstrip("#"))]
-        masks[name] = (np.abs(pixels[..., :3] - np.array(rgb)).max(axis=-1) < 8) & (
-            pixels[..., 3] > 200
-        )
+        masks[name] = (np.abs(pixels[..., :3] - rgb).max(axis=-1) < 8) & (pixels[..., 3] > 200)
     return masks
 
 

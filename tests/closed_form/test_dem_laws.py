@@ -4,20 +4,16 @@ import numpy as np
 import pytest
 from tests.oracles.arcs import Arcs
 
-import carom
+from carom import dem
 
 CHI = 1.4412
 DURATION = 2.94327518432470  # of Hertz's contact, in d_max/V_1
 VARIANTS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
 ELASTIC = [
-    carom.dem.LinearSpring(),
-    carom.dem.LinearSpring(2 / 7),
-    carom.dem.HertzLinearHistory(),
-    *(carom.dem.LammpsMindlin(name) for name in VARIANTS),
-    carom.dem.LiggghtsHertz(),
-    carom.dem.EdemHertzMindlin(),
-    carom.dem.StrongeLaw(),
-    carom.dem.ThorntonLaw(),
+    *(dem.LinearSpring(), dem.LinearSpring(2 / 7), dem.HertzLinearHistory()),
+    *(dem.LammpsMindlin(name) for name in VARIANTS),
+    *(dem.LiggghtsHertz(), dem.EdemHertzMindlin(), dem.StrongeLaw()),
+    dem.ThorntonLaw(),
 ]
 
 
@@ -25,7 +21,7 @@ ELASTIC = [
 @pytest.mark.parametrize(("chi", "rho"), [(CHI, 1.0), (0.4, 1.0), (1.75, 2.3), (3.0, 0.7)])
 def test_bilinear_springs_are_arcs_of_sines(chi, rho, restitution):
     psi = np.array([0.05, 0.2, 0.45, 0.8, 1.1, 1.6, 2.2, 3.1, 4.0, 5.5]) * chi / CHI
-    law = carom.dem.StrongeLaw(rho * 4 * chi / 7, restitution)
+    law = dem.StrongeLaw(rho * 4 * chi / 7, restitution)
     expected = [Arcs(chi, rho, restitution).rebound(each) for each in psi]
     assert np.allclose(law.rebound(psi, chi), expected, rtol=0.0, atol=2e-8)
 
@@ -33,10 +29,8 @@ def test_bilinear_springs_are_arcs_of_sines(chi, rho, restitution):
 def test_springs_of_two_sevenths_return_all_of_what_sticks():
     """Half a period of both springs: psi_2 = -psi_1 up to 2 chi, then gross sliding."""
     psi = np.linspace(0.0, 9.0, 40)
-    expected = carom.dem.HardSphere(1.0).rebound(psi, CHI)
-    assert np.allclose(
-        carom.dem.LinearSpring(2 / 7).rebound(psi, CHI), expected, rtol=0.0, atol=1e-8
-    )
+    expected = dem.HardSphere(1.0).rebound(psi, CHI)
+    assert np.allclose(dem.LinearSpring(2 / 7).rebound(psi, CHI), expected, rtol=0.0, atol=1e-8)
 
 
 @pytest.mark.parametrize("ratio", [0.2, 2 / 7, 0.8235, 1.0])
@@ -44,7 +38,7 @@ def test_linear_spring_at_grazing_of_the_normal(ratio):
     """It sticks all but to the end: cos(pi sqrt(2 chi rho)) is left, rho = k_t/(k_n kappa)."""
     kappa, psi = 0.8, 1e-4
     expected = np.cos(np.pi * np.sqrt(2 * CHI * ratio / kappa))
-    found = carom.dem.LinearSpring(ratio).rebound(psi, CHI, kappa=kappa) / psi
+    found = dem.LinearSpring(ratio).rebound(psi, CHI, kappa=kappa) / psi
     assert found == pytest.approx(expected, abs=3e-4)
 
 
@@ -53,7 +47,7 @@ def test_constant_spring_beside_hertz_at_grazing_of_the_normal(stiffness):
     """U'' = -(15/4) chi s U over the whole contact."""
     psi = 1e-4
     expected = np.cos(DURATION * np.sqrt(3.75 * CHI * stiffness))
-    found = carom.dem.HertzLinearHistory(stiffness).rebound(psi, CHI) / psi
+    found = dem.HertzLinearHistory(stiffness).rebound(psi, CHI) / psi
     assert found == pytest.approx(expected, abs=3e-3)
 
 
@@ -68,18 +62,18 @@ def test_gross_sliding(law, chi):
 @pytest.mark.parametrize("restitution", [0.9, 0.4])
 def test_gross_sliding_of_bilinear_springs(restitution):
     psi = np.array([9.0, 20.0])
-    out = carom.dem.StrongeLaw(restitution=restitution).rebound(psi, CHI)
+    out = dem.StrongeLaw(restitution=restitution).rebound(psi, CHI)
     assert np.allclose(out, psi - 2 * CHI * (1 + restitution), rtol=0.0, atol=1e-8)
 
 
 def test_hard_spheres():
     """Foerster et al. (1994): psi_2 = -beta_0 psi_1, or sliding, 2 chi (1 + e); odd."""
-    law, most = carom.dem.HardSphere(0.4, restitution=0.9), 2 * CHI * 1.9
+    law, most = dem.HardSphere(0.4, restitution=0.9), 2 * CHI * 1.9
     psi = np.array([0.0, 0.5, most / 1.4 - 1e-9, most / 1.4 + 1e-9, 8.0])
     expected = np.array([0.0, -0.2, -0.4 * psi[2], psi[3] - most, 8.0 - most])
     assert np.allclose(law.rebound(psi, CHI), expected, rtol=0.0, atol=1e-14)
     assert np.array_equal(law.rebound(-psi, CHI), -law.rebound(psi, CHI))
-    assert np.array_equal(carom.dem.HardSphere().rebound([1.0, 7.0], CHI), [0.0, 7.0 - 4 * CHI])
+    assert np.array_equal(dem.HardSphere().rebound([1.0, 7.0], CHI), [0.0, 7.0 - 4 * CHI])
 
 
 def final_speed(law):
@@ -95,9 +89,9 @@ def test_dashpots_leave_the_restitution_asked_for(restitution):
 
     Thornton's is a fit.
     """
-    for make in (carom.dem.LinearSpring, carom.dem.LammpsMindlin, carom.dem.LiggghtsHertz):
+    for make in (dem.LinearSpring, dem.LammpsMindlin, dem.LiggghtsHertz):
         assert final_speed(make(restitution=restitution)) == pytest.approx(restitution, abs=2e-5)
-    yade = carom.dem.YadeMindlin(restitution=restitution)
+    yade = dem.YadeMindlin(restitution=restitution)
     assert final_speed(yade) == pytest.approx(restitution, abs=1e-3)
 
 
@@ -107,7 +101,7 @@ def test_tsuji_leaves_another_restitution(restitution):
     powers = [1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218]
     zeta = np.polynomial.Polynomial(powers)(restitution) / np.sqrt(5)
     left = np.exp(-np.pi * zeta / np.sqrt(1 - zeta**2))
-    law = carom.dem.LammpsMindlin(restitution=restitution, damping="tsuji")
+    law = dem.LammpsMindlin(restitution=restitution, damping="tsuji")
     assert final_speed(law) == pytest.approx(left, abs=2e-5)
     if restitution == 0.7:
         assert left == pytest.approx(0.7777, abs=5e-5)
@@ -116,11 +110,9 @@ def test_tsuji_leaves_another_restitution(restitution):
 def test_laws_that_are_one():
     """Stronge's at e = 1 is the linear spring, and without damping so are the three of Hertz."""
     psi = np.linspace(-6.0, 6.0, 41)
-    assert np.array_equal(
-        carom.dem.StrongeLaw().rebound(psi, CHI), carom.dem.LinearSpring().rebound(psi, CHI)
-    )
-    mindlin = carom.dem.LammpsMindlin("mindlin").rebound(psi, CHI)
-    for law in (carom.dem.LiggghtsHertz(), carom.dem.EdemHertzMindlin()):
+    assert np.array_equal(dem.StrongeLaw().rebound(psi, CHI), dem.LinearSpring().rebound(psi, CHI))
+    mindlin = dem.LammpsMindlin("mindlin").rebound(psi, CHI)
+    for law in (dem.LiggghtsHertz(), dem.EdemHertzMindlin()):
         assert np.array_equal(law.rebound(psi, CHI), mindlin)
-    given = carom.dem.LinearSpring(0.8).rebound(psi, CHI, kappa=0.8)
-    assert np.allclose(given, carom.dem.LinearSpring().rebound(psi, CHI), rtol=0.0, atol=1e-9)
+    given = dem.LinearSpring(0.8).rebound(psi, CHI, kappa=0.8)
+    assert np.allclose(given, dem.LinearSpring().rebound(psi, CHI), rtol=0.0, atol=1e-9)

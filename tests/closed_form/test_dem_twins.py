@@ -11,9 +11,12 @@ from scipy.integrate import quad
 from tests.oracles import dem_codes as codes, dem_softening as softening, dem_steps as steps
 from tests.oracles.dem_contact import CHI, KAPPA, MASS
 
-import carom
+from carom import dem
 
-DAMPED = codes.Code(normal_dashpot=codes.normal_dashpot)
+FULL = {"normal_dashpot": codes.normal_dashpot}
+SOFT = FULL | {"stiffness": lambda d: 2 / 3 * codes.mindlin(d)}
+SOFT |= {"dashpot": lambda d: 0.5 * codes.normal_dashpot(d)}
+DAMPED = codes.Code(**FULL)
 HALF = {"restitution": codes.E, "tangential_damping": 0.5}
 CODES = {
     "mindlin": codes.Code(),
@@ -24,35 +27,22 @@ CODES = {
 ALL = (0.3, 0.8, 1.3, 3.0, 4.6)
 
 CASES = [
-    *((carom.dem.LammpsMindlin(name), code, ALL) for name, code in CODES.items()),
+    *((dem.LammpsMindlin(name), code, ALL) for name, code in CODES.items()),
     *(
-        (
-            carom.dem.LammpsMindlin(name, restitution=codes.E),
-            replace(code, normal_dashpot=codes.normal_dashpot),
-            (0.3, 3.0),
-        )
+        (dem.LammpsMindlin(name, restitution=codes.E), replace(code, **FULL), (0.3, 3.0))
         for name, code in CODES.items()
     ),
     *(
-        (
-            carom.dem.LammpsMindlin(name, stiffness=2 / 3, **HALF),
-            replace(
-                code,
-                stiffness=lambda d: 2 / 3 * codes.mindlin(d),
-                normal_dashpot=codes.normal_dashpot,
-                dashpot=lambda d: 0.5 * codes.normal_dashpot(d),
-            ),
-            (0.8, 1.3, 4.6),
-        )
+        (dem.LammpsMindlin(name, stiffness=2 / 3, **HALF), replace(code, **SOFT), (0.8, 1.3, 4.6))
         for name, code in CODES.items()
     ),
     (
-        carom.dem.LammpsMindlin("mindlin", restitution=codes.E, damping="tsuji"),
+        dem.LammpsMindlin("mindlin", restitution=codes.E, damping="tsuji"),
         codes.Code(normal_dashpot=codes.tsuji_dashpot),
         (0.8, 3.0),
     ),
     (
-        carom.dem.HertzLinearHistory(1.2, **HALF),
+        dem.HertzLinearHistory(1.2, **HALF),
         replace(
             DAMPED,
             stiffness=lambda d: 1.2 * codes.mindlin(codes.DEEPEST),
@@ -61,7 +51,7 @@ CASES = [
         ALL,
     ),
     (
-        carom.dem.LinearSpring(0.5, **HALF),
+        dem.LinearSpring(0.5, **HALF),
         codes.Code(
             stiffness=lambda d: 0.5 * codes.LINEAR,
             elastic=lambda d: codes.LINEAR * d,
@@ -71,11 +61,11 @@ CASES = [
         ALL,
     ),
     (
-        carom.dem.LiggghtsHertz(codes.E),
+        dem.LiggghtsHertz(codes.E),
         replace(DAMPED, dashpot=codes.tangential_dashpot, limits_sum=False),
         ALL,
     ),
-    (carom.dem.EdemHertzMindlin(codes.E), replace(DAMPED, dashpot=codes.tangential_dashpot), ALL),
+    (dem.EdemHertzMindlin(codes.E), replace(DAMPED, dashpot=codes.tangential_dashpot), ALL),
 ]
 
 
@@ -87,21 +77,21 @@ def test_law_is_what_the_code_defines(law, code, psi):
 
 VARIANTS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
 OF_HERTZ = [
-    *((carom.dem.LammpsMindlin(name), lambda name=name: steps.Lammps(name)) for name in VARIANTS),
+    *((dem.LammpsMindlin(name), lambda name=name: steps.Lammps(name)) for name in VARIANTS),
     *(
         (
-            carom.dem.LammpsMindlin(name, restitution=steps.E, tangential_damping=0.6),
+            dem.LammpsMindlin(name, restitution=steps.E, tangential_damping=0.6),
             lambda name=name: steps.Lammps(name, 0.6, damped=True),
         )
         for name in VARIANTS
     ),
-    (carom.dem.LiggghtsHertz(steps.E), lambda: steps.Liggghts(limits_sum=False)),
-    (carom.dem.EdemHertzMindlin(steps.E), lambda: steps.Liggghts(limits_sum=True)),
+    (dem.LiggghtsHertz(steps.E), lambda: steps.Liggghts(limits_sum=False)),
+    (dem.EdemHertzMindlin(steps.E), lambda: steps.Liggghts(limits_sum=True)),
 ]
 OF_SPRINGS = [
-    (carom.dem.LinearSpring(0.4), lambda: steps.Springs(0.4)),
-    (carom.dem.LinearSpring(0.4, steps.E, 0.5), lambda: steps.Springs(0.4, 0.5, damped=True)),
-    (carom.dem.StrongeLaw(0.9, steps.E), lambda: steps.Springs(0.9, bilinear=True)),
+    (dem.LinearSpring(0.4), lambda: steps.Springs(0.4)),
+    (dem.LinearSpring(0.4, steps.E, 0.5), lambda: steps.Springs(0.4, 0.5, damped=True)),
+    (dem.StrongeLaw(0.9, steps.E), lambda: steps.Springs(0.9, bilinear=True)),
 ]
 PSI = (0.2, 0.7, 1.1, 2.5, 4.5)
 
@@ -125,35 +115,15 @@ def test_steps_of_springs(law, code):
 
 
 Walton, K = softening.Walton, KAPPA * softening.K_1
-Braun = carom.dem.WaltonBraunLaw
+Braun = dem.WaltonBraunLaw
 SOLID, LIGHT = 3.5, 9.0  # m_n/m_t: of a solid sphere; of one that turns back more often
 SOFTENING = [
-    (carom.dem.ThorntonLaw(), softening.Thornton(), SOLID, (0.3, 0.8, 1.3, 3.0, 4.6)),
-    (carom.dem.ThorntonLaw(), softening.Thornton(), LIGHT, (0.3, 0.8, 1.5, 3.5)),
-    (
-        carom.dem.WaltonBraunLaw(),
-        softening.Walton(1.0, KAPPA * softening.K_1),
-        SOLID,
-        (0.3, 0.8, 1.3, 3.0),
-    ),
-    (
-        carom.dem.WaltonBraunLaw(),
-        softening.Walton(1.0, KAPPA * softening.K_1),
-        LIGHT,
-        (0.3, 1.5, 3.5),
-    ),
-    (
-        carom.dem.WaltonBraunLaw(restitution=0.7),
-        softening.Walton(0.7, KAPPA * softening.K_1),
-        SOLID,
-        (0.3, 1.3, 3.0),
-    ),
-    (
-        carom.dem.WaltonBraunLaw(0.5, 0.7),
-        softening.Walton(0.7, 0.5 * softening.K_1),
-        LIGHT,
-        (0.3, 1.5),
-    ),
+    (dem.ThorntonLaw(), softening.Thornton(), SOLID, (0.3, 0.8, 1.3, 3.0, 4.6)),
+    (dem.ThorntonLaw(), softening.Thornton(), LIGHT, (0.3, 0.8, 1.5, 3.5)),
+    (Braun(), Walton(1.0, K), SOLID, (0.3, 0.8, 1.3, 3.0)),
+    (Braun(), Walton(1.0, K), LIGHT, (0.3, 1.5, 3.5)),
+    (Braun(restitution=0.7), Walton(0.7, K), SOLID, (0.3, 1.3, 3.0)),
+    (Braun(0.5, 0.7), Walton(0.7, 0.5 * softening.K_1), LIGHT, (0.3, 1.5)),
 ]
 
 
@@ -171,5 +141,5 @@ def test_walton_braun_all_but_slides(restitution):
     """While N grows T keeps up with it: K_0 theta V_x = mu dN/dt, 1 - T/(mu N) = (cos t/psi)^3."""
     psi, chi = 20.0, 1.4
     missing = quad(lambda c: 2 * chi * (c / (psi - 2 * chi * (1 - c))) ** 3, 0, 1)[0]
-    out = carom.dem.WaltonBraunLaw(restitution=restitution).rebound(psi, chi)
+    out = dem.WaltonBraunLaw(restitution=restitution).rebound(psi, chi)
     assert out - (psi - 2 * chi * (1 + restitution)) == pytest.approx(missing, rel=0.01)

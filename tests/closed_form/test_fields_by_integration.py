@@ -138,8 +138,7 @@ def test_fields_against_the_point_force_solution(name):
     psi, chi, index, part = MOMENTS[name]
     hit = impact_with(psi, chi)
     phase = hit.solution.phases[index]
-    time = phase.start + part * (phase.end - phase.start)
-    compare(hit, time)
+    compare(hit, phase.start + part * (phase.end - phase.start))
 
 
 @pytest.mark.parametrize(("ball", "plate"), [(STEEL, GLASS), (GLASS, RUBBER)])

@@ -12,7 +12,6 @@ from carom.fitting.problem import DEGREES, RobustLoss, scatter
 MU, E = 0.15, 1.0
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.3)
-NORMAL = np.linspace(0.5, 3.0, 20)
 
 
 def sliding(seed=0, sigma=0.01, rows=20, **columns):
@@ -49,9 +48,8 @@ def test_errors_from_the_scatter_give_student_t():
     data = sliding(seed=1)
     found = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
     slope, per_sigma = line(data, 1.0)
-    residual = (
-        data["tangential_speed"] - data["tangential_speed_out"] - slope * data["normal_speed"]
-    )
+    lost = data["tangential_speed"] - data["tangential_speed_out"]
+    residual = lost - slope * data["normal_speed"]
     scatter = np.sqrt((residual**2).sum() / 19)
     reach = t.ppf(0.975, 19) * scatter * per_sigma / (1.0 + E)
     assert found.friction.high - found.friction.low == pytest.approx(2.0 * reach, rel=1e-2)
@@ -142,9 +140,8 @@ def test_criterion_of_known_errors_is_that_of_akaike():
     data = sliding(tangential_speed_out_error=np.full(20, 0.01))
     found = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
     slope, _ = line(data, 0.01)
-    residual = (
-        data["tangential_speed"] - data["tangential_speed_out"] - slope * data["normal_speed"]
-    )
+    lost = data["tangential_speed"] - data["tangential_speed_out"]
+    residual = lost - slope * data["normal_speed"]
     expected = -2.0 * norm.logpdf(residual, 0.0, 0.01).sum() + 2.0 * 20.0 / 18.0
     for law in ("exact", "rigid Coulomb"):
         assert found.comparison[law].criterion == pytest.approx(expected, rel=1e-8)

@@ -34,7 +34,7 @@ def test_hollow_and_given_inertia():
     assert shell.gyration_ratio == pytest.approx(2 / 3, rel=2e-6)
     assert Sphere(radius=2.0, material=STEEL, gyration_radius=1.0).gyration_ratio == 0.25
     assert Sphere(radius=2.0, material=STEEL, inner_radius=1.0).mass == close(
-        4 / 3 * math.pi * 7 * 7850
+        28 / 3 * math.pi * 7850
     )
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 import carom
 from carom.dem import lattice
@@ -25,12 +26,8 @@ def worst(springs, steps, e=1.0):
 @pytest.mark.parametrize(
     ("springs", "steps", "e", "bound"),
     [
-        (32, 50, 1.0, 2.5e-3),
-        (32, 100, 1.0, 1.3e-3),
-        (32, 400, 1.0, 1e-3),
-        (64, 100, 1.0, 6.5e-4),
-        (64, 400, 1.0, 3.5e-4),
-        (32, 50, 0.9, 4e-3),
+        *((32, 50, 1.0, 2.5e-3), (32, 100, 1.0, 1.3e-3), (32, 400, 1.0, 1e-3)),
+        *((64, 100, 1.0, 6.5e-4), (64, 400, 1.0, 3.5e-4), (32, 50, 0.9, 4e-3)),
         (32, 100, 0.7, 1.5e-3),
     ],
 )
@@ -110,16 +107,13 @@ def test_sliding_throughout_is_exact_but_for_the_steps():
     history = carom.dem.ExactContactLaw(16).history(9.0, 1.2, steps=100)
     e = -history["normal_velocity"][-1]
     assert history["psi"][-1] == pytest.approx(9.0 - 2.4 * (1.0 + e), abs=2e-3)
-    np.testing.assert_allclose(
-        history["tangential_force"], history["normal_force"], atol=1e-12
-    )  # mu N
+    assert_allclose(history["tangential_force"], history["normal_force"], atol=1e-12)  # mu N
 
 
 @pytest.mark.parametrize("e", [0.9, 0.5])
 def test_it_leaves_the_restitution_it_is_made_for(e):
-    speed = carom.dem.ExactContactLaw(32, restitution=e).history(0.0, 1.2, steps=400)[
-        "normal_velocity"
-    ]
+    law = carom.dem.ExactContactLaw(32, restitution=e)
+    speed = law.history(0.0, 1.2, steps=400)["normal_velocity"]
     assert -speed[-1] == pytest.approx(e, abs=2e-4)
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import carom
+from carom import HalfSpace, Material, Pair, Sphere
 from carom.bodies.cases import pair_of
 from carom.bodies.kinematics import inertia
 from carom.verify.pack import VERSION
@@ -25,37 +25,22 @@ sys.path.insert(0, str(STUDIES))
 from pack_references import ERROR, references, uncertain, unit_tests  # noqa: E402
 
 SETS = (
-    "wall",
-    "wall_spin",
-    "wall_mixed",
-    "rigid_wall",
-    "equal_spheres",
-    "unequal_sizes",
-    "unequal_materials",
-    "chung_ooi/test4_aluminium_oxide",
-    "chung_ooi/test4_aluminium_alloy",
+    *("wall", "wall_spin", "wall_mixed", "rigid_wall", "equal_spheres", "unequal_sizes"),
+    *("unequal_materials", "chung_ooi/test4_aluminium_oxide", "chung_ooi/test4_aluminium_alloy"),
 )
 HISTORIES = ("normal", "stick_first", "slip_then_stick", "slip_back", "gross_slip")
 NUMBERS = ("reference.csv", "results.csv", "case.toml")
 DIGESTS = {"1": "779e70d5676c3fe238efa871ab6f371b1da69c3ed07638c87d5383ff87faaa88"}
 # psi_1, chi, psi_2: computed with 52 digits by tests/oracles/impact_solver.py
 DIGITS = [
-    (0.5, 0.875, "-0.35191335345597793398"),
-    (0.95, 1.0, "-0.59316152455702849548"),
-    (1.5, 1.0, "-1.0557824966308223059"),
-    (0.25, 1.16666666667, "-0.049191965785213556643"),
-    (1.5, 1.2069, "-0.79440053291112514329"),
-    (0.1, 1.4412, "0.020592955562262594601"),
-    (0.25, 1.4412, "0.041617490968917233567"),
-    (0.75, 1.4412, "0.014171291088085559129"),
-    (1.25, 1.4412, "-0.21879254872330970225"),
-    (2.5, 1.4412, "-1.1622621888640976908"),
-    (3.5, 1.4412, "-1.4773283001491401831"),
-    (4.5, 1.4412, "-1.2176802613236448658"),
-    (0.3, 1.75, "0.10978333041146198054"),
-    (0.9, 1.75, "0.27237120389064960665"),
-    (3.25, 1.75, "-1.1765310933593513679"),
-    (6.0, 1.75, "-1.0000000000000000000"),
+    *((0.5, 0.875, "-0.35191335345597793398"), (0.95, 1.0, "-0.59316152455702849548")),
+    *((1.5, 1.0, "-1.0557824966308223059"), (0.25, 1.16666666667, "-0.049191965785213556643")),
+    *((1.5, 1.2069, "-0.79440053291112514329"), (0.1, 1.4412, "0.020592955562262594601")),
+    *((0.25, 1.4412, "0.041617490968917233567"), (0.75, 1.4412, "0.014171291088085559129")),
+    *((1.25, 1.4412, "-0.21879254872330970225"), (2.5, 1.4412, "-1.1622621888640976908")),
+    *((3.5, 1.4412, "-1.4773283001491401831"), (4.5, 1.4412, "-1.2176802613236448658")),
+    *((0.3, 1.75, "0.10978333041146198054"), (0.9, 1.75, "0.27237120389064960665")),
+    *((3.25, 1.75, "-1.1765310933593513679"), (6.0, 1.75, "-1.0000000000000000000")),
 ]
 # row, F_n/P_max, F_t/(mu P_max), V_z/V_1, psi: from the Taylor series of the same solver
 STATES = {
@@ -225,9 +210,8 @@ def test_histories_against_thirty_digits(name):
         "contact_velocity": scales.tangential_speed,
     }
     for row, *state in STATES[name]:
-        assert table.numbers("time")[row] == pytest.approx(
-            row / 100 * table.numbers("time")[-1], rel=1e-11
-        )
+        time = table.numbers("time")
+        assert time[row] == pytest.approx(row / 100 * time[-1], rel=1e-11)
         for (column, unit), value in zip(units.items(), state, strict=True):
             off = abs(table.numbers(column)[row] - value * unit)
             assert off <= table.numbers(column + ERROR)[row], (row, column)
@@ -282,9 +266,7 @@ def test_errors_are_rounded_up():
 def test_solid_spheres_of_one_material_have_the_chi_that_the_pack_says():
     """nu = 0.5, 0.3 and 0: chi = (7/2)(1 - nu)/(2 - nu)."""
     for poisson, chi in ((0.5, 1.1667), (0.3, 1.4412), (0.0, 1.75)):
-        stuff = carom.Material(young=1e9, poisson=poisson, density=1000.0)
-        pair = carom.Pair(
-            carom.Sphere(radius=0.01, material=stuff), carom.HalfSpace(material=stuff), 0.2
-        )
+        stuff = Material(young=1e9, poisson=poisson, density=1000.0)
+        pair = Pair(Sphere(radius=0.01, material=stuff), HalfSpace(material=stuff), 0.2)
         assert pair.chi == pytest.approx(chi, abs=5e-5)
         assert f"{chi:g}" in frozen_files()["README.md"]

@@ -21,12 +21,10 @@ def sequence(psi, chi):
 @pytest.mark.parametrize(
     ("psi", "expected"),
     [
-        (0.5, [STICK, MINUS, GROSS_MINUS]),
-        (1.0, [STICK, MINUS, GROSS_MINUS]),
+        *((0.5, [STICK, MINUS, GROSS_MINUS]), (1.0, [STICK, MINUS, GROSS_MINUS])),
         (1.001, [GROSS_PLUS, STICK, MINUS, GROSS_MINUS]),
         (2.87, [GROSS_PLUS, STICK, MINUS, GROSS_MINUS]),
-        (2.88, [GROSS_PLUS, MINUS, GROSS_MINUS]),
-        (4.7, [GROSS_PLUS, MINUS, GROSS_MINUS]),
+        *((2.88, [GROSS_PLUS, MINUS, GROSS_MINUS]), (4.7, [GROSS_PLUS, MINUS, GROSS_MINUS])),
         (4.77, [GROSS_PLUS]),
     ],
 )

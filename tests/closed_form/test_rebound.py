@@ -75,10 +75,7 @@ def test_every_point_has_a_status():
     chi = [1.44, 1.44, -1.0, 1.44, 0.0]
     out, status = carom.rebound(psi, chi, return_status=True)
     assert status.tolist() == [
-        Status.SOLVED,
-        Status.PSI_NOT_FINITE,
-        Status.CHI_NOT_POSITIVE,
-        Status.PSI_NOT_FINITE,
+        *(Status.SOLVED, Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE, Status.PSI_NOT_FINITE),
         Status.CHI_NOT_POSITIVE,
     ]
     assert np.isfinite(out).tolist() == [True, False, False, False, False]

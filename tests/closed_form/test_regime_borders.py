@@ -62,20 +62,14 @@ def distances(points, found):
     return nearest
 
 
+def begins(words):
+    return lambda regime: regime.startswith(words)
+
+
 BORDERS = {
-    "1": (lambda a: a.startswith("stick"), lambda b: b.startswith("gross slip +"), 1.0, 0.0),
-    "2 chi": (
-        lambda a: a.startswith("gross slip +, stick"),
-        lambda b: b.startswith("gross slip +, slip -"),
-        0.0,
-        2.0,
-    ),
-    "4 chi - 1": (
-        lambda a: a == "gross slip +",
-        lambda b: b.startswith("gross slip +, "),
-        -1.0,
-        4.0,
-    ),
+    "1": (begins("stick"), begins("gross slip +"), 1.0, 0.0),
+    "2 chi": (begins("gross slip +, stick"), begins("gross slip +, slip -"), 0.0, 2.0),
+    "4 chi - 1": (lambda regime: regime == "gross slip +", begins("gross slip +, "), -1.0, 4.0),
 }
 
 

@@ -38,12 +38,8 @@ def test_progress_counts_the_rows():
 @pytest.mark.parametrize(
     ("psi", "chi", "named"),
     [
-        ([], [1.0], "psi_1"),
-        ([np.nan], [1.0], "psi_1"),
-        ([[1.0]], [1.0], "psi_1"),
-        ("fast", [1.0], "psi_1"),
-        ([1.0], [], "chi"),
-        ([1.0], [1.0, 0.0], "chi"),
+        *(([], [1.0], "psi_1"), ([np.nan], [1.0], "psi_1"), ([[1.0]], [1.0], "psi_1")),
+        *(("fast", [1.0], "psi_1"), ([1.0], [], "chi"), ([1.0], [1.0, 0.0], "chi")),
     ],
 )
 def test_bad_axes_are_refused_by_name(psi, chi, named):

@@ -130,9 +130,8 @@ def test_linear_spring_has_its_measured_error():
     result = score(springs, chi=CHI)
     assert not result.passed
     assert result.max_error == pytest.approx(0.1756, abs=1e-4)
-    assert score(
-        psi_table(PSI, linear_springs([1.0], PSI, CHI, 20_000)[0]), chi=CHI, tolerance=0.18
-    ).passed
+    table = psi_table(PSI, linear_springs([1.0], PSI, CHI, 20_000)[0])
+    assert score(table, chi=CHI, tolerance=0.18).passed
 
 
 def test_known_errors_are_found_where_they_are():

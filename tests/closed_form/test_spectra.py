@@ -122,9 +122,8 @@ def test_how_far_powers_of_a_sine_are_from_hertz_pulse(nu, most, where, impulse,
     def relative(f):
         return sine_power(nu, f) / sine_power(nu, 0.0)
 
-    ratio = brentq(lambda f: relative(f) - 0.5, 0.3, 1.5) / brentq(
-        lambda f: hertz(f) - 0.5, 0.3, 1.5
-    )
+    halves = [brentq(lambda f, of=of: of(f) - 0.5, 0.3, 1.5) for of in (relative, hertz)]
+    ratio = halves[0] / halves[1]
     assert ratio == pytest.approx(half, abs=1e-5)
     lobes = (
         -minimize_scalar(lambda f, of=of: -abs(of(f)), bounds=(1.6, 2.7), method="bounded").fun

@@ -41,8 +41,7 @@ def test_fast_relaxation_is_kelvin_voigt():
         lossy_rebounds(psi, chi, LossNumbers(Loss.RELAXING, theta, 0.1 / theta))
         for theta in (0.002, 0.001)
     )
-    first = np.abs(near.psi_out - viscous.psi_out)
-    assert np.max(first) < 3e-3
+    assert np.max(np.abs(near.psi_out - viscous.psi_out)) < 3e-3
     assert 2.0 * near.psi_out - far.psi_out == pytest.approx(viscous.psi_out, abs=2e-4)
     assert 2.0 * near.restitution - far.restitution == pytest.approx(viscous.restitution, abs=2e-6)
     assert 2.0 * near.shear_lost - far.shear_lost == pytest.approx(

@@ -6,13 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.fields.peaks import (
-    TENSION,
-    VON_MISES,
-    largest,
-    principal_stresses,
-    von_mises,
-)
+from carom.dimensionless.fields import peaks
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 
 STEEL = carom.Material(young="210 GPa", poisson=0.3, density=7850)
@@ -21,7 +15,6 @@ HIT = carom.impact(
     carom.Pair(BALL, carom.HalfSpace(material=STEEL), friction=0.2), speed=2.0, angle="30 deg"
 )
 STEEP = carom.impact(HIT.pair, speed=2.0, angle="75 deg")  # slides throughout
-
 
 TIMES = [0.1, 0.3, 0.48, 0.55, 0.7, 0.9]
 
@@ -94,10 +87,10 @@ def test_nothing_is_larger_than_the_largest(psi, chi, friction):
 
         given = {"friction": friction, "poisson": 0.3}
         stress = stresses(at, profile, **given)
-        worst = largest(VON_MISES, profile, **given)
-        pulled = largest(TENSION, profile, **given, deepest=0.0)
-        assert worst.value >= von_mises(stress).max()
-        assert pulled.value >= principal_stresses(stress[:2000])[:, 0].max()
+        worst = peaks.largest(peaks.VON_MISES, profile, **given)
+        pulled = peaks.largest(peaks.TENSION, profile, **given, deepest=0.0)
+        assert worst.value >= peaks.von_mises(stress).max()
+        assert pulled.value >= peaks.principal_stresses(stress[:2000])[:, 0].max()
         assert worst.y == pytest.approx(0.0, abs=1e-6)
         assert pulled.y == pytest.approx(0.0, abs=1e-6)
 
@@ -116,11 +109,7 @@ def test_maxima_of_a_small_contact():
 def test_maxima_do_not_depend_on_the_grid():
     """They belong to the body: the same for a grid, another grid, and one point."""
     time = 0.6 * HIT.duration
-    found = [
-        HIT.stress(time),
-        HIT.stress(time, x=[0.0], z=[1.0]),
-        HIT.stress(time, points=[[0] * 3]),
-    ]
+    found = [HIT.stress(time), HIT.stress(time, x=[0], z=[1]), HIT.stress(time, points=[[0] * 3])]
     for name in ("max_von_mises", "max_von_mises_z", "max_tension", "max_tension_x"):
         assert len({float(dataset[name]) for dataset in found}) == 1
 

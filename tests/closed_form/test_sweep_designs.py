@@ -6,8 +6,9 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
+from tests.checks import refused
 
-from carom import InputError, sweep
+from carom import sweep
 from carom.sweeps.designs import Grid, LatinHypercube
 from carom.sweeps.tables import Table
 
@@ -153,14 +154,10 @@ def test_a_row_below_the_head_without_numbers_is_no_case(text, words, tmp_path):
     path = tmp_path / "cases.csv"
     path.write_text(text)
     frame = pd.read_csv(path, sep=None, engine="python").rename(columns=str.strip)
+    in_rows = re.sub(r"line (\d)", lambda line: f"row {int(line[1]) - 1}", words)
     for source in (path, frame, {name: list(column) for name, column in frame.items()}):
-        expected = words if source is path else re.sub(r"line (\d)", _row, words)
-        with pytest.raises(InputError, match=expected):
-            Table(source)
-
-
-def _row(line):
-    return f"row {int(line[1]) - 1}"
+        expected = words if source is path else in_rows
+        refused(expected, Table, source)
 
 
 def test_rows_that_hold_numbers_may_have_units_of_their_own():
@@ -230,8 +227,7 @@ CUBE = {"friction": (0.1, 0.2)}
     ],
 )
 def test_what_is_no_design_is_refused_in_a_line(make, message):
-    with pytest.raises(InputError, match=message):
-        make()
+    refused(message, make)
 
 
 @pytest.mark.parametrize("given", ["glass", np.array("glass"), np.array(["glass"])])
@@ -245,5 +241,4 @@ def test_one_name_is_an_axis_of_one(given):
 def test_what_is_no_table_is_refused(tmp_path, text):
     path = tmp_path / "cases.csv"
     path.write_text(text)
-    with pytest.raises(InputError, match="table: "):
-        Table(path)
+    refused("table: ", Table, path)

@@ -11,6 +11,7 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import beta, gamma, hyp2f1, rgamma
@@ -141,8 +142,8 @@ def test_4_gauss_and_gegenbauer_are_one_solution(chi):
     for v in (0.95, 0.6, 0.2):
         gegenbauer = float(mp.hyp2f1(-n, n + 0.2, 0.6, (1 - v) / 2))  # (4.9)
         gauss = float(mp.hyp2f1(a, b, 0.6, 1 - v * v))  # (4.5)
-        np.testing.assert_allclose(v * gauss, gegenbauer, rtol=1e-9, atol=1e-11)
-        np.testing.assert_allclose(stick.psi(v), 0.01 * gegenbauer, rtol=1e-9, atol=1e-13)
+        assert_allclose(v * gauss, gegenbauer, rtol=1e-9, atol=1e-11)
+        assert_allclose(stick.psi(v), 0.01 * gegenbauer, rtol=1e-9, atol=1e-13)
     assert stick.psi(0.0) == pytest.approx(0.01 * turning(chi), rel=1e-9)
 
 
@@ -173,9 +174,7 @@ def test_retracing_and_the_second_solution():
         assert [phase.kind for phase in below] == ["stick"] != [phase.kind for phase in beyond]
     x = x[1:]
     h, slope, bend = x**0.4, 0.4 * x**-0.6, -0.24 * x**-1.6  # (19) at chi = 3/2
-    np.testing.assert_allclose(
-        10 * x * (1 - x) * bend + 3 * (2 - 7 * x) * slope + 6 * h, 0, atol=1e-9
-    )
+    assert_allclose(10 * x * (1 - x) * bend + 3 * (2 - 7 * x) * slope + 6 * h, 0, atol=1e-9)
 
 
 @pytest.mark.parametrize(("psi", "chi"), [(2.0, 1.44), (1.2, 0.7), (5.0, 4.3)])
@@ -188,7 +187,7 @@ def test_5_stick_after_gross_slip(psi, chi):
     assert stick.force(v) == pytest.approx(2 / 3 * (1 - v * v) ** 0.6)
     own = Stick.from_touch(1e-3, chi)
     areas = [own.psi(u) * stick.force(u) - own.force(u) * stick.psi(u) for u in (v, v / 2, 0.0)]
-    np.testing.assert_allclose(areas, areas[0], rtol=1e-9)
+    assert_allclose(areas, areas[0], rtol=1e-9)
 
 
 @pytest.mark.parametrize(("psi", "chi"), [(0.6, 1.44), (0.5, 1.75), (0.5, 0.3)])
@@ -230,7 +229,7 @@ def test_8_work_of_slip_is_pressure_times_slip():
         assert 4 / pi * power == pytest.approx((b - a) ** 2 * (2 * b + a) / 3)  # (8.3), (8.6)
     history = carom.solve(2.0, 1.44).history(50)
     total = history.psi**2 / 2 + history.stored + history.dissipated
-    np.testing.assert_allclose(total, 2.0, rtol=1e-12)
+    assert_allclose(total, 2.0, rtol=1e-12)
 
 
 def test_10_a_disc_is_a_row_of_points_at_imaginary_depths():
@@ -254,9 +253,7 @@ def test_11_losses():
     assert viscous_loss(1 - 1e-6) * slope == pytest.approx(1e-6, rel=1e-4)  # (11.3)
     law, border = carom.KelvinVoigt(restitution=0.7), 2.0 * 1.7 - 0.7
     slides = border + np.array([0.0, 1.0])
-    np.testing.assert_allclose(
-        carom.rebound(slides, 1.0, losses=law), slides - 3.4, atol=1e-12
-    )  # (11.7)
+    assert_allclose(carom.rebound(slides, 1.0, losses=law), slides - 3.4, atol=1e-12)  # (11.7)
     assert carom.rebound(border - 0.01, 1.0, losses=law) > border - 0.01 - 3.4 + 1e-6
     assert carom.solve(5.0, 1.0, losses=law).shear_lost == pytest.approx(1.0 - 0.7**2)  # (11.8)
     y = 1e-3**0.4
@@ -309,11 +306,11 @@ def test_13_impulses_in_the_plane_and_in_space():
     after = carom.collide(SPHERES, velocity1=v1, normal=n)
     one_plus = 1 - hit.psi_out / hit.psi_in
     impulse = 2 * SPHERES.normal_mass * n + one_plus * SPHERES.tangential_mass * (v1 - n)
-    np.testing.assert_allclose(after.velocity1, v1 - impulse / SPHERES.first.mass, atol=1e-8)
-    np.testing.assert_allclose(after.velocity2, impulse / SPHERES.second.mass, atol=1e-8)
+    assert_allclose(after.velocity1, v1 - impulse / SPHERES.first.mass, atol=1e-8)
+    assert_allclose(after.velocity2, impulse / SPHERES.second.mass, atol=1e-8)
     for spin, body in ((after.spin1, SPHERES.first), (after.spin2, SPHERES.second)):
         lever = body.radius / (body.mass * body.gyration_ratio * body.radius**2)
-        np.testing.assert_allclose(spin, -lever * np.cross(n, impulse), atol=1e-5)
+        assert_allclose(spin, -lever * np.cross(n, impulse), atol=1e-5)
 
 
 def test_14_kernels_of_like_and_unlike_materials():

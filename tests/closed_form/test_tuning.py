@@ -7,6 +7,7 @@ import pytest
 from tests.oracles.springs import linear_springs
 
 import carom
+from carom import dem
 from carom.verify import step_error, tune
 from carom.verify.tuning import FREE, called
 
@@ -15,15 +16,11 @@ KAPPA = 4 * CHI / 7
 PSI = np.linspace(0.0, 4 * CHI, 61)[1:]  # as by default
 SOME, FEW = PSI[3::4], PSI[3::6]
 ONE_EACH = (
-    carom.dem.LinearSpring(),
-    carom.dem.HertzLinearHistory(),
-    carom.dem.LammpsMindlin("mindlin"),
-    carom.dem.LammpsMindlin("mindlin/force"),
-    carom.dem.LammpsMindlin("mindlin_rescale"),
-    carom.dem.LammpsMindlin("mindlin_rescale/force"),
-    carom.dem.HardSphere(0.4),
+    *(dem.LinearSpring(), dem.HertzLinearHistory(), dem.LammpsMindlin("mindlin")),
+    *(dem.LammpsMindlin("mindlin/force"), dem.LammpsMindlin("mindlin_rescale")),
+    *(dem.LammpsMindlin("mindlin_rescale/force"), dem.HardSphere(0.4)),
 )
-FIXED = (carom.dem.ThorntonLaw(), carom.dem.LiggghtsHertz(), carom.dem.EdemHertzMindlin())
+FIXED = (dem.ThorntonLaw(), dem.LiggghtsHertz(), dem.EdemHertzMindlin())
 
 
 def error_of(law, psi=SOME, chi=CHI):
@@ -55,7 +52,7 @@ def test_linear_spring_against_an_own_scan():
     best = fine[worst[1].argmin()]
     assert best == pytest.approx(0.777, abs=2e-3)
     assert worst[1].min() == pytest.approx(0.070, abs=1e-3)
-    (found,) = tune([carom.dem.LinearSpring()], chi=CHI).advice
+    (found,) = tune([dem.LinearSpring()], chi=CHI).advice
     assert found.parameter == "stiffness_ratio"
     assert found.value == pytest.approx(best, abs=2e-3)
     assert found.max_error == pytest.approx(worst[1].min(), abs=1e-3)
@@ -104,7 +101,7 @@ def test_both_errors_are_told_and_the_best_comes_first(tuned):
 def test_walton_and_braun():
     """Few impacts, as this law is stiff: neighbours are worse, and as given it is, too."""
     psi = np.array([1.0, 2.0, 3.0])
-    (one,) = tune([carom.dem.WaltonBraunLaw()], chi=CHI, psi=psi).advice
+    (one,) = tune([dem.WaltonBraunLaw()], chi=CHI, psi=psi).advice
     least = np.abs(error_of(one.law, psi)).max()
     for factor in (0.98, 1.02):
         other = replace(one.law, stiffness_ratio=factor * one.value)
@@ -125,7 +122,7 @@ def test_hard_spheres_by_hand():
     psi = np.linspace(0.5, 2.5, 9)
     exact = carom.rebound(psi, CHI)
     beta = -np.sum(psi * exact) / np.sum(psi**2)
-    (one,) = tune([carom.dem.HardSphere()], chi=CHI, psi=psi, measure="rms").advice
+    (one,) = tune([dem.HardSphere()], chi=CHI, psi=psi, measure="rms").advice
     assert one.value == pytest.approx(beta, abs=1e-4)
     assert one.before == pytest.approx(np.abs(exact).max(), rel=1e-12)
     assert one.step is None
@@ -133,7 +130,7 @@ def test_hard_spheres_by_hand():
 
 def test_other_parameters_are_kept():
     """A damping, a variant: only the tuned one moves, and its error is that of the damped law."""
-    law = carom.dem.LammpsMindlin("mindlin/force", restitution=0.9, damping="tsuji")
+    law = dem.LammpsMindlin("mindlin/force", restitution=0.9, damping="tsuji")
     (one,) = tune([law], chi=CHI, psi=FEW).advice
     assert replace(one.law, stiffness=1.0) == law
     assert one.value != 1.0
@@ -142,16 +139,14 @@ def test_other_parameters_are_kept():
 def test_kappa_and_chi_reach_the_laws():
     """At twice kappa a spring of the same k_t/k_n is half as stiff for psi: the best is twice."""
     one, two = (
-        tune([carom.dem.LinearSpring()], chi=CHI, kappa=k, psi=FEW).advice[0]
-        for k in (KAPPA, 2 * KAPPA)
+        tune([dem.LinearSpring()], chi=CHI, kappa=k, psi=FEW).advice[0] for k in (KAPPA, 2 * KAPPA)
     )
     assert two.value == pytest.approx(2 * one.value, rel=1e-3)
     assert two.max_error == pytest.approx(one.max_error, abs=1e-4)
-    other = tune([carom.dem.LinearSpring()], chi=1.2, psi=FEW)
+    other = tune([dem.LinearSpring()], chi=1.2, psi=FEW)
     assert (other.chi, other.kappa) == (1.2, pytest.approx(4.8 / 7))
-    assert other.advice[0].max_error == pytest.approx(
-        np.abs(error_of(other.advice[0].law, FEW, 1.2)).max()
-    )
+    advice = other.advice[0]
+    assert advice.max_error == pytest.approx(np.abs(error_of(advice.law, FEW, 1.2)).max())
 
 
 def test_steps_cost_a_tenth_of_what_is_left(tuned):
@@ -164,7 +159,7 @@ def test_steps_cost_a_tenth_of_what_is_left(tuned):
 
 
 def test_record_and_table_hold_the_advice():
-    tuning = tune([carom.dem.LinearSpring(), carom.dem.ThorntonLaw()], chi=CHI, psi=FEW)
+    tuning = tune([dem.LinearSpring(), dem.ThorntonLaw()], chi=CHI, psi=FEW)
     record = tuning.to_dict()
     assert record["psi_in"] == [FEW.min(), FEW.max()]
     for row, one in zip(record["laws"], tuning.advice, strict=True):
@@ -179,7 +174,7 @@ def test_record_and_table_hold_the_advice():
 
 def test_progress_is_told():
     told = []
-    laws = [carom.dem.HardSphere(), carom.dem.HardSphere(0.2), carom.dem.HardSphere(0.4)]
+    laws = [dem.HardSphere(), dem.HardSphere(0.2), dem.HardSphere(0.4)]
     tune(laws, chi=CHI, psi=[1.0], progress=lambda done, whole: told.append((done, whole)))
     assert told == [(1, 3), (2, 3), (3, 3)]
 
@@ -195,7 +190,7 @@ def test_progress_is_told():
     ],
 )
 def test_refused(options, message):
-    given = {"laws": [carom.dem.HardSphere()], "chi": CHI} | options
+    given = {"laws": [dem.HardSphere()], "chi": CHI} | options
     with pytest.raises(carom.InputError, match=message):
         tune(**given)
 
@@ -203,11 +198,6 @@ def test_refused(options, message):
 @pytest.mark.parametrize("chi", [0.4, 6.0])
 def test_tuning_never_makes_a_law_worse(chi):
     """At any chi: k_t/k_n is sought around that of the bodies, 4 chi/7."""
-    laws = [
-        carom.dem.LinearSpring(),
-        carom.dem.StrongeLaw(),
-        carom.dem.HertzLinearHistory(),
-        carom.dem.HardSphere(),
-    ]
+    laws = [dem.LinearSpring(), dem.StrongeLaw(), dem.HertzLinearHistory(), dem.HardSphere()]
     for one in tune(laws, chi=chi, psi=np.linspace(0.0, 4.0 * chi, 16)[1:]).advice:
         assert one.max_error <= one.before

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
@@ -23,9 +24,7 @@ def test_sliding_throughout(e):
     for chi in (0.2, 0.5, 0.8, 1.44, 3.0):
         border = 2.0 * chi * (1.0 + e) - e if chi > 0.5 else 1.0
         slides = border + np.array([1e-6, 0.3, 4.0])
-        np.testing.assert_allclose(
-            psi_out(slides, chi, e), slides - 2.0 * chi * (1.0 + e), atol=1e-9
-        )
+        assert_allclose(psi_out(slides, chi, e), slides - 2.0 * chi * (1.0 + e), atol=1e-9)
         stops = border - 0.05
         assert psi_out(stops, chi, e)[0] > stops - 2.0 * chi * (1.0 + e) + 1e-6
 
@@ -34,19 +33,17 @@ def test_sliding_throughout(e):
 def test_chi_of_one_half(e):
     """psi stays in proportion to v: all sticks, and psi_2 = -e psi_1; close to it, nearly so."""
     psi = np.array([1e-3, 0.2, 0.95, 1.0])
-    np.testing.assert_allclose(psi_out(psi, 0.5, e), -e * psi, atol=1e-9)
+    assert_allclose(psi_out(psi, 0.5, e), -e * psi, atol=1e-9)
     for beside in 10.0 ** -np.arange(5.0, 15.0):
         for chi in (0.5 - beside, 0.5 + beside):
-            np.testing.assert_allclose(psi_out(psi, chi, e), -e * psi, atol=4.0 * beside + 1e-8)
+            assert_allclose(psi_out(psi, chi, e), -e * psi, atol=4.0 * beside + 1e-8)
 
 
 @pytest.mark.parametrize(("chi", "e"), [(1.44, 0.9), (0.8, 0.3), (3.0, 0.6)])
 def test_borders_of_regimes(chi, e):
     """Slip in gross from the touch ends at the largest compression for psi_1 = 2 chi at any e."""
     law = carom.KelvinVoigt(restitution=e)
-    np.testing.assert_allclose(
-        regime_borders(chi, e), [1.0, 2.0 * chi, max(2.0 * chi * (1.0 + e) - e, 1.0)]
-    )
+    assert_allclose(regime_borders(chi, e), [1.0, 2.0 * chi, max(2.0 * chi * (1.0 + e) - e, 1.0)])
     for change in (-1e-3, 1e-3):
         solution = carom.solve(2.0 * chi + change, chi, losses=law)
         speed = solution.at(solution.phases[0].end).speed[0]

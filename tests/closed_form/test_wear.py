@@ -5,12 +5,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from tests.checks import BALL as STEEL, FLOOR as PLANE, PAIR
 
 import carom
 
-STEEL = carom.Sphere(radius="5 mm", material="steel")
-PLANE = carom.HalfSpace(material="steel")
-PAIR = carom.Pair(STEEL, PLANE, friction=0.2)
 LOSSES = carom.KelvinVoigt(restitution=0.7)
 POINTS = np.array([[0.0, 0.0], [0.25, 0.1], [0.1, 0.55], [-0.7, 0.2], [0.0, 0.9]])
 
@@ -187,7 +185,7 @@ def test_a_viscous_ball_near_the_normal_does_not_wear_less_than_nothing():
     assert float(worn.worn_volume) == pytest.approx(volume, rel=1e-4)
     assert float(worn.work_error) > 0.0  # which says that energies differ
     many = carom.wear_of_many(
-        pair, speed=1.0, angle=np.radians([0.01, 0.02, 0.1]), losses=law, area=1.0
+        pair, speed=1.0, angle=np.radians([1e-2, 2e-2, 0.1]), losses=law, area=1.0
     )
     assert (many.dissipated_energy.values >= 0.0).all()
 

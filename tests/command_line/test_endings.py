@@ -80,7 +80,6 @@ MODULES = {
     "zarr.core.array": ["sweep", "sweep.toml", "--store", "sweep.zarr"],
 }
 
-
 LIKE_OTHERS = ("numpy", "xarray", "matplotlib", "pandas")
 AT_MODULES = [("SIGTERM", "unicodedata"), ("SIGTERM", "h5py")]
 AT_MODULES += [
@@ -253,7 +252,6 @@ LIMITED = {
     "bench": ["verify", "pack"],
     "page": ["explore", "--export"],
 }
-
 
 SLOW = ("hit.gif", "page")
 FILES = [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in LIMITED]

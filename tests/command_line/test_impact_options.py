@@ -5,23 +5,13 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from tests import checks
 
 import carom
 
 BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
 SPEED = ["--speed", "2", "--angle", "30 deg"]
-CASE = """\
-friction = 0.2
-speed = "2 m/s"
-angle = "30 deg"
-
-[first]
-radius = "5 mm"
-material = "steel"
-
-[output]
-spectrum = "forces.nc"
-"""
+CASE = f'{checks.CASE}[output]\nspectrum = "forces.nc"\n'
 
 
 def test_the_file_is_the_spectrum_of_the_library(run, hit):

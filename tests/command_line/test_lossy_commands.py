@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests import checks
 from typer.main import get_command
 
 import carom
@@ -23,16 +24,7 @@ LAWS = {
     "--yield-velocity material": carom.ElasticPlastic(),
     "--relaxation-time 20us --modulus-ratio 1.5": carom.StandardLinearSolid(1.5, "20 us"),
 }
-CASE = """\
-friction = 0.2
-speed = "2 m/s"
-angle = "30 deg"
-loss_time = "2 us"
-
-[first]
-radius = "5 mm"
-material = "steel"
-"""
+CASE = f'loss_time = "2 us"\n{checks.CASE}'
 SWEEP = """
 [sweep.axes]
 restitution = [0.6, 0.8, 1.0, 1.2]

@@ -206,9 +206,8 @@ def test_from_a_pack_to_a_verdict_on_lammps(copy):
 def test_parameter_files_of_other_codes_agree_with_the_set(pack):
     """Material, friction, sizes and speeds of Kratos, MFiX and MercuryDPM are those of `wall`."""
     case = tomllib.loads((pack / "wall" / "case.toml").read_text())
-    young, poisson, density = (
-        case["first"]["material"][k] for k in ("young", "poisson", "density")
-    )
+    stuff = case["first"]["material"]
+    young, poisson, density = (stuff[name] for name in ("young", "poisson", "density"))
     others = pack / "other_codes"
     kratos = json.loads((others / "kratos" / "MaterialsDEM.json").read_text())
     first, second = (entry["Variables"] for entry in kratos["materials"])

@@ -7,26 +7,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import CASE, refused
 
 import carom
 from carom.bodies.cases import case_of
 
 CHI = 1.4412
 PSI = np.array([0.1, 0.5, 1.0, 2.0, 4.0, 6.0])
-CASE = """
-friction = 0.2
-speed = "2 m/s"
-angle = "35 deg"
-[first]
-radius = "5 mm"
-material = "steel"
-"""
 
 
 @pytest.fixture(autouse=True)
 def folder(run):
-    Path("ball.toml").write_text(CASE)
+    Path("ball.toml").write_text(CASE.replace("30 deg", "35 deg"))
 
 
 @pytest.fixture

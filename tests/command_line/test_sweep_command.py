@@ -82,8 +82,7 @@ def test_json_counts_the_points_and_gives_their_ranges(run):
 
 def test_bad_points_are_counted_with_their_reason_and_the_exit_code_is_0(run):
     Path("cases.csv").write_text("angle,friction\n10 deg,0.1\n20 deg,-0.1\n30 deg,nan\n")
-    axes = CASE[CASE.index("[sweep.axes]") :]
-    changed(axes, "")
+    changed(CASE[CASE.index("[sweep.axes]") :], "")
     Path("case.toml").write_text(Path("case.toml").read_text() + 'table = "cases.csv"\n')
     code, out, _ = run("sweep", "case.toml", "--json")
     statuses = json.loads(out)["status"]
@@ -178,12 +177,9 @@ def test_a_single_impact_tells_that_it_leaves_the_sweep_out(run):
 @pytest.mark.parametrize(
     ("arguments", "word"),
     [
-        (["--store", "sweep.nc"], ".zarr"),
-        (["--store", "nowhere/sweep.zarr"], "folder"),
-        (["--output", "sweep.zarr"], ".nc"),
-        (["--workers", "0"], "workers"),
-        (["--resume"], "store"),
-        (["--scheduler", "nonsense"], "tcp://host:8786"),
+        *((["--store", "sweep.nc"], ".zarr"), (["--store", "nowhere/sweep.zarr"], "folder")),
+        *((["--output", "sweep.zarr"], ".nc"), (["--workers", "0"], "workers")),
+        *((["--resume"], "store"), (["--scheduler", "nonsense"], "tcp://host:8786")),
         (["--scheduler", CLOSED, "--workers", "2"], "workers"),
         (["--scheduler", CLOSED], "dask scheduler"),
     ],

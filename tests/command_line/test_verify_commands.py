@@ -7,28 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests import checks
+from tests.literature.test_law_ranking import MEASURED
 
 import carom
 from carom.verify import Lammps, rank, recipes, tune
 from carom.verify.entries import CATALOGUE, EXACT
 
-CASE = """\
-friction = 0.2
-speed = "2 m/s"
-angle = "35 deg"
-[first]
-radius = "5 mm"
-material = "steel"
-"""
-# max |error in psi_2| at chi = 1.4412 over 15 incidences from 0.1 to 6, measured independently
-MEASURED = {
-    "linear spring, k_t/k_n = kappa": 0.1756,
-    "linear spring, k_t/k_n = 2/7": 1.3851,
-    "mindlin": 0.5763,
-    "mindlin/force": 0.4677,
-    "mindlin_rescale": 0.4272,
-    "mindlin_rescale/force": 0.42995,
-}
+CASE = checks.CASE.replace("30 deg", "35 deg")
 ONE = ("--law", "mindlin")
 FALSE = ("--program", "/bin/false")
 engine = pytest.mark.engine

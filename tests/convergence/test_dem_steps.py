@@ -48,12 +48,9 @@ def test_stored_displacements_converge_in_second_order(law):
 @pytest.mark.parametrize(
     "law",
     [
-        carom.dem.LammpsMindlin(FORCE),
-        carom.dem.LammpsMindlin(RESCALED),
-        carom.dem.LammpsMindlin("mindlin_rescale"),
-        carom.dem.ThorntonLaw(),
-        carom.dem.WaltonBraunLaw(),
-        carom.dem.WaltonBraunLaw(restitution=0.7),
+        *(carom.dem.LammpsMindlin(FORCE), carom.dem.LammpsMindlin(RESCALED)),
+        *(carom.dem.LammpsMindlin("mindlin_rescale"), carom.dem.ThorntonLaw()),
+        *(carom.dem.WaltonBraunLaw(), carom.dem.WaltonBraunLaw(restitution=0.7)),
     ],
     ids=str,
 )

@@ -20,11 +20,6 @@ def pressed(elements, depth):
     return patch, np.hypot(patch.grid.line[:, None], patch.grid.line), state.pressure
 
 
-def order(errors):
-    """Return the slope of errors against the spacing, both logarithmic."""
-    return -np.polyfit(np.log(GRIDS), np.log(errors), 1)[0]
-
-
 @pytest.fixture(scope="module")
 def measured():
     """Errors of every grid, the root mean square of both depths."""
@@ -59,7 +54,7 @@ def measured():
 )
 def test_order(measured, name, least, most, finest):
     errors = measured[name]
-    assert least <= order(errors) <= most, errors
+    assert least <= -np.polyfit(np.log(GRIDS), np.log(errors), 1)[0] <= most, errors
     assert errors[-1] <= finest
     assert errors[-1] < errors[len(errors) // 2] < errors[0]
 

@@ -41,11 +41,6 @@ def mindlin(shift):
     return 1.0 - (1.0 - shift) ** 1.5
 
 
-def sticks(step):
-    size = np.hypot(*step.state.traction)
-    return step.touching & (size < step.state.pressure * (1.0 - 1e-6))
-
-
 @pytest.fixture(scope="module")
 def runs():
     return [shifted(elements, like(0.0), *SHIFTS) for elements in GRIDS]
@@ -67,10 +62,8 @@ def test_order_of_the_traction(runs):
     """Of the first order as a mean: square roots at the edge and at the stick radius."""
     means, smooth = [], []
     for patch, steps in runs:
-        radii, spacing = (
-            np.hypot(patch.grid.line[:, None], patch.grid.line),
-            patch.compliance.spacing,
-        )
+        line, spacing = patch.grid.line, patch.compliance.spacing
+        radii = np.hypot(line[:, None], line)
         squares, worst = 0.0, 0.0
         for shift, step in zip(SHIFTS, steps, strict=True):
             c = np.sqrt(1.0 - shift)
@@ -91,12 +84,11 @@ def test_order_of_the_traction(runs):
 def test_stick_radius(runs):
     """By area within a quarter of an element; by place within one."""
     for patch, steps in runs:
-        radii, spacing = (
-            np.hypot(patch.grid.line[:, None], patch.grid.line),
-            patch.compliance.spacing,
-        )
+        line, spacing = patch.grid.line, patch.compliance.spacing
+        radii = np.hypot(line[:, None], line)
         for shift, step in zip(SHIFTS, steps, strict=True):
-            c, held = np.sqrt(1.0 - shift), sticks(step)
+            c, size = np.sqrt(1.0 - shift), np.hypot(*step.state.traction)
+            held = step.touching & (size < step.state.pressure * (1.0 - 1e-6))
             by_area = np.sqrt(patch.grid.element * np.count_nonzero(held) / np.pi)
             assert abs(by_area - c) <= 0.3 * spacing
             assert radii[held].max() <= c + spacing

@@ -12,15 +12,7 @@ from tests.oracles import march as oracle
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import PSI_OUT, RESTITUTION, TIME
-from carom.dimensionless.lossy.springs.march import (
-    LAGGING,
-    PULLED,
-    march_rebound,
-    marched,
-    new_work,
-    run,
-    trace,
-)
+from carom.dimensionless.lossy.springs import march
 from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia, Solid
 from carom.dimensionless.lossy.springs.springs import WEIGHT
 from carom.dimensionless.solution import solve_lossy
@@ -39,14 +31,14 @@ def random_impacts(seed: int, count: int) -> tuple[Array, Array]:
 
 def errors(psi: float, chi: float) -> Array:
     exact = carom.rebound(psi, chi)
-    found = [marched(psi, Inertia(chi), ELASTIC, n)[PSI_OUT] for n in SPRINGS]
+    found = [march.marched(psi, Inertia(chi), ELASTIC, n)[PSI_OUT] for n in SPRINGS]
     return np.abs(np.array(found) - exact)
 
 
 def numbers(psi: float, inertia: Inertia, solid: Solid = ELASTIC) -> Array:
     """Return what an impact comes to."""
     found = np.empty(9)
-    assert run(psi, inertia, solid, new_work(), found)[0] == 0
+    assert march.run(psi, inertia, solid, march.new_work(), found)[0] == 0
     return found
 
 
@@ -69,7 +61,7 @@ def test_error_of_solid_spheres_is_small() -> None:
 def test_two_grids_give_1e_6_and_say_so() -> None:
     psi, chi = random_impacts(38, 200)
     pairs = zip(psi, chi, strict=True)
-    found, told = np.array([march_rebound(p, Inertia(c), ELASTIC) for p, c in pairs]).T
+    found, told = np.array([march.march_rebound(p, Inertia(c), ELASTIC) for p, c in pairs]).T
     wrong = np.abs(found - carom.rebound(psi, chi)) / np.maximum(1.0, np.abs(psi))
     assert np.quantile(wrong, 0.97) < 1e-6
     assert np.max(wrong) < 3e-6
@@ -87,7 +79,7 @@ def test_the_oracle_agrees() -> None:
 @pytest.mark.parametrize("psi", [4.0, 9.0])
 def test_gross_slip_throughout(psi: float) -> None:
     """psi_1 - 4 chi, as the impulse is exact; so do plates, by 2 chi (1 + e)."""
-    assert march_rebound(psi, Inertia(1.0), ELASTIC)[0] == pytest.approx(psi - 4.0, abs=1e-7)
+    assert march.march_rebound(psi, Inertia(1.0), ELASTIC)[0] == pytest.approx(psi - 4.0, abs=1e-7)
     assert oracle.march(psi, 1.0, springs=100) == pytest.approx(psi - 4.0, abs=1e-9)
     plate = numbers(psi + 4.0, Inertia(1.0), Solid(int(Loss.PLATE), 0.3))
     slid = psi + 4.0 - 2.0 * (1.0 + plate[RESTITUTION])
@@ -98,7 +90,7 @@ def test_gross_slip_throughout(psi: float) -> None:
     ("psi", "chi"), [(0.3, 0.5), (0.7, 0.5), (-0.99, 0.5), (1.0, 0.5), (0.1, 4.0), (0.39, 4.0)]
 )
 def test_load_that_retraces_its_path_reverses_the_velocity(psi: float, chi: float) -> None:
-    assert march_rebound(psi, Inertia(chi), ELASTIC)[0] == pytest.approx(-psi, abs=1e-7)
+    assert march.march_rebound(psi, Inertia(chi), ELASTIC)[0] == pytest.approx(-psi, abs=1e-7)
 
 
 def test_sequence_of_phases_is_the_exact_one() -> None:
@@ -171,12 +163,12 @@ def test_friction_takes_what_the_motion_loses(psi: float, inertia: Inertia, soli
 
     w^T diag(1, m) B^-1 w, m zeta = (3/2) eps, of the rates -(5/4) B (P, Q).
     """
-    kept = new_work(2000, 240)
-    steps = trace(psi, inertia, solid, 200, new_work(), kept)
+    kept = march.new_work(2000, 240)
+    steps = march.trace(psi, inertia, solid, 200, march.new_work(), kept)
     springs, rows = kept.frames[: steps + 1], kept.rows[: steps + 1]
     weights = kept.springs[WEIGHT, :240]
-    pull = 0.5 * (springs[1:, PULLED] + springs[:-1, PULLED])
-    behind = springs[1:, LAGGING] - springs[:-1, LAGGING]
+    pull = 0.5 * (springs[1:, march.PULLED] + springs[:-1, march.PULLED])
+    behind = springs[1:, march.LAGGING] - springs[:-1, march.LAGGING]
     touching = (springs[1:, 0] > 0.0) & (springs[:-1, 0] > 0.0)
     work = float(np.sum(weights * pull * behind * touching))
     at = numbers(psi, inertia, solid)

@@ -66,13 +66,10 @@ def motion(rng, pair, rows):
         speed = speed * rng.uniform(0.5, 2.0, rows)
     normal, along = speed * np.cos(angle), speed * np.sin(angle)
     ways = (
-        {"angle": angle, "speed": speed},
-        {"angle": angle, "normal_speed": normal},
+        *({"angle": angle, "speed": speed}, {"angle": angle, "normal_speed": normal}),
         {"normal_speed": normal, "tangential_speed": along},
-        {"normal_speed": normal, "contact_angle": angle},
-        {"angle": angle},
-        {"contact_angle": angle},
-        {"psi_in": pair.psi(along, normal)},
+        *({"normal_speed": normal, "contact_angle": angle}, {"angle": angle}),
+        *({"contact_angle": angle}, {"psi_in": pair.psi(along, normal)}),
     )
     before = dict(ways[rng.integers(len(ways))])
     if {"speed", "normal_speed"} & set(before) and rng.random() < 0.3:
@@ -205,8 +202,7 @@ def used(found):
     assert str(found)
     assert repr(found)
     json.dumps(found.to_dict(), allow_nan=False)
-    dataset = found.to_dataset()
-    whole(dataset)
+    whole(found.to_dataset())
     assert found.comparison.verdict
     assert found.cite()
     assert all(isinstance(note, str) and "nan" not in note for note in found.notes), found.notes

@@ -12,18 +12,12 @@ from scipy.special import beta
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.viscoelastic.normal import restitution, viscous_loss
 from carom.dimensionless.lossy.viscoelastic.work import new_work
-from carom.dimensionless.rebounds import LossyRebounds, lossy_rebounds
+from carom.dimensionless.rebounds import lossy_rebounds
 
 WORK = new_work()
 
 # alpha, restitution, duration, largest b^2, its time
 TABLE = np.loadtxt(Path(__file__).parent / "kelvin_voigt.csv", delimiter=",")
-
-
-def impacts(psi: float, chi: float = 1.44) -> LossyRebounds:
-    """Return the impacts of the table at one psi_1."""
-    rows = np.ones(len(TABLE))
-    return lossy_rebounds(psi * rows, chi * rows, LossNumbers(Loss.VISCOUS, TABLE[:, 0]))
 
 
 def test_restitution_of_the_normal_motion_alone() -> None:
@@ -34,7 +28,8 @@ def test_restitution_of_the_normal_motion_alone() -> None:
 @pytest.mark.parametrize("psi", [0.0, 1e-6, 1e-3, 0.5, 2.0, 4.0, 7.9])
 def test_normal_motion_of_oblique_impacts(psi: float) -> None:
     """The tangential motion leaves the normal one alone, however it cuts it into panels."""
-    found = impacts(psi)
+    rows = np.ones(len(TABLE))
+    found = lossy_rebounds(psi * rows, 1.44 * rows, LossNumbers(Loss.VISCOUS, TABLE[:, 0]))
     assert found.restitution == pytest.approx(TABLE[:, 1], abs=1e-10)
     assert found.max_radius**2 == pytest.approx(TABLE[:, 3], abs=1e-10)
     assert found.duration == pytest.approx(TABLE[:, 2], abs=3e-7)

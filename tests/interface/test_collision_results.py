@@ -9,13 +9,12 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from tests.checks import BALL, PAIR as WALL
 
 import carom
 from carom.collisions.records import Collisions
 
-BALL = carom.Sphere(radius="5 mm", material="steel")
 TWO = carom.Pair(BALL, carom.Sphere(radius="8 mm", material="steel"), friction=0.2)
-WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 NAMES = ("velocity1", "spin1", "velocity2", "spin2")
 UP = [0.0, 0.0, 1.0]
 BAD = {"velocity1": np.ones((4, 3)), "normal": [UP, [0, 0, 2.0], [0, 0, -1.0], [0, 0, np.nan]]}

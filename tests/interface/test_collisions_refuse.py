@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 from tests import checks
+from tests.checks import BALL, PAIR as WALL
 
 import carom
 
-BALL = carom.Sphere(radius="5 mm", material="steel")
 SHELL = carom.Sphere(radius="8 mm", material="soda-lime-glass", inner_radius="7 mm")
 PAIR = carom.Pair(BALL, SHELL, friction=0.2)
-WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 NAMES = ("velocity1", "spin1", "velocity2", "spin2")
 ONE = {"velocity1": [1.0, 0.0, 1.0], "normal": [0.0, 0.0, 1.0]}
 
@@ -62,14 +61,9 @@ def test_refuses_bad_threads(threads):
 @pytest.mark.parametrize(
     "make",
     [
-        lambda v: v.tolist(),
-        lambda v: np.round(v).astype(int),
-        lambda v: v.astype(np.float32),
-        lambda v: v.astype(">f8"),
-        np.asfortranarray,
-        lambda v: np.repeat(v, 2, axis=0)[::2],
-        lambda v: v[:1],
-        lambda v: np.broadcast_to(v[0], v.shape),
+        *(lambda v: v.tolist(), lambda v: np.round(v).astype(int), lambda v: v.astype(np.float32)),
+        *(lambda v: v.astype(">f8"), np.asfortranarray, lambda v: np.repeat(v, 2, axis=0)[::2]),
+        *(lambda v: v[:1], lambda v: np.broadcast_to(v[0], v.shape)),
     ],
     ids=["list", "int", "float32", "big-endian", "fortran", "strided", "row", "broadcast"],
 )

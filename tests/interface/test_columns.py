@@ -42,17 +42,12 @@ def read(source):
 @pytest.mark.parametrize(
     "content",
     [
-        TEXT,
-        TEXT.replace(",", ";"),
-        TEXT.replace(",", "\t"),
-        TEXT.replace("\n", "\r\n"),
+        *(TEXT, TEXT.replace(",", ";"), TEXT.replace(",", "\t"), TEXT.replace("\n", "\r\n")),
         TEXT.encode("utf-8-sig"),
         TEXT.replace("\n", "\r\n").replace(",", ";").encode("utf-8-sig"),
         TEXT.replace(",", " , ").replace("[", "(").replace("]", ")"),
-        TEXT.replace("[", "[ ").replace("]", " ]"),
-        "sep=,\n" + TEXT,
-        "sep=;\r\n" + TEXT.replace(",", ";"),
-        TEXT.rstrip("\n"),
+        *(TEXT.replace("[", "[ ").replace("]", " ]"), "sep=,\n" + TEXT),
+        *("sep=;\r\n" + TEXT.replace(",", ";"), TEXT.rstrip("\n")),
         '"angle [deg]","spin_out [rpm]"\n"30","-60"\n\n# remark, of no account; none\n45,-120\n',
         "angle,spin_out\n30 deg,-60 rpm\n45 deg,-120 rpm\n",
     ],
@@ -126,8 +121,7 @@ def test_a_labelled_dataset_is_a_table():
 def test_variables_of_a_dataset_along_other_dimensions_are_no_columns(variable, words):
     """Refused where they would be used; of other names they are told among those not used."""
     data = xr.Dataset({"angle": ("point", [0.1, 0.2])})
-    with pytest.raises(InputError, match=words):
-        read(data.assign(spin_out=variable))
+    refused(words, read, data.assign(spin_out=variable))
     renamed = data.assign(of_a_spin_out=variable)
     assert read(renamed)["angle"].tolist() == [0.1, 0.2]
     assert "of_a_spin_out" in others(read_table(renamed), KNOWN)
@@ -323,16 +317,14 @@ def test_bad_columns_are_refused_in_one_line(stored, text):
     [
         ("", "it is empty"),
         ("# only a comment\n", "it is empty"),
-        ("psi_1,angle\n", "no rows"),
-        ("0.1,0.2\n0.3,0.4\n", "the first line holds numbers"),
+        *(("psi_1,angle\n", "no rows"), ("0.1,0.2\n0.3,0.4\n", "the first line holds numbers")),
         ("psi_1,angle\n0.1,0.2\n0.3\n", "line 3 has 1 values, the header has 2 names"),
         ("psi_1,angle\n1,2,3\n", "line 2 has 3 values, the header has 2 names"),
         ('psi_1,angle\n"0.1,0.2\n', "not CSV"),
         ('psi_1,angle\n"3"0,0.2\n', "not CSV"),  # not 30
         ('psi_1,angle\n"1\n2",3\n', "not CSV; a text in quotes extends over several lines"),
         ("psi_1,psi_1,angle\n1,1,1\n", "'psi_1': two columns"),
-        (TEXT.encode("utf-16"), "is not text"),
-        (b"a,b\n1,\xff\n", "is not text"),
+        *((TEXT.encode("utf-16"), "is not text"), (b"a,b\n1,\xff\n", "is not text")),
     ],
 )
 def test_what_is_no_table_is_refused_by_all_who_read_one(stored, content, words):
@@ -377,5 +369,4 @@ def test_columns_that_mean_nothing_here_are_named():
 def test_too_few_rows_are_refused():
     given = read({"angle": [0.1, 0.2], "spin_out": [1.0, 2.0]})
     given.require_rows(2)
-    with pytest.raises(InputError, match="too few points: 2, at least 3 are needed"):
-        given.require_rows(3)
+    refused("too few points: 2, at least 3 are needed", given.require_rows, 3)

@@ -9,12 +9,11 @@ import pkgutil
 from importlib import import_module
 
 import pytest
+from tests.checks import BALL, PAIR
 
 import carom
 
 MODULES = sorted(info.name for info in pkgutil.walk_packages(carom.__path__, "carom."))
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace("steel"), friction=0.2)
 HIT = carom.impact(PAIR, speed=2.0, angle="30 deg")
 OF_METHODS = {"carom": carom, "ball": BALL, "pair": PAIR, "hit": HIT}
 

@@ -89,9 +89,8 @@ def test_same_actions_have_the_same_version_everywhere():
 
 
 def test_manual_is_built_by_the_command_of_the_readme():
-    (command,) = re.findall(
-        r"(?m)^.*sphinx-build.*$", (ROOT / "README.md").read_text(encoding="utf-8")
-    )
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (command,) = re.findall(r"(?m)^.*sphinx-build.*$", readme)
     manual = read(ROOT / ".github/workflows/manual.yml")
     assert command in [step.get("run") for step in steps(manual)]
     assert set(manual[ON]) == {"push", "pull_request"}

@@ -6,28 +6,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import BALL, PAIR as WALL, experiment, refused
 
 import carom
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.verify.engines.arrangement import outcomes_of, placed, run_length, spring, touching
-from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
+from carom.verify.engines.experiments import Outcomes, psi_out, results_csv
 from carom.verify.scoring import score
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "studies"))
 
 from lammps_unittest import exact
 
-BALL = carom.Sphere(radius=5e-3, material="steel")
 BEAD = carom.Sphere(radius=3e-3, material="aluminium")
-WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 FREE = carom.Pair(BEAD, BALL, friction=0.3)
-
-
-def experiment(**changed):
-    given = {"pair": WALL, "law": carom.dem.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
-    given |= {"tangential_speed": (0.005, -0.02), "spin": (0.0, 3.0)}
-    return Experiment(**(given | changed))
 
 
 @pytest.mark.parametrize("pair", [WALL, FREE])

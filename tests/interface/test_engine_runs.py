@@ -13,22 +13,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import experiment, refused
 
 import carom
-from carom.verify.engines.experiments import Experiment, Outcomes
+from carom.verify.engines.experiments import Outcomes
 from carom.verify.engines.lammps import Lammps
 from carom.verify.engines.running import EngineError, run
 
-BALL = carom.Sphere(radius=5e-3, material="steel")
-WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 GOOD = "printf '0.01 0.002 1\\n0.01 0.003 2\\n' > results"
-
-
-def experiment(**changed):
-    given = {"pair": WALL, "law": carom.dem.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
-    given |= {"tangential_speed": (0.005, -0.02), "spin": (0.0, 3.0)}
-    return Experiment(**(given | changed))
 
 
 @dataclass(frozen=True)

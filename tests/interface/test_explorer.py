@@ -19,12 +19,9 @@ from carom.explorer.views import LAWS, NUMBERS, View
 
 PATIENCE = 60.0  # s
 BODIES = [
-    View(),
-    View(angle=70.0, friction=0.1),
-    View(angle=10.0, spin=-900.0),
+    *(View(), View(angle=70.0, friction=0.1), View(angle=10.0, spin=-900.0)),
     View(against="sphere", second_radius=7.5, second_material="soda-lime-glass", spin=300.0),
-    View(against="cup", second_radius=25.0, angle=55.0, friction=0.45),
-    View(friction=0.0),
+    *(View(against="cup", second_radius=25.0, angle=55.0, friction=0.45), View(friction=0.0)),
     View(material="own", young=5.8, poisson=0.34, density=1740.0, friction=0.06, angle=35.0),
     View(restitution=0.7),
     View(restitution=0.4, angle=55.0, spin=200.0, against="sphere", second_radius=7.5),
@@ -216,11 +213,9 @@ def test_laws_are_drawn_in_units_of_the_impact_with_losses():
 
 
 SCRIPTED = [
-    View(law=LAWS[:2], angle=41.5),
-    NUMBERED[0],
+    *(View(law=LAWS[:2], angle=41.5), NUMBERED[0]),
     View(law=LAWS[3:4], angle=41.5, restitution=0.75),
-    View(given=NUMBERS, psi=1.5, restitution=0.9),
-    View(friction=0.0, restitution=0.9),
+    *(View(given=NUMBERS, psi=1.5, restitution=0.9), View(friction=0.0, restitution=0.9)),
     View(material="own", young=70.0, second_material="own", against="sphere"),
 ]
 

@@ -125,8 +125,7 @@ def test_pair_of_the_fit_can_be_used_on(found):
 def test_figures_are_stored(found, tmp_path):
     found.plot(tmp_path / "fit.png")
     assert (tmp_path / "fit.png").stat().st_size > 10_000
-    corner = plot_corner(found.posterior(steps=200, seed=1))
-    assert len(corner.axes) == 4
+    assert len(plot_corner(found.posterior(steps=200, seed=1)).axes) == 4
     refused(r"carom\.fit", plot_fit, carom.curve(1.44, [0.5, 1.0]))
 
 

@@ -58,14 +58,11 @@ SENTENCES = {
 }
 UNTOUCHED = [
     "`psi_2` and ``k_t/k_n``, :math:`x_1` and :obj:`carom.rebound`",
-    'a text as "0.75 MPa m^0.5"',
-    "psi, chi : array_like, shape (n, 2)",
-    ":type psi: float, by default chi",
-    ":param chi: positive",
+    *('a text as "0.75 MPa m^0.5"', "psi, chi : array_like, shape (n, 2)"),
+    *(":type psi: float, by default chi", ":param chi: positive"),
     ">>> psi_2 = carom.rebound(psi_1, chi)\npsi_2 = 4",
     "from 1 to 1.5 m/s, 20 to 70 ms; e.g. a law I take as it is - a sphere (1976), at 13 %",
-    ".. rubric:: psi_1",
-    "See::\n\n    psi_2 = chi",
+    *(".. rubric:: psi_1", "See::\n\n    psi_2 = chi"),
 ]
 
 

@@ -100,8 +100,7 @@ def test_errors_take_arrays():
     assert radial[0] == 0.0
     assert np.all(radial <= 2.0 * psi)
     assert radial[3] < 0.01 * radial[2]
-    turned = spin_error(1.4, psi, 1.0)
-    assert turned.shape == psi.shape
+    assert spin_error(1.4, psi, 1.0).shape == psi.shape
     assert np.all(spin_error(1.4, psi, 0.0) == 0.0)
 
 

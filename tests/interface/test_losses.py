@@ -8,9 +8,10 @@ import pytest
 from matplotlib.text import Text
 from scipy.optimize import brentq
 from scipy.special import beta
-from tests.checks import refused
+from tests.checks import PAIR as STEEL, refused
 
 import carom
+from carom import HalfSpace, Material, Pair, Sphere
 from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.rebounds import lossy_rebounds
@@ -19,16 +20,11 @@ from carom.explorer.views import View
 from carom.impacts.validity import judge_losses
 from carom.io.labels import spheres
 
-STEEL = carom.Pair(
-    carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2
-)
-UNKNOWN = carom.Material(young="70 GPa", poisson=0.22, density=2500)
-GLASS = carom.Pair(
-    carom.Sphere(radius="1 mm", material=UNKNOWN), carom.HalfSpace(material=UNKNOWN), friction=0.1
-)
+UNKNOWN = Material(young="70 GPa", poisson=0.22, density=2500)
+GLASS = Pair(Sphere(radius="1 mm", material=UNKNOWN), HalfSpace(material=UNKNOWN), friction=0.1)
 
 
-def hit(law: object, speed: float = 1.0, pair: carom.Pair = STEEL) -> carom.results.Impact:
+def hit(law: object, speed: float = 1.0, pair: Pair = STEEL) -> carom.results.Impact:
     return carom.impact(pair, normal_speed=speed, tangential_speed=0.4 * speed, losses=law)
 
 
@@ -68,9 +64,9 @@ def test_yield_velocity_of_the_materials() -> None:
 def test_weaker_body_yields_first() -> None:
     soft, hard = (carom.material("steel", yield_strength=y) for y in ("100 MPa", "900 MPa"))
 
-    def speed(first: carom.Material, second: carom.Material) -> float:
-        ball, wall = carom.Sphere(radius=0.01, material=first), carom.HalfSpace(material=second)
-        return float(yield_velocity(carom.Pair(ball, wall, friction=0.2)))
+    def speed(first: Material, second: Material) -> float:
+        ball, wall = Sphere(radius=0.01, material=first), HalfSpace(material=second)
+        return float(yield_velocity(Pair(ball, wall, friction=0.2)))
 
     found = [speed(*bodies) for bodies in ((soft, soft), (hard, hard), (hard, soft))]
     assert found[1] / found[0] == pytest.approx(9.0**2.5, rel=1e-12)
@@ -126,20 +122,16 @@ def test_plastic_restitution_falls_with_the_fourth_root_of_the_speed() -> None:
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({}, "restitution"),
-        ({"restitution": 0.9, "loss_time": "1 us"}, "restitution"),
-        ({"restitution": 1.01}, "restitution.*1.01"),
-        ({"restitution": 0.0}, "restitution.*0"),
+        *(({}, "restitution"), ({"restitution": 0.9, "loss_time": "1 us"}, "restitution")),
+        *(({"restitution": 1.01}, "restitution.*1.01"), ({"restitution": 0.0}, "restitution.*0")),
         ({"restitution": 9e-4}, "restitution.*0.0009"),
         ({"restitution": -0.5}, "restitution.*-0.5"),
         ({"restitution": np.nan}, "restitution.*nan"),
         ({"restitution": np.inf}, "restitution.*inf"),
         ({"restitution": "high"}, "restitution.*high"),
         ({"restitution": "0.9 m"}, "restitution.*0.9 m"),
-        ({"loss_time": "2 mm"}, "loss_time.*2 mm"),
-        ({"loss_time": -1e-6}, "loss_time.*-1e-06"),
-        ({"loss_time": np.nan}, "loss_time.*nan"),
-        ({"loss_time": True}, "loss_time.*True"),
+        *(({"loss_time": "2 mm"}, "loss_time.*2 mm"), ({"loss_time": -1e-6}, "loss_time.*-1e-06")),
+        *(({"loss_time": np.nan}, "loss_time.*nan"), ({"loss_time": True}, "loss_time.*True")),
     ],
 )
 def test_viscous_law_refuses(given: dict[str, object], words: str) -> None:

@@ -47,9 +47,8 @@ def test_reference_has_every_public_name_once():
 @pytest.mark.parametrize("script", EXAMPLES, ids=lambda script: script.stem)
 def test_example_has_a_title(script):
     """The gallery shows it under the picture: short, underlined, and no other's."""
-    title, line, blank, *text = ast.get_docstring(
-        ast.parse(script.read_text(encoding="utf-8"))
-    ).splitlines()
+    words = ast.get_docstring(ast.parse(script.read_text(encoding="utf-8")))
+    title, line, blank, *text = words.splitlines()
     assert line == "=" * len(title)
     assert len(title) <= 50
     assert (blank, bool(text)) == ("", True)

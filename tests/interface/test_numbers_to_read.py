@@ -149,15 +149,11 @@ def rows_of(printed):
     return dict(re.split(r"\s{2,}", line.strip(), maxsplit=1) for line in lines)
 
 
-def cells_of(html):
-    return dict(re.findall(r"<th[^>]*>(.*?)</th><td[^>]*>(.*?)</td>", html))
-
-
 def test_an_impact_reads_the_same_in_command_notebook_and_page(run, pair):
     told = rows_of(run(*COMMAND)[1])
     hit = carom.impact(pair, speed=0.6, angle="30 deg")
     assert rows_of(str(hit)) == told
-    in_notebook = cells_of(hit._repr_html_())
+    in_notebook = dict(re.findall(r"<th[^>]*>(.*?)</th><td[^>]*>(.*?)</td>", hit._repr_html_()))
     both = {name for name in in_notebook if name in told}
     assert len(both) >= 8
     assert {name: in_notebook[name] for name in both} == {name: told[name] for name in both}

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import PAIR, refused
 
 import carom
 from carom.cli import main
@@ -21,7 +21,6 @@ from carom.io.paths import replace_whole
 
 CURVE = carom.curve(1.44, [0.5, 2.0, 6.0])
 COMMAND = ["curve", "--chi", "1.44", "--points", "3"]
-DEVICES = "/dev/null", "/dev/full"
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 1.0, "friction": 0.1}
 
 
@@ -30,8 +29,7 @@ def figure():
 
 
 def film(path):
-    ball, wall = carom.Sphere(radius=0.005, material="steel"), carom.HalfSpace(material="steel")
-    hit = carom.impact(carom.Pair(ball, wall, friction=0.2), speed=2.0, angle=0.5)
+    hit = carom.impact(PAIR, speed=2.0, angle=0.5)
     return carom.plots.animate(hit.history(20), [hit.fields(1.5e-5)], path)
 
 
@@ -44,15 +42,8 @@ WRITERS = {
     ".gif": film,
     ".h": lambda path: main(["curve", "--chi", "1.44", "--export", "c", "--output", str(path)]),
 }
-STARTS = {
-    ".nc": b"\x89HDF",
-    ".csv": b"chi,psi_in",
-    ".png": b"\x89PNG",
-    ".pdf": b"%PDF",
-    ".svg": b"<?xml",
-    ".gif": b"GIF8",
-    ".h": b"/*",
-}
+FIRST = (b"\x89HDF", b"chi,psi_in", b"\x89PNG", b"%PDF", b"<?xml", b"GIF8", b"/*")
+STARTS = dict(zip(WRITERS, FIRST, strict=True))
 
 
 def left(folder):

@@ -26,10 +26,6 @@ STATES = {
 }
 
 
-def losses(view):
-    return None if view.restitution == 1.0 else carom.KelvinVoigt(restitution=view.restitution)
-
-
 def some_slow(cases, slow):
     return [pytest.param(x, id=str(x), marks=[pytest.mark.slow] * (x in slow)) for x in cases]
 
@@ -99,7 +95,9 @@ def test_axes_of_numbers_tell_units_of_the_theory():
 def test_histories_are_those_of_the_library(name, tmp_path):
     view = STATES[name]
     if view.in_numbers:
-        solution = carom.solve(view.psi, view.chi, losses=losses(view))
+        e = view.restitution
+        losses = None if e == 1.0 else carom.KelvinVoigt(restitution=e)
+        solution = carom.solve(view.psi, view.chi, losses=losses)
         columns = ("psi", "stored", "shear_lost")
         expected = {column: getattr(solution.history(201), column) for column in columns}
     else:

@@ -130,11 +130,9 @@ def test_drops_are_told_as_restitution_against_speed():
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        (b"what", "me.csv"),
-        (b"a" * 1_000_001, "must be at most 1000000 bytes"),
+        *((b"what", "me.csv"), (b"a" * 1_000_001, "must be at most 1000000 bytes")),
         (b"angle [deg],contact_restitution\n" + b"10,0.2\n" * 2001, "at most 2000 rows"),
-        (b"", "me.csv"),
-        (b"colour,size\n1,2\n3,4\n", "no measured response"),
+        *((b"", "me.csv"), (b"colour,size\n1,2\n3,4\n", "no measured response")),
         (b"angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
         (b"angle [deg],contact_beta\n10,0.5\n", "cannot determine"),
         (b"angle,contact_beta\n10,0.5\n20,0.4\n", "angle"),

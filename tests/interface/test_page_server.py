@@ -130,10 +130,8 @@ CHUNKS = b"POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\
     ("sent", "status"),
     [
         (b"GET http://[ HTTP/1.1\r\nHost: localhost\r\n\r\n", None),
-        (ENDLESS.ljust(LARGEST_HEAD, b"a"), 431),
-        (b"what is this\r\n\r\n", 400),
-        (POST + b"-4\r\n\r\n", 400),
-        (POST + b"%d\r\n\r\n" % LARGE_BODY, 413),
+        *((ENDLESS.ljust(LARGEST_HEAD, b"a"), 431), (b"what is this\r\n\r\n", 400)),
+        *((POST + b"-4\r\n\r\n", 400), (POST + b"%d\r\n\r\n" % LARGE_BODY, 413)),
         (CHUNKS + b"%x\r\n" % (1 << 40) + b"a" * LARGE_BODY, 413),
         (CHUNKS + b"this is no chunk\r\n", 400),
     ],

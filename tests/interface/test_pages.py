@@ -19,12 +19,7 @@ import carom  # noqa: E402
 
 ACCURACY = ROOT / "docs" / "accuracy.md"
 SLOW = (
-    "fitting",
-    "halfspace",
-    "normal_spin",
-    "glass",
-    "dem-codes",
-    "contact-mechanics",
+    *("fitting", "halfspace", "normal_spin", "glass", "dem-codes", "contact-mechanics"),
     "drop-test",
 )
 

@@ -66,14 +66,9 @@ def lines(axis):
 @pytest.mark.parametrize(
     ("largest", "unit", "expected"),
     [
-        (2.5e-5, "m", (1e6, "µm")),
-        (1.0, "N", (1.0, "N")),
-        (0.999, "N", (1e3, "mN")),
-        (1000.0, "Pa", (1e-3, "kPa")),
-        (3.1e-13, "s", (1e12, "ps")),
-        (0.5, "1", (1.0, "1")),
-        (0.0, "J", (1.0, "J")),
-        (float("nan"), "m", (1.0, "m")),
+        *((2.5e-5, "m", (1e6, "µm")), (1.0, "N", (1.0, "N")), (0.999, "N", (1e3, "mN"))),
+        *((1000.0, "Pa", (1e-3, "kPa")), (3.1e-13, "s", (1e12, "ps")), (0.5, "1", (1.0, "1"))),
+        *((0.0, "J", (1.0, "J")), (float("nan"), "m", (1.0, "m"))),
     ],
 )
 def test_prefix_makes_the_largest_number_1_to_1000(largest, unit, expected):

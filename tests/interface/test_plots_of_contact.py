@@ -37,9 +37,8 @@ def test_every_phase_is_shown_and_instants_are_in_order(steep):
 def test_profiles_and_marks_are_the_tractions_and_forces_of_the_impact(steep):
     """A mark lies at F_x of its instant, and the profile below a patch is f_x along y = 0."""
     times = [0.3 * steep.duration, 0.7 * steep.duration]
-    _, profiles, force = panels(
-        plots.plot_contact(steep, [steep.fields(time) for time in times]), 2
-    )
+    figure = plots.plot_contact(steep, [steep.fields(time) for time in times])
+    _, profiles, force = panels(figure, 2)
     marks = [line for line in force.lines if line.get_marker() == "o"]
     for time, profile, mark in zip(times, profiles, marks, strict=True):
         line = profile.lines[1]

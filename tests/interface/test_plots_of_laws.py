@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from tests.checks import is_legible, refused
 
-import carom
+from carom import dem
 from carom.plots.laws import plot_error_map, plot_laws
 from carom.plots.regimes import draw_borders
 from carom.verify import error_map, rank
@@ -41,9 +41,7 @@ def laws(ranking):
 
 @pytest.fixture(scope="module")
 def errors():
-    return error_map(
-        carom.dem.LammpsMindlin("mindlin"), np.linspace(0.0, 7.0, 36), [1.2, 1.4, 1.75]
-    )
+    return error_map(dem.LammpsMindlin("mindlin"), np.linspace(0.0, 7.0, 36), [1.2, 1.4, 1.75])
 
 
 def rows(figure):

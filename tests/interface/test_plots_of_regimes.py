@@ -38,10 +38,6 @@ def maps():
 NAMES = ("many", "points", "old", "few", "half", "mirrored", "row")
 
 
-def words(figure):
-    return [text.get_text().translate(SPACES) for text in figure.findobj(Text) if text.get_text()]
-
-
 @pytest.mark.parametrize("width", [178.0, pytest.param(120.0, marks=pytest.mark.slow), 86.0])
 @pytest.mark.parametrize("name", NAMES)
 def test_every_sequence_is_named_and_all_text_is_legible(maps, name, width):
@@ -162,7 +158,7 @@ def test_what_is_not_resolved_is_said_to_be(maps):
     figure = plot_regime_map(holed)
     (hatched,) = [patch for patch in figure.axes[0].patches if patch.get_hatch()]
     assert to_rgb(hatched.get_facecolor()) == (1.0, 1.0, 1.0)
-    assert "not resolved" in words(figure)
+    assert "not resolved" in [t.get_text().translate(SPACES) for t in figure.findobj(Text)]
 
 
 def test_long_lines_are_broken_where_there_is_room():

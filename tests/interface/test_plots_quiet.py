@@ -16,7 +16,6 @@ from carom.plots.style import save_figure
 
 WORDS = "\u92fc $\\frac{ \U0001f600"  # no font has them all, and they are no formula
 
-
 DRAWN = {
     "history": ("plot_impact", "plot_forces", "plot_radii", "plot_cone"),
     "fields": ("plot_patch",),

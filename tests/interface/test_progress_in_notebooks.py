@@ -34,13 +34,9 @@ WITHOUT_WIDGETS = "import sys\nsys.modules['ipywidgets'] = None"
 def cells():
     """What the cells of a notebook that was run put out."""
     sources = [
-        SOON,
-        WORK.format(progress="None", more=""),
-        WORK.format(progress="False", more=""),
-        WORK.format(progress="None", more="if step == 10: raise KeyboardInterrupt"),
-        IMPACT,
-        WITHOUT_WIDGETS,
-        WORK.format(progress="None", more="print(step)"),
+        *(SOON, WORK.format(progress="None", more=""), WORK.format(progress="False", more="")),
+        *(WORK.format(progress="None", more="if step == 10: raise KeyboardInterrupt"), IMPACT),
+        *(WITHOUT_WIDGETS, WORK.format(progress="None", more="print(step)")),
     ]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(s) for s in sources])
     nbclient.NotebookClient(

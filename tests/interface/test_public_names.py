@@ -6,12 +6,11 @@ import sys
 from importlib import import_module
 
 import pytest
+from tests.checks import PAIR
 
 import carom
 from carom.quantities.shown import INNER
 
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace("steel"), friction=0.2)
 BESIDE = {"carom": ["__version__"], "carom.plots": ["style"]}  # known to dir() alone
 STUBBED = (
     *("carom", "carom.plots", "carom.verify", "carom.dem"),
@@ -31,11 +30,8 @@ def test_dir_shows_the_public_names_and_nothing_else(package):
     "thing",
     [
         carom.impact(PAIR, speed=2.0),
-        carom.load_path(PAIR, normal_force=1.0, tangential_force=0.0),
-        carom.KelvinVoigt(0.9),
-        carom.Grid({"angle": [0.1]}),
-        carom.dem.LinearSpring(),
-        carom.verify.Lammps(),
+        *(carom.load_path(PAIR, normal_force=1.0, tangential_force=0.0), carom.KelvinVoigt(0.9)),
+        *(carom.Grid({"angle": [0.1]}), carom.dem.LinearSpring(), carom.verify.Lammps()),
     ],
     ids=lambda thing: type(thing).__name__,
 )

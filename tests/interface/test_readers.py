@@ -10,6 +10,7 @@ import pint
 import pytest
 import xarray as xr
 from tests import checks
+from tests.checks import PAIR
 
 import carom
 from carom.quantities.refusals import flag, one_of
@@ -17,9 +18,6 @@ from carom.quantities.units import counted, whole
 from carom.status import LawStatus
 
 UNITS = pint.get_application_registry()
-PAIR = carom.Pair(
-    carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2
-)
 LAWS = (carom.dem.LinearSpring(), carom.dem.LammpsMindlin(), carom.dem.HardSphere(0.4))
 
 
@@ -33,16 +31,10 @@ def refused(call, *words):
 @pytest.mark.parametrize(
     "force",
     [
-        UNITS.Quantity(0.01, "kN"),
-        [UNITS.Quantity(10.0, "N")],
-        UNITS.Quantity([0.01], "kN"),
+        *(UNITS.Quantity(0.01, "kN"), [UNITS.Quantity(10.0, "N")], UNITS.Quantity([0.01], "kN")),
         np.array([UNITS.Quantity(0.01, "kN")], dtype=object),
-        xr.DataArray([0.01], attrs={"units": "kN"}),
-        xr.DataArray(UNITS.Quantity([0.01], "kN")),
-        pd.Series(["0.01 kN"]),
-        "0.01 kN",
-        Decimal(10),
-        [Fraction(10)],
+        *(xr.DataArray([0.01], attrs={"units": "kN"}), xr.DataArray(UNITS.Quantity([0.01], "kN"))),
+        *(pd.Series(["0.01 kN"]), "0.01 kN", Decimal(10), [Fraction(10)]),
     ],
 )
 def test_units_of_forces_are_heeded(force):
@@ -115,9 +107,7 @@ def test_a_modulus_that_overflows_is_not_rigid(young):
 
 def test_an_array_that_overflows_is_refused():
     for psi in (np.array([np.longdouble("1e4000")]), UNITS.Quantity([1e305], "km/mm")):
-        refused(
-            lambda psi=psi: carom.rebound(psi, 1.44), "psi_1: ", "floating point cannot hold it"
-        )
+        refused(partial(carom.rebound, psi, 1.44), "psi_1: ", "floating point cannot hold it")
 
 
 def test_units_of_two_kinds_at_once_are_refused():
@@ -139,9 +129,7 @@ PURE = {
 @pytest.mark.parametrize(
     "psi",
     [
-        UNITS.Quantity(0.5, "mm"),
-        UNITS.Quantity([0.5], "mm"),
-        [UNITS.Quantity(0.5, "mm")],
+        *(UNITS.Quantity(0.5, "mm"), UNITS.Quantity([0.5], "mm"), [UNITS.Quantity(0.5, "mm")]),
         xr.DataArray([0.5], attrs={"units": "mm"}),
         *(True, [True], np.array([True]), b"1", bytearray(b"1"), np.array([b"1"]), 1j),
         *(np.complex128(0.5), np.timedelta64(5, "s"), np.array(["2020-01-01"], "M8[D]")),

@@ -27,12 +27,9 @@ def test_a_refusal_is_one_line_whatever_it_names():
 @pytest.mark.parametrize(
     ("time", "message"),
     [
-        (1.0, "within the contact, from 0 to"),
-        (-1e-9, "within the contact, from 0 to"),
-        (NAN, "give a number in s"),
-        ("soon", "give a number in s"),
-        ("5 mm", "not a value in s"),
-        (None, "give a number in s"),
+        *((1.0, "within the contact, from 0 to"), (-1e-9, "within the contact, from 0 to")),
+        *((NAN, "give a number in s"), ("soon", "give a number in s")),
+        *(("5 mm", "not a value in s"), (None, "give a number in s")),
     ],
 )
 def test_times(hit, ask, time, message):
@@ -187,13 +184,10 @@ COLUMNS = np.array(PSI, [("psi_1", "f8"), ("psi_2", "f8")])
 @pytest.mark.parametrize(
     "given",
     [
-        COLUMNS,
-        COLUMNS.view(np.recarray),
-        np.ma.masked_array(COLUMNS),
+        *(COLUMNS, COLUMNS.view(np.recarray), np.ma.masked_array(COLUMNS)),
         np.array(PSI, [("psi_1 [1]", "f4"), ("psi_2", "f8")]),
         np.array(PSI, [("psi_1", "U8"), ("psi_2", "O")]),
-        pd.DataFrame(COLUMNS).to_records(index=False),
-        COLUMNS[::-1][::-1],
+        *(pd.DataFrame(COLUMNS).to_records(index=False), COLUMNS[::-1][::-1]),
     ],
 )
 def test_fields_of_records_are_columns(given):
@@ -208,10 +202,8 @@ def test_fields_of_records_are_columns(given):
     [
         *(COLUMNS[0], COLUMNS.reshape(3, 1), np.array(PSI[0], COLUMNS.dtype), COLUMNS[:0]),
         np.zeros(3, [("psi_1", "f8", 2), ("psi_2", "f8")]),
-        np.zeros(3, [("psi_1", [("a", "f8")]), ("psi_2", "f8")]),
-        np.zeros(3, "V8"),
-        np.array(PSI),
-        np.array(PSI, dtype=object),
+        *(np.zeros(3, [("psi_1", [("a", "f8")]), ("psi_2", "f8")]), np.zeros(3, "V8")),
+        *(np.array(PSI), np.array(PSI, dtype=object)),
         {"psi_1": COLUMNS, "psi_2": COLUMNS["psi_2"]},
         {"psi_1": list(COLUMNS), "psi_2": COLUMNS["psi_2"]},
         {"psi_1": np.array([{}, None, 1], object), "psi_2": COLUMNS["psi_2"]},

@@ -15,7 +15,7 @@ import pint
 import pytest
 import scipy.io
 import xarray as xr
-from tests.checks import refused
+from tests.checks import BALL, refused
 
 import carom
 from carom import read, save
@@ -23,9 +23,6 @@ from carom.io.labels import flags, labelled_dataset
 
 AWKWARD = [0.1, -0.0, 5e-324, 1.7976931348623157e308, 1 / 3, 2.5e-7, np.nan, np.inf, -np.inf]
 OLD = Path(__file__).parent / "of_version_0_2"
-
-
-BALL = carom.Sphere(radius="5 mm", material="steel")
 
 
 def history():
@@ -121,14 +118,10 @@ PLAIN = {
 }
 
 
-def made(dataset):
-    return dataset() if callable(dataset) else dataset
-
-
 @pytest.mark.parametrize("kind", PLAIN)
 def test_a_dataset_comes_back_to_the_last_bit(kind, tmp_path):
     """Values, types, order of dimensions, coordinates, attributes; what was given is left alone."""
-    stored = made(PLAIN[kind])
+    stored = PLAIN[kind]() if callable(PLAIN[kind]) else PLAIN[kind]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         back = read(save(stored, tmp_path / "file.NC"))
@@ -193,8 +186,7 @@ def test_random_datasets_come_back_or_are_refused(seed, tmp_path):
     rng = np.random.default_rng(seed)
 
     def text(common='aµ #,;"\n\r', rare="\t\0"):
-        letters = [*common] * 20 + [*rare]
-        return "".join(rng.choice(letters, rng.integers(1, 5)))
+        return "".join(rng.choice([*common] * 20 + [*rare], rng.integers(1, 5)))
 
     def values(shape):
         numbers = rng.normal(size=shape) * 10.0 ** rng.integers(-300, 300, shape)

@@ -29,8 +29,7 @@ def swept(path, design=GRID, resume=True):
 def whole(tmp_path_factory):
     """A finished store of 60,000 points, and its values."""
     path = tmp_path_factory.mktemp("stores") / "whole.zarr"
-    dataset = swept(path, resume=False)
-    return path, dataset.load()
+    return path, swept(path, resume=False).load()
 
 
 @pytest.fixture
@@ -86,8 +85,7 @@ def test_damaged_chunk_is_found_and_computed_again(name, how, whole, copy):
     assert len(files) > 2
     before = [file.stat().st_mtime_ns for file in files]
     damage(chunks(copy, name)[1], how)
-    again = swept(copy)
-    assert again.load().identical(whole[1])
+    assert swept(copy).load().identical(whole[1])
     after = [file.stat().st_mtime_ns for file in files]
     written = [a != b for a, b in zip(after, before, strict=True)]
     assert written == [False, True, *[False] * (len(files) - 2)]
@@ -100,8 +98,7 @@ def test_damaged_chunk_is_never_read_as_numbers(how, whole, copy):
 
     file = chunks(copy, "rebound_speed")[1]
     damage(file, how)
-    dataset = carom.read(copy)
-    assert dataset.psi_out.identical(whole[1].psi_out)
+    assert carom.read(copy).psi_out.identical(whole[1].psi_out)
     key = str(file.relative_to(copy))
     for use in (xr.Dataset.load, summary, lambda x: x.rebound_speed.values):
         refused(f"{key} is damaged; --resume", use, carom.read(copy))
@@ -146,8 +143,7 @@ def test_checksums_are_those_that_the_shell_computes(copy):
 
 def test_what_is_read_when_it_is_used_can_be_pickled(whole, copy):
     """Before its values are read, and checked there, too."""
-    dataset = pickle.loads(pickle.dumps(carom.read(copy)))
-    assert dataset.load().identical(whole[1])
+    assert pickle.loads(pickle.dumps(carom.read(copy))).load().identical(whole[1])
     lazy = pickle.dumps(carom.read(copy).psi_out)
     damage(chunks(copy, "psi_out")[0], "cut")
     refused("psi_out/c/0/0 is damaged", pickle.loads(lazy).load)

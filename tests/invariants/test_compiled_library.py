@@ -66,9 +66,8 @@ def rebounds(rng):
         normal = carom.KelvinVoigt(restitution=e)
         carom.rebound(psi[some], chi[40:100], losses=normal, threads=1, return_status=True)
     for _ in range(5):
-        lossy_rebounds(
-            psi[20:300], chi[20:300], LossNumbers(Loss.VISCOUS, rng.uniform(1e-4, 2.0, 280))
-        )
+        losses = LossNumbers(Loss.VISCOUS, rng.uniform(1e-4, 2.0, 280))
+        lossy_rebounds(psi[20:300], chi[20:300], losses)
 
 
 def impacts(rng):
@@ -119,8 +118,7 @@ def laws(rng):
         law.history(0.7, 1.44, steps=40)
     memory, load = np.zeros(lattice.places(16)), np.empty(3)
     lattice.step(memory, 16, 0.1, np.array([1.0, 0.5, 0.2]), 0.1, 0.2, 0.2, load)
-    mixed = carom.laws.ReboundLaw((1.4, 1.45))
-    mixed(psi, 1.42)
+    carom.laws.ReboundLaw((1.4, 1.45))(psi, 1.42)
     for kind in (np.float32, np.float64):
         velocity = rng.normal(size=(700, 3)).astype(kind)
         normal = rng.normal(size=(700, 3))

@@ -4,39 +4,40 @@ import numpy as np
 import pytest
 
 import carom
+from carom import dem
 
 CHI = 1.4412
 VARIANTS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
 DAMPED = {"restitution": 0.8, "tangential_damping": 0.5}
 PASSIVE = [  # no spring stiffens while it is stretched, or what it gains it has lost before
-    carom.dem.LinearSpring(),
-    carom.dem.LinearSpring(2 / 7),
-    carom.dem.LinearSpring(0.6, **DAMPED),
-    carom.dem.HertzLinearHistory(),
-    carom.dem.LammpsMindlin("mindlin_rescale"),
-    carom.dem.LammpsMindlin("mindlin_rescale/force"),
-    carom.dem.LiggghtsHertz(0.8),
-    carom.dem.StrongeLaw(restitution=0.7),
-    carom.dem.WaltonBraunLaw(),
-    carom.dem.WaltonBraunLaw(restitution=0.7),
-    carom.dem.ExactContactLaw(32, restitution=0.7),
+    dem.LinearSpring(),
+    dem.LinearSpring(2 / 7),
+    dem.LinearSpring(0.6, **DAMPED),
+    dem.HertzLinearHistory(),
+    dem.LammpsMindlin("mindlin_rescale"),
+    dem.LammpsMindlin("mindlin_rescale/force"),
+    dem.LiggghtsHertz(0.8),
+    dem.StrongeLaw(restitution=0.7),
+    dem.WaltonBraunLaw(),
+    dem.WaltonBraunLaw(restitution=0.7),
+    dem.ExactContactLaw(32, restitution=0.7),
 ]
 ELASTIC = [
     *(law for law in PASSIVE if getattr(law, "restitution", 1.0) == 1.0),
-    carom.dem.LammpsMindlin("mindlin"),
-    carom.dem.LammpsMindlin("mindlin/force"),
-    carom.dem.ThorntonLaw(),
+    dem.LammpsMindlin("mindlin"),
+    dem.LammpsMindlin("mindlin/force"),
+    dem.ThorntonLaw(),
 ]
 CONTACTS = [
     *PASSIVE,
-    *(carom.dem.LammpsMindlin(name) for name in VARIANTS[:2]),
-    *(carom.dem.LammpsMindlin(name, **DAMPED) for name in VARIANTS),
-    carom.dem.LammpsMindlin("mindlin", restitution=0.7, damping="tsuji"),
-    carom.dem.EdemHertzMindlin(0.9),
-    carom.dem.ThorntonLaw(),
-    carom.dem.ExactContactLaw(32),  # which gives energy back as exactly as its springs are many
+    *(dem.LammpsMindlin(name) for name in VARIANTS[:2]),
+    *(dem.LammpsMindlin(name, **DAMPED) for name in VARIANTS),
+    dem.LammpsMindlin("mindlin", restitution=0.7, damping="tsuji"),
+    dem.EdemHertzMindlin(0.9),
+    dem.ThorntonLaw(),
+    dem.ExactContactLaw(32),  # which gives energy back as exactly as its springs are many
 ]
-LAWS = [*CONTACTS, carom.dem.HardSphere(0.4, 0.9)]
+LAWS = [*CONTACTS, dem.HardSphere(0.4, 0.9)]
 
 
 def sample(n, seed):
@@ -55,9 +56,7 @@ def test_mirrored_impacts_are_mirrored(law, steps):
     assert np.all(np.isfinite(out))
 
 
-@pytest.mark.parametrize(
-    "law", [*PASSIVE, carom.dem.HardSphere(0.4, 0.9), carom.dem.HardSphere()], ids=str
-)
+@pytest.mark.parametrize("law", [*PASSIVE, dem.HardSphere(0.4, 0.9), dem.HardSphere()], ids=str)
 def test_no_energy_is_gained(law):
     psi, chi = sample(100, 2)
     assert np.all(np.abs(law.rebound(psi, chi)) <= psi + 1e-8)
@@ -69,9 +68,7 @@ def test_no_energy_is_gained(law):
 )
 def test_mindlin_without_rescaling_makes_energy(variant, psi, chi, gain):
     """LAMMPS documents it; the largest found by a scan of psi_1 and chi."""
-    assert carom.dem.LammpsMindlin(variant).rebound(psi, chi) / -psi == pytest.approx(
-        gain, abs=2e-4
-    )
+    assert dem.LammpsMindlin(variant).rebound(psi, chi) / -psi == pytest.approx(gain, abs=2e-4)
 
 
 @pytest.mark.parametrize("law", [*ELASTIC, *PASSIVE[-3:]], ids=str)
@@ -89,9 +86,7 @@ def test_history_keeps_the_cone_and_the_impulse(law, psi):
     history, steps = law.history(psi, CHI, steps=300), 300
     f, t = history["normal_force"], history["tangential_force"]
     dt = history["time"][1]
-    if not (
-        isinstance(law, carom.dem.LiggghtsHertz) and not isinstance(law, carom.dem.EdemHertzMindlin)
-    ):
+    if not (isinstance(law, dem.LiggghtsHertz) and not isinstance(law, dem.EdemHertzMindlin)):
         assert np.all(np.abs(t) <= np.abs(f) * (1 + 1e-12))
     for name, force, pull in (("normal_velocity", f, 1.25), ("psi", t, 2.5 * CHI)):
         lost = pull * dt * (force[1:] + force[:-1]) / 2
@@ -103,13 +98,11 @@ def test_history_keeps_the_cone_and_the_impulse(law, psi):
 
 
 def test_liggghts_leaves_the_cone_by_its_damping():
-    history = carom.dem.LiggghtsHertz(0.5).history(0.5, CHI, steps=1000)
+    history = dem.LiggghtsHertz(0.5).history(0.5, CHI, steps=1000)
     assert np.max(np.abs(history["tangential_force"]) - np.abs(history["normal_force"])) > 0.01
 
 
-@pytest.mark.parametrize(
-    "law", [law for law in CONTACTS if law != carom.dem.ThorntonLaw()], ids=str
-)
+@pytest.mark.parametrize("law", [law for law in CONTACTS if law != dem.ThorntonLaw()], ids=str)
 def test_grazing_of_the_normal_has_a_limit(law):
     """psi_2/psi_1 -> a number as psi_1 -> 0."""
     psi = np.array([1e-3, 1e-4, 1e-5])
@@ -121,11 +114,9 @@ def test_grazing_of_the_normal_has_a_limit(law):
 @pytest.mark.parametrize(
     ("make", "parameter"),
     [
-        (carom.dem.LinearSpring, 0.6),
-        (carom.dem.StrongeLaw, 0.6),
-        (carom.dem.WaltonBraunLaw, 0.6),
-        (carom.dem.HertzLinearHistory, 1.0),
-        *((lambda s, name=name: carom.dem.LammpsMindlin(name, s), 1.0) for name in VARIANTS),
+        *((dem.LinearSpring, 0.6), (dem.StrongeLaw, 0.6)),
+        *((dem.WaltonBraunLaw, 0.6), (dem.HertzLinearHistory, 1.0)),
+        *((lambda s, name=name: dem.LammpsMindlin(name, s), 1.0) for name in VARIANTS),
     ],
 )
 def test_units_of_psi(make, parameter):
@@ -174,34 +165,31 @@ def test_shapes_broadcast(law):
 
 
 def test_no_impacts_have_no_rebounds():
-    assert carom.dem.LinearSpring().rebound([], CHI).shape == (0,)
+    assert dem.LinearSpring().rebound([], CHI).shape == (0,)
 
 
 @pytest.mark.parametrize(
     ("make", "name"),
     [
-        (lambda: carom.dem.LinearSpring(0.0), "stiffness_ratio"),
-        (lambda: carom.dem.LinearSpring(float("inf")), "stiffness_ratio"),
-        (lambda: carom.dem.StrongeLaw(-1.0), "stiffness_ratio"),
-        (lambda: carom.dem.WaltonBraunLaw("soft"), "stiffness_ratio"),
-        (lambda: carom.dem.LinearSpring(restitution=0.0), "restitution"),
-        (lambda: carom.dem.LammpsMindlin(restitution=1.1), "restitution"),
-        (lambda: carom.dem.LiggghtsHertz(float("nan")), "restitution"),
-        (lambda: carom.dem.EdemHertzMindlin(None), "restitution"),
-        (lambda: carom.dem.StrongeLaw(restitution=-0.5), "restitution"),
-        (lambda: carom.dem.HardSphere(1.2), "tangential_restitution"),
-        (lambda: carom.dem.HardSphere(0.4, restitution=0.0), "restitution"),
-        (lambda: carom.dem.LinearSpring(tangential_damping=-1.0), "tangential_damping"),
-        (
-            lambda: carom.dem.HertzLinearHistory(tangential_damping=float("inf")),
-            "tangential_damping",
-        ),
-        (lambda: carom.dem.HertzLinearHistory(0.0), "stiffness"),
-        (lambda: carom.dem.LammpsMindlin("hooke"), "variant"),
-        (lambda: carom.dem.LammpsMindlin(damping="velocity"), "damping"),
-        (lambda: carom.dem.ThorntonLaw().rebound(1.0, CHI, steps=3), "steps"),
-        (lambda: carom.dem.ThorntonLaw().rebound(1.0, CHI, steps=10.5), "steps"),
-        (lambda: carom.dem.LinearSpring().history(1.0, CHI, steps=True), "steps"),
+        (lambda: dem.LinearSpring(0.0), "stiffness_ratio"),
+        (lambda: dem.LinearSpring(float("inf")), "stiffness_ratio"),
+        (lambda: dem.StrongeLaw(-1.0), "stiffness_ratio"),
+        (lambda: dem.WaltonBraunLaw("soft"), "stiffness_ratio"),
+        (lambda: dem.LinearSpring(restitution=0.0), "restitution"),
+        (lambda: dem.LammpsMindlin(restitution=1.1), "restitution"),
+        (lambda: dem.LiggghtsHertz(float("nan")), "restitution"),
+        (lambda: dem.EdemHertzMindlin(None), "restitution"),
+        (lambda: dem.StrongeLaw(restitution=-0.5), "restitution"),
+        (lambda: dem.HardSphere(1.2), "tangential_restitution"),
+        (lambda: dem.HardSphere(0.4, restitution=0.0), "restitution"),
+        (lambda: dem.LinearSpring(tangential_damping=-1.0), "tangential_damping"),
+        (lambda: dem.HertzLinearHistory(tangential_damping=float("inf")), "tangential_damping"),
+        (lambda: dem.HertzLinearHistory(0.0), "stiffness"),
+        (lambda: dem.LammpsMindlin("hooke"), "variant"),
+        (lambda: dem.LammpsMindlin(damping="velocity"), "damping"),
+        (lambda: dem.ThorntonLaw().rebound(1.0, CHI, steps=3), "steps"),
+        (lambda: dem.ThorntonLaw().rebound(1.0, CHI, steps=10.5), "steps"),
+        (lambda: dem.LinearSpring().history(1.0, CHI, steps=True), "steps"),
     ],
 )
 def test_parameters_out_of_range_are_refused_in_a_line(make, name):

@@ -14,12 +14,8 @@ PAIR = carom.Pair(BALL, FLOOR, friction=MU)
 START = carom.Pair(BALL, FLOOR, friction=0.3)
 DEGREES = np.array([3.0, 7.0, 11.0, 15.0, 19.0, 23.0, 27.0, 31.0, 40.0, 50.0, 60.0])
 NAMES = (
-    "tangential_restitution",
-    "spin_out",
-    "rebound_angle",
-    "contact_restitution",
-    "tangential_speed_out",
-    "rebound_speed",
+    *("tangential_restitution", "spin_out", "rebound_angle", "contact_restitution"),
+    *("tangential_speed_out", "rebound_speed"),
 )
 SIGMA = {"tangential_restitution": 0.01, "spin_out": 8.0, "rebound_angle": 0.005}
 SETS = 24

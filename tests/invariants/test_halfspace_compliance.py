@@ -190,12 +190,9 @@ def test_a_mirrored_grid_gives_way_as_the_whole(size, mirrors):
         return unfolded(field, mirrors, False)
 
     for name, load, given, found in [
-        ("normal", p, scalar, scalar),
-        ("tangential", q, vector, vector),
-        ("normal_of_traction", q, vector, scalar),
-        ("tangential_of_pressure", p, scalar, vector),
-        ("roughly_pressure", p, scalar, scalar),
-        ("roughly_traction", q, vector, vector),
+        *(("normal", p, scalar, scalar), ("tangential", q, vector, vector)),
+        *(("normal_of_traction", q, vector, scalar), ("tangential_of_pressure", p, scalar, vector)),
+        *(("roughly_pressure", p, scalar, scalar), ("roughly_traction", q, vector, vector)),
     ]:
         exact = getattr(whole, name)(given(load))
         off = np.abs(found(getattr(part, name)(load)) - exact).max()

@@ -12,12 +12,8 @@ from carom import Cup, HalfSpace, Material, Pair, Sphere
 from carom.io.labels import flags, labelled_dataset
 
 ENERGIES = (
-    "normal_kinetic_energy",
-    "tangential_kinetic_energy",
-    "spin_kinetic_energy",
-    "normal_elastic_energy",
-    "tangential_elastic_energy",
-    "frictional_work",
+    *("normal_kinetic_energy", "tangential_kinetic_energy", "spin_kinetic_energy"),
+    *("normal_elastic_energy", "tangential_elastic_energy", "frictional_work"),
 )
 KINDS = ("half-space", "rigid half-space", "unlike sphere", "hollow spheres", "cup")
 

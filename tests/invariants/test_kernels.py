@@ -8,6 +8,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+from tests.checks import BALL, PAIR
 
 import carom
 from carom import dem
@@ -24,8 +25,6 @@ VISCOUS = [(0.4, 1.44, 0.1), (3.5, 1.44, 0.4), (-6.0, 1.0, 0.2), (2.0, 4.5, 0.21
 MARCHED = [(1.0, 1.7, (Loss.PLASTIC, 0.3)), (-2.5, 0.8, (Loss.PLASTIC, 0.8))]
 MARCHED += [(1.3, 1.4, (Loss.RELAXING, 0.5, 2.0))]
 SPRINGS = 24  # of marched impacts, few as Python is slow
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 TWO = carom.Pair(BALL, carom.Sphere(radius="3 mm", material="steel"), friction=0.2)
 LAWS = [
     *(dem.LinearSpring(0.5, 0.9, 0.4), dem.LammpsMindlin("mindlin_rescale/force")),

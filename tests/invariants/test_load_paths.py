@@ -5,21 +5,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import quad
 
 import carom
 from carom.contacts.load_paths import load_path
+from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import RADIUS, RIM, SLOPE, profile_of
-from carom.dimensionless.load_paths.paths import (
-    DISPLACEMENT,
-    INSIDE,
-    STICK,
-    STORED,
-    TRACTION,
-    WORK,
-    follow_path,
-    slid,
-)
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.quantities.refusals import InputError
 
@@ -30,16 +22,16 @@ EXAMPLES = settings(max_examples=60, derandomize=True, deadline=None)
 number = {"allow_nan": False, "allow_subnormal": False}
 places = st.tuples(st.floats(-0.15, 1.0, **number), st.floats(-0.7, 0.7, **number))
 walks = st.lists(places, min_size=1, max_size=25).map(lambda rows: np.array(rows).T)
-COLUMNS = [DISPLACEMENT, TRACTION, STORED, WORK]
+COLUMNS = [paths.DISPLACEMENT, paths.TRACTION, paths.STORED, paths.WORK]
 seeds = st.integers(0, 10**6)
 
 
 def moved(d, u):
-    return follow_path(d, u, np.zeros(d.size, dtype=bool))
+    return paths.follow_path(d, u, np.zeros(d.size, dtype=bool))
 
 
 def forced(d, q):
-    return follow_path(d, q, np.ones(d.size, dtype=bool))
+    return paths.follow_path(d, q, np.ones(d.size, dtype=bool))
 
 
 def deflections(stack, s):
@@ -71,7 +63,7 @@ def springs(d, u, s, parts):
 def test_same_as_springs_one_by_one(walk):
     s = ((np.arange(101) + 0.5) / 101) ** 2
     found = deflections(moved(*walk).stack, s)
-    np.testing.assert_allclose(found, springs(*walk, s, 3), rtol=0, atol=3e-15)
+    assert_allclose(found, springs(*walk, s, 3), rtol=0, atol=3e-15)
 
 
 @EXAMPLES
@@ -84,9 +76,9 @@ def test_force_energy_and_profile_are_those_of_the_memory(walk):
     for low, high, row in zip(edges[:-1], edges[1:], coefficients, strict=True):
         x = 0.5 * (low + high) + 0.5 * (high - low) * nodes
         q = np.array([evaluate(row, low, high, at) for at in x])
-        np.testing.assert_allclose(q, deflections(path.stack, x * x), rtol=0, atol=1e-15)
+        assert_allclose(q, deflections(path.stack, x * x), rtol=0, atol=1e-15)
         sums += 0.5 * (high - low) * np.array([weights @ q, weights @ (0.5 * q * q)])
-    np.testing.assert_allclose(sums, path.results[-1, [TRACTION, STORED]], rtol=0, atol=1e-14)
+    assert_allclose(sums, path.results[-1, [paths.TRACTION, paths.STORED]], rtol=0, atol=1e-14)
 
 
 @EXAMPLES
@@ -95,13 +87,13 @@ def test_coulombs_law(walk):
     path = moved(*walk)
     depth = np.maximum(walk[0], 0.0)
     bound = 2 / 3 * depth**1.5 * (1 + 1e-15) + 1e-300
-    assert np.all(np.abs(path.results[:, TRACTION]) <= bound)
-    assert np.all(path.results[:, STICK] <= np.sqrt(depth))
+    assert np.all(np.abs(path.results[:, paths.TRACTION]) <= bound)
+    assert np.all(path.results[:, paths.STICK] <= np.sqrt(depth))
     assert np.all(np.abs(path.stack[1:, SLOPE]) <= 1.0)
     assert np.all(np.diff(path.stack[:, RIM]) > 0.0)
     assert path.stack[-1, RADIUS] == np.sqrt(depth[-1])
     assert len(path.stack) <= len(depth) + 1
-    assert np.all(np.diff(path.results[:, WORK], prepend=0.0) >= -1e-16)
+    assert np.all(np.diff(path.results[:, paths.WORK], prepend=0.0) >= -1e-16)
 
 
 @settings(max_examples=25, derandomize=True, deadline=None)
@@ -110,15 +102,17 @@ def test_work_input_is_stored_or_dissipated(walk):
     """The work of Q over the last step, by adaptive quadrature, is what both energies gain."""
     d, u = (np.append(0.0, values) for values in walk)
     path = moved(*walk).results
-    before = path[-2, [STORED, WORK]] if len(path) > 1 else np.zeros(2)
+    before = path[-2, [paths.STORED, paths.WORK]] if len(path) > 1 else np.zeros(2)
 
     def force(t):
         end = [values[-2] + t * (values[-1] - values[-2]) for values in (d, u)]
-        return moved(np.append(d[1:-1], end[0]), np.append(u[1:-1], end[1])).results[-1, TRACTION]
+        return moved(np.append(d[1:-1], end[0]), np.append(u[1:-1], end[1])).results[
+            -1, paths.TRACTION
+        ]
 
     parts = np.linspace(0.0, 1.0, 41)[1:-1]  # kinks deceive the extrapolation of a single one
     work, _ = quad(force, 0.0, 1.0, epsabs=1e-12, epsrel=0.0, limit=400, points=parts)
-    gained = np.sum(path[-1, [STORED, WORK]] - before)
+    gained = np.sum(path[-1, [paths.STORED, paths.WORK]] - before)
     assert gained == pytest.approx(work * (u[-1] - u[-2]), rel=0, abs=1e-10)
 
 
@@ -131,10 +125,10 @@ def test_a_step_may_be_split(walk, cuts):
     parts[:, :, -1] = walk
     whole, split = moved(*walk), moved(*parts.reshape(2, -1))
     last = split.results[shares.size - 1 :: shares.size]
-    np.testing.assert_allclose(last[:, COLUMNS], whole.results[:, COLUMNS], rtol=0, atol=1e-13)
+    assert_allclose(last[:, COLUMNS], whole.results[:, COLUMNS], rtol=0, atol=1e-13)
     s = np.linspace(0.0, 1.0, 50)
     found, expected = (deflections(path.stack, s) for path in (split, whole))
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14)
+    assert_allclose(found, expected, rtol=0, atol=1e-14)
 
 
 @EXAMPLES
@@ -142,8 +136,8 @@ def test_a_step_may_be_split(walk, cuts):
 def test_mirror(walk):
     one, other = moved(*walk), moved(walk[0], -walk[1])
     mirrored = one.results * np.array([-1.0, -1.0, 1.0, 1.0, 1.0])
-    np.testing.assert_array_equal(mirrored[:, :WORK], other.results[:, :WORK])
-    np.testing.assert_allclose(mirrored[:, WORK], other.results[:, WORK], rtol=0, atol=1e-15)
+    assert_array_equal(mirrored[:, : paths.WORK], other.results[:, : paths.WORK])
+    assert_allclose(mirrored[:, paths.WORK], other.results[:, paths.WORK], rtol=0, atol=1e-15)
 
 
 @EXAMPLES
@@ -152,16 +146,12 @@ def test_control_by_force_and_by_displacement_agree(rows):
     depth, share = np.array(rows).T
     wanted = share * 2 / 3 * depth**1.5
     one = forced(depth, wanted)
-    assert one.refused == INSIDE
-    np.testing.assert_allclose(one.results[:, TRACTION], wanted, rtol=0, atol=1e-14)
-    other = moved(depth, one.results[:, DISPLACEMENT])
-    np.testing.assert_allclose(
-        other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-13
-    )
-    again = forced(depth, other.results[:, TRACTION])
-    np.testing.assert_allclose(
-        again.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10
-    )
+    assert one.refused == paths.INSIDE
+    assert_allclose(one.results[:, paths.TRACTION], wanted, rtol=0, atol=1e-14)
+    other = moved(depth, one.results[:, paths.DISPLACEMENT])
+    assert_allclose(other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-13)
+    again = forced(depth, other.results[:, paths.TRACTION])
+    assert_allclose(again.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10)
 
 
 @EXAMPLES
@@ -170,14 +160,12 @@ def test_controls_may_alternate(walk, seed):
     """Any step may be led by the force that the displacement causes, unless all slides there."""
     one = moved(*walk)
     cone = 2 / 3 * np.maximum(walk[0], 0.0) ** 1.5
-    holds = (cone > 1e-4) & (np.abs(one.results[:, TRACTION]) < 0.999 * cone)
+    holds = (cone > 1e-4) & (np.abs(one.results[:, paths.TRACTION]) < 0.999 * cone)
     by_force = holds & np.random.default_rng(seed).integers(0, 2, holds.size).astype(bool)
-    targets = np.where(by_force, one.results[:, TRACTION], walk[1])
-    other = follow_path(walk[0], targets, by_force)
-    assert other.refused == INSIDE
-    np.testing.assert_allclose(
-        other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10
-    )
+    targets = np.where(by_force, one.results[:, paths.TRACTION], walk[1])
+    other = paths.follow_path(walk[0], targets, by_force)
+    assert other.refused == paths.INSIDE
+    assert_allclose(other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10)
 
 
 def test_small_steps_do_not_drift():
@@ -186,13 +174,15 @@ def test_small_steps_do_not_drift():
     u = np.linspace(0.0, 1e-9, n)
     one = moved(np.ones(2), np.array([0.0, 1e-9]))
     many = moved(np.ones(n), u)
-    assert many.results[-1, TRACTION] == pytest.approx(one.results[-1, TRACTION], abs=5e-15)
+    assert many.results[-1, paths.TRACTION] == pytest.approx(
+        one.results[-1, paths.TRACTION], abs=5e-15
+    )
     share = np.linspace(0.0, 0.9, n)
-    cattaneo = forced(np.ones(n), 2 / 3 * share).results[:, DISPLACEMENT]
-    np.testing.assert_allclose(cattaneo, 1 - (1 - share) ** (2 / 3), rtol=0, atol=1e-13)
+    cattaneo = forced(np.ones(n), 2 / 3 * share).results[:, paths.DISPLACEMENT]
+    assert_allclose(cattaneo, 1 - (1 - share) ** (2 / 3), rtol=0, atol=1e-13)
     cycle = np.tile([0.5, -0.5, 0.2, -0.3], n // 4)
     loop = forced(np.ones(n), cycle)
-    assert np.ptp(loop.results[4::4, DISPLACEMENT]) <= 1e-14
+    assert np.ptp(loop.results[4::4, paths.DISPLACEMENT]) <= 1e-14
     assert len(loop.stack) < 8
 
 
@@ -219,7 +209,7 @@ def test_paths_that_rest_to_rounding():
         results = path.results[:, COLUMNS]
         assert np.min(np.diff(results[:, 3], prepend=0.0)) >= -1e-14
         assert np.all(np.abs(results[:, 1]) <= 2.0 / 3.0 * d**1.5 * (1.0 + 1e-15) + 1e-16)
-        np.testing.assert_allclose(results, moved(even, u).results[:, COLUMNS], rtol=0, atol=1e-11)
+        assert_allclose(results, moved(even, u).results[:, COLUMNS], rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("g", [0.0, 0.5, -1.0])
@@ -228,7 +218,7 @@ def test_contact_laid_along_a_line_is_one_annulus(g):
     depth = np.arange(1, 65) / 64
     path = moved(depth, g * depth)
     assert len(path.stack) == 2
-    np.testing.assert_array_equal(path.results[:, STICK], 0.0 if abs(g) == 1 else np.sqrt(depth))
+    assert_array_equal(path.results[:, paths.STICK], 0.0 if abs(g) == 1 else np.sqrt(depth))
 
 
 def test_slip_is_that_of_an_impact_with_the_same_motion():
@@ -237,13 +227,11 @@ def test_slip_is_that_of_an_impact_with_the_same_motion():
     radii = np.linspace(0.0, 1.0, 9)
     for end in (0.9, 1.6, 2.2):
         history = solution.at(np.linspace(0.0, end, 20001)[1:])
-        found = slid(history.penetration, history.displacement, radii)
-        np.testing.assert_allclose(found, solution.slid(end, radii), rtol=0, atol=2e-6)
+        found = paths.slid(history.penetration, history.displacement, radii)
+        assert_allclose(found, solution.slid(end, radii), rtol=0, atol=2e-6)
         path = moved(history.penetration, history.displacement).results
-        np.testing.assert_allclose(path[:, TRACTION], history.force, rtol=0, atol=1e-7)
-        np.testing.assert_allclose(
-            path[-1, STORED], history.stored[-1] / 3.75 / 1.44, rtol=0, atol=1e-7
-        )
+        assert_allclose(path[:, paths.TRACTION], history.force, rtol=0, atol=1e-7)
+        assert_allclose(path[-1, paths.STORED], history.stored[-1] / 3.75 / 1.44, rtol=0, atol=1e-7)
 
 
 def test_fields_after_a_step():
@@ -263,7 +251,7 @@ def test_fields_after_a_step():
         assert force == pytest.approx(path.tangential_force[k], rel=1e-9)
         inner = np.linspace(0.0, 0.99 * path.stick_radius[1], 7)
         patch = path.fields(k, points=np.column_stack((inner, 0.0 * inner)))
-        np.testing.assert_allclose(patch.displacement_x, path.displacement[k], rtol=1e-9)
+        assert_allclose(patch.displacement_x, path.displacement[k], rtol=1e-9)
         assert np.all(np.abs(patch.slip_x) < 1e-14 * path.displacement[1])
         assert contact.numbers()["tangential_force"] == path.tangential_force[k]
 
@@ -279,9 +267,7 @@ def test_then_is_one_path():
     steps = whole.to_dataset().drop_vars("friction")
     for name in steps.data_vars:
         size = np.abs(getattr(whole, name)).max()
-        np.testing.assert_allclose(
-            getattr(part, name), getattr(whole, name), rtol=0, atol=1e-10 * size
-        )
+        assert_allclose(getattr(part, name), getattr(whole, name), rtol=0, atol=1e-10 * size)
 
 
 def test_outside_coulombs_cone():

@@ -86,11 +86,8 @@ def test_restitution_one_is_the_elastic_law():
 @pytest.mark.parametrize(
     "normal",
     [
-        carom.KelvinVoigt(loss_time="2 us"),
-        carom.KelvinVoigt(restitution=np.array([0.9, 0.8])),
-        carom.ElasticPlastic(yield_velocity="0.1 m/s"),
-        0.9,
-        "viscous",
+        *(carom.KelvinVoigt(loss_time="2 us"), carom.KelvinVoigt(restitution=np.array([0.9, 0.8]))),
+        *(carom.ElasticPlastic(yield_velocity="0.1 m/s"), 0.9, "viscous"),
     ],
 )
 def test_refuses_losses_that_have_no_table(normal):

@@ -89,9 +89,8 @@ def test_no_dense_scan_below_a_depth_finds_more(friction, poisson, restitution):
     best = dict.fromkeys(PROMISED, 0.0)
     first = np.geomspace(1e-5, 0.02, 16)  # a viscous touch is a blow
     for share in np.concatenate([first, np.linspace(0.03, 0.97, 25)]):
-        below = hit.stress(
-            share * hit.duration, x=np.unique(x), z=depth * np.linspace(1.0, 6.0, 14)
-        )
+        z = depth * np.linspace(1.0, 6.0, 14)
+        below = hit.stress(share * hit.duration, x=np.unique(x), z=z)
         for name, measure in PROMISED.items():
             best[name] = max(best[name], float(below[measure].max()))
     for name, most in best.items():

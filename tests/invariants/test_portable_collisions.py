@@ -144,7 +144,6 @@ LAWS = {
     "smooth": carom.laws.SmoothLaw(restitution=0.8),
 }
 
-
 CASES = [(against_sphere(), law) for law in LAWS]
 CASES += [(against_half_space(), "exact"), (against_sphere(friction=0.0), "exact")]
 

@@ -5,6 +5,8 @@ The truth is a central difference of the NumPy path, in every regime and at its 
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from tests.invariants.test_portable_collisions import LAWS
 
 import carom
 
@@ -80,19 +82,9 @@ def differences(given, normal, law):
         for k in range(3):
             shift = step * np.eye(3)[k]
             ends = (given | {name: given[name] + shift}, given | {name: given[name] - shift})
-            high, low = (
-                weighted(carom.collide(pair(), **end, normal=normal, law=law)) for end in ends
-            )
+            high, low = (weighted(carom.collide(pair(), **e, normal=normal, law=law)) for e in ends)
             result[name][:, k] = (high - low) / (2.0 * step)
     return result
-
-
-LAWS = {
-    "exact": None,
-    "walton": carom.laws.WaltonLaw(friction=0.3, restitution=0.9, tangential_restitution=0.4),
-    "rough": carom.laws.RoughLaw(restitution=0.95),
-    "smooth": carom.laws.SmoothLaw(),
-}
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -105,9 +97,7 @@ def test_of_collisions(gradient, law):
 
     got, want = gradient(number, given), differences(given, normal, LAWS[law])
     for name in NAMES:
-        np.testing.assert_allclose(
-            got[name] / UNIT[name], want[name] / UNIT[name], rtol=0, atol=1e-6
-        )
+        assert_allclose(got[name] / UNIT[name], want[name] / UNIT[name], rtol=0, atol=1e-6)
 
 
 @pytest.mark.filterwarnings("ignore:of 9 pairs these were left alone")  # torch has values to tell
@@ -133,8 +123,8 @@ def test_of_pairs_that_are_left_alone(gradient):
 
     got = gradient(number, given)
     for name in NAMES:
-        np.testing.assert_array_equal(got[name][:rows], 3.0)
-        np.testing.assert_array_equal(got[name][rows], 0.0)
+        assert_array_equal(got[name][:rows], 3.0)
+        assert_array_equal(got[name][rows], 0.0)
 
 
 def test_of_the_law(gradient):
@@ -144,18 +134,17 @@ def test_of_the_law(gradient):
     for function, size in ((law, 1.0), (law.impulse, 1.0), (law.dissipation, 300.0)):
         got = gradient(lambda arrays, f=function: f(arrays["psi"]).sum(), {"psi": psi})["psi"]
         want = (function(psi + STEP) - function(psi - STEP)) / (2.0 * STEP)
-        np.testing.assert_allclose(got, want, rtol=0, atol=1e-6 * size)
+        assert_allclose(got, want, rtol=0, atol=1e-6 * size)
 
 
 def test_of_the_law_is_that_of_the_exact_rebound(gradient):
     """d(psi_2)/d(psi_1) to 2e-5: a table 1e-9 exact, less so in its derivative."""
     psi, step = np.array(SLOPES[2:]), 1e-3
-    got = gradient(lambda arrays: carom.laws.ReboundLaw(1.44)(arrays["psi"]).sum(), {"psi": psi})[
-        "psi"
-    ]
+    law = carom.laws.ReboundLaw(1.44)
+    got = gradient(lambda arrays: law(arrays["psi"]).sum(), {"psi": psi})["psi"]
     ends = carom.rebound(psi[:, np.newaxis] + step * np.array([1.0, -1.0, 2.0, -2.0]), 1.44)
     one, two = ends[:, 0] - ends[:, 1], ends[:, 2] - ends[:, 3]
-    np.testing.assert_allclose(got, (8.0 * one - two) / (12.0 * step), rtol=0, atol=2e-5)
+    assert_allclose(got, (8.0 * one - two) / (12.0 * step), rtol=0, atol=2e-5)
 
 
 def test_jit_and_vmap():
@@ -173,4 +162,4 @@ def test_jit_and_vmap():
         for way in (collided, jax.vmap(collided)):
             for name, got in jax.jit(way)(jax.numpy.asarray(normal), arrays).items():
                 assert got.dtype == want[name].dtype
-                np.testing.assert_allclose(got, want[name], rtol=1e-12, atol=1e-12)
+                assert_allclose(got, want[name], rtol=1e-12, atol=1e-12)

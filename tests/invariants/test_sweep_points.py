@@ -232,16 +232,12 @@ def test_variables_are_what_a_block_returns():
 def test_descriptions_are_equal_for_equal_sweeps_only():
     grid = {"angle": ["30 deg"]}
     same = {**BALL, "speed": "2 m/s", "spin": 0, "angle": 1.0}
-    one, two = (
-        SweepProblem(BALL, Grid(grid)),
-        SweepProblem(same, Grid({"angle": [math.radians(30.0)]})),
-    )
+    one = SweepProblem(BALL, Grid(grid))
+    two = SweepProblem(same, Grid({"angle": [math.radians(30.0)]}))
     assert json.dumps(one.description(), allow_nan=False) == json.dumps(two.description())
     for case, axes, outputs in (
-        ({**BALL, "spin": 1.0}, grid, None),
-        (BALL, {"angle": ["31 deg"]}, None),
-        (BALL, grid, ["psi_out"]),
-        ({**BALL, "second": {"kind": "sphere"}}, grid, one.outputs),
+        *(({**BALL, "spin": 1.0}, grid, None), (BALL, {"angle": ["31 deg"]}, None)),
+        *((BALL, grid, ["psi_out"]), ({**BALL, "second": {"kind": "sphere"}}, grid, one.outputs)),
         ({**BALL, "second": {"material": "rigid"}}, grid, None),
     ):
         assert SweepProblem(case, Grid(axes), outputs).description() != one.description()

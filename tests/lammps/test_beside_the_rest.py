@@ -206,8 +206,7 @@ def test_units_are_only_units(lammps, units, length, time, mass):
             f"timestep {1e-6 * time!r}\nrun 1500\n"
             "write_dump all custom out.txt vx vy omegaz modify sort id format float %.17g\n"
         )
-        found = lammps.dumped()
-        return found / np.array([speed, speed, 1.0 / time])
+        return lammps.dumped() / np.array([speed, speed, 1.0 / time])
 
     plain = left("si", 1.0, 1.0, 1.0)
     assert plain[1, 0] - plain[0, 0] == pytest.approx(0.09, rel=1e-2)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import BALL, PAIR as WALL, refused
 
 import carom
 from carom.adapters import building, liggghts
@@ -21,8 +21,6 @@ HEADERS = (
     *("contact_models", "error", "global_properties"),
     *("neighbor", "tangential_model_base", "update"),
 )
-BALL = carom.Sphere(radius=5e-3, material="steel")
-WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 SPHERES = carom.Pair(BALL, BALL, friction=0.2)
 compiles = pytest.mark.skipif(
     shutil.which("c++") is None or shutil.which("make") is None,
@@ -72,12 +70,8 @@ def test_friction_opposes_the_slide_at_any_rate_of_approach(model):
 
 
 @compiles
-def test_model_refuses_other_springs(model):
+def test_model_refuses_other_springs_and_cohesion(model):
     assert "springs must be 16, 32 or 64" in model(20, 100, 0, 0.0, 1.0)
-
-
-@compiles
-def test_model_refuses_cohesion(model):
     assert "the normal force must be that of elastic spheres" in model(32, 100, 0, 1e-3, 1.0)
 
 

@@ -52,13 +52,13 @@ def experiment(name: str, law: ContactLaw, steps: int, *_: object) -> Experiment
     )
 
 
-def run_all(program, folder, cases, files, script, lines, **options) -> Results:
+def run_all(program, folder, wanted, files, script, lines, **options) -> Results:
     """Return all experiments with their outcomes, run by one script of lines for each folder."""
-    text, wanted = [], {}
-    for number, case in enumerate(cases):
-        place, wanted[case] = folder / str(number), experiment(*case)
+    text = []
+    for number, (case, impacts) in enumerate(wanted.items()):
+        place = folder / str(number)
         place.mkdir()
-        for name, content in files(case, wanted[case]).items():
+        for name, content in files(case, impacts).items():
             (place / name).write_text(content)
         text += lines(place)
     (folder / script).write_text("\n".join(text) + "\n")

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
 from carom import datasets
@@ -86,11 +87,11 @@ def test_every_point_holds_one_quantity_and_its_error(name):
     """Errors are 0.1 to 1 % of the axis of a figure: what digitising is good for."""
     data = datasets.table(name)
     present = np.array([np.isfinite(data[key]) for key in POINTS[name]])
-    np.testing.assert_array_equal(present.sum(axis=0), 1)
+    assert_array_equal(present.sum(axis=0), 1)
     for key, count in POINTS[name].items():
         assert np.isfinite(data[key]).sum() == count
         error = data[f"{key}_error"]
-        np.testing.assert_array_equal(np.isfinite(error), np.isfinite(data[key]))
+        assert_array_equal(np.isfinite(error), np.isfinite(data[key]))
         full = 0.5 * math.pi if key.endswith("angle") else np.nanmax(abs(data[key]))
         assert 1e-3 * full < np.nanmin(error) <= np.nanmax(error) < 1e-2 * full
     assert 0.05 < np.degrees(data["angle_error"]).min() <= np.degrees(data["angle_error"]).max() < 1
@@ -103,9 +104,7 @@ def test_points_are_those_of_the_source(place, printed):
     angle, values, *_ = points(name, observable)
     scale = math.degrees(1.0) if observable.endswith("angle") else 1.0
     nearest = np.argmin(abs(np.degrees(angle) - printed[0]))
-    np.testing.assert_allclose(
-        (math.degrees(angle[nearest]), scale * values[nearest]), printed, rtol=2e-6
-    )
+    assert_allclose((math.degrees(angle[nearest]), scale * values[nearest]), printed, rtol=2e-6)
 
 
 @pytest.mark.parametrize("name", KHARAZ)
@@ -189,7 +188,7 @@ def test_the_dataset_reads_as_its_file(name):
     given = read_table(datasets.load(name))
     again = in_units(given, given.names, gaps=OBSERVABLES)
     for key, values in datasets.table(name).columns.items():
-        np.testing.assert_array_equal(again[key], values)
+        assert_array_equal(again[key], values)
     assert given.case == read_table(datasets.path(name)).case
     assert others(given, with_errors((*BEFORE, *OBSERVABLES))) == ()
 
@@ -240,7 +239,7 @@ def test_velocities_of_glass_are_those_of_the_worksheet():
     }
     assert found.shape == (24, 4)
     for row, values in printed.items():
-        np.testing.assert_allclose(found[row], values, rtol=6e-5)
+        assert_allclose(found[row], values, rtol=6e-5)
 
 
 def test_published_parameters_are_those_of_pairs_that_can_be():

@@ -83,8 +83,7 @@ def test_friction_alone_cools_in_a_constant_ratio():
     """T_rot/T_tr settles within 5 % of that of Maxwellian spheres, and T_tr falls as t^-2."""
     gas = cool(None, 10_000, 45)
     ratio = gas.ratio[gas.collisions > 25]
-    expected = EXAMPLE["lasting"](None, PAIR)
-    assert ratio.mean() == pytest.approx(expected, rel=0.05)
+    assert ratio.mean() == pytest.approx(EXAMPLE["lasting"](None, PAIR), rel=0.05)
     assert gas.slope(35, 45) == pytest.approx(gas.slope(25, 35), rel=0.04)
     assert np.all(np.diff(gas.translational + gas.rotational) < 0)
 

@@ -5,7 +5,6 @@ Each program computes all its impacts in one process, a folder an experiment.
 
 import os
 import shutil
-import subprocess
 import sys
 import sysconfig
 from itertools import product
@@ -13,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.literature import engines
 
 import carom
 from carom.verify.engines.experiments import Experiment, psi_out
@@ -104,20 +104,14 @@ def experiment(name, law, steps=STEPS, shares=SHARES):
 def computed(path, cases, folder):
     """Return experiments and their outcomes by case."""
     program, wanted = Lammps(path), {case: experiment(*case) for case in cases}
-    lines = []
-    for number, impacts in enumerate(wanted.values()):
-        place = folder / str(number)
-        place.mkdir()
-        for name, text in program.files(impacts).items():
-            (place / name).write_text(text)
-        forgotten = (f"variable {name} delete" for name in ("kn", "kt", "loss", "xgamma", "mu"))
-        lines += [f"shell cd {place}", f"include {INPUT}", "clear", *forgotten]
-    (folder / INPUT).write_text("\n".join(lines) + "\n")
-    subprocess.run(program.command(folder), cwd=folder, check=True, capture_output=True, timeout=60)
-    return {
-        case: (impacts, program.outcomes(folder / str(number), impacts))
-        for number, (case, impacts) in enumerate(wanted.items())
-    }
+    forgotten = [f"variable {name} delete" for name in ("kn", "kt", "loss", "xgamma", "mu")]
+
+    def lines(place):
+        return [f"shell cd {place}", f"include {INPUT}", "clear", *forgotten]
+
+    return engines.run_all(
+        program, folder, wanted, lambda _, impacts: program.files(impacts), INPUT, lines
+    )
 
 
 @pytest.fixture(scope="module", params=PROGRAMS)

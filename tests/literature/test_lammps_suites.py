@@ -197,9 +197,7 @@ def test_inputs_print_the_rebound(bodies, tmp_path):
         assert after - exact == pytest.approx(study.errors(bodies, law), abs=2e-4)
         if law == "mindlin":
             log = name.with_name(f"log.{study.RELEASE}.sticking.{bodies}.g++.1").read_text()
-            assert (
-                re.findall(r"^ +(\S+) +(\S+) +(\S+)$", log.rpartition("exact\n")[2], re.M) == rows
-            )
+            assert ROWS.findall(log.rpartition("exact\n")[2]) == rows
             assert "Loaded" not in log
 
 

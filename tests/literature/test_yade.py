@@ -4,17 +4,7 @@ import os
 from dataclasses import dataclass
 
 import pytest
-from tests.literature.engines import (
-    PAIRS,
-    SPEED,
-    Case,
-    Results,
-    assert_absent,
-    assert_same_alone,
-    deviation,
-    experiment,
-    run_all,
-)
+from tests.literature import engines
 
 from carom.dem import LammpsMindlin, LinearSpring, YadeMindlin
 from carom.dem.damping import thornton_damping
@@ -24,19 +14,21 @@ from carom.verify.engines.running import run
 from carom.verify.engines.yade import MINDLIN, RESULT, SCRIPT, Yade
 
 FORCE = LammpsMindlin("mindlin/force")
-FINE: Case = ("wall", FORCE, 40_000, MINDLIN)
-ELASTIC: list[Case] = [(name, FORCE, 2000, MINDLIN) for name in ("unlike", "unequal spheres")]
-SPRINGS: Case = ("equal spheres", LinearSpring(2 / 7), 2000, "")
-DAMPED: list[Case] = [
+FINE: engines.Case = ("wall", FORCE, 40_000, MINDLIN)
+ELASTIC: list[engines.Case] = [
+    (name, FORCE, 2000, MINDLIN) for name in ("unlike", "unequal spheres")
+]
+SPRINGS: engines.Case = ("equal spheres", LinearSpring(2 / 7), 2000, "")
+DAMPED: list[engines.Case] = [
     (name, YadeMindlin(e), 2000, MINDLIN)
     for name in ("wall", "unlike", "unequal spheres")
     for e in (1.0, 0.9, 0.5)
 ]
-LINEAR_SHEAR: Case = (
+LINEAR_SHEAR: engines.Case = (
     *("wall", FORCE, 1000),
     "Law2_ScGeom_MindlinPhys_HertzWithLinearShear(nonLin=1)",
 )
-DERESIEWITZ: Case = ("wall", FORCE, 200, "Law2_ScGeom_MindlinPhys_MindlinDeresiewitz()")
+DERESIEWITZ: engines.Case = ("wall", FORCE, 200, "Law2_ScGeom_MindlinPhys_MindlinDeresiewitz()")
 
 engine = pytest.mark.engine
 present = pytest.mark.skipif(Yade().executable() is None, reason="YADE is not installed")
@@ -56,12 +48,13 @@ class Otherwise(Yade):
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory: pytest.TempPathFactory) -> Results:
+def found(tmp_path_factory: pytest.TempPathFactory) -> engines.Results:
     """Return all experiments with their outcomes."""
-    return run_all(
+    cases = [FINE, *ELASTIC, SPRINGS, *DAMPED, LINEAR_SHEAR, DERESIEWITZ]
+    return engines.run_all(
         Yade(),
         tmp_path_factory.mktemp("yade"),
-        [FINE, *ELASTIC, SPRINGS, *DAMPED, LINEAR_SHEAR, DERESIEWITZ],
+        {case: engines.experiment(*case) for case in cases},
         lambda case, impacts: Otherwise(functor=case[-1]).files(impacts),
         SCRIPT,
         lambda place: [
@@ -74,29 +67,31 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> Results:
 
 @engine
 @present
-def test_mindlin_on_a_wall(found: Results) -> None:
+def test_mindlin_on_a_wall(found: engines.Results) -> None:
     """LammpsMindlin("mindlin/force") is YADE's Mindlin to 1e-4 at a step that is fine enough."""
-    assert PAIRS["wall"].chi == pytest.approx(1.4412, abs=1e-4)
-    assert deviation(found, FINE, steps=None) < 1e-4
+    assert engines.PAIRS["wall"].chi == pytest.approx(1.4412, abs=1e-4)
+    assert engines.deviation(found, FINE, steps=None) < 1e-4
 
 
 @engine
 @present
 @pytest.mark.parametrize("case", ELASTIC, ids=str)
-def test_mindlin_step_for_step(found: Results, case: Case) -> None:
+def test_mindlin_step_for_step(found: engines.Results, case: engines.Case) -> None:
     """Step for step the record agrees for unlike materials and for unlike spheres."""
-    assert deviation(found, case, steps=2000) < 5e-5
+    assert engines.deviation(found, case, steps=2000) < 5e-5
 
 
 @engine
 @present
 @pytest.mark.parametrize("case", DAMPED, ids=str)
-def test_damped_mindlin_step_for_step(found: Results, case: Case) -> None:
+def test_damped_mindlin_step_for_step(found: engines.Results, case: engines.Case) -> None:
     """YadeMindlin is YADE's Mindlin with e_n = e_s = e, and e is what it leaves."""
     name, law, _, _ = case
-    assert deviation(found, case, steps=2000) < (5e-5 if name == "unequal spheres" else 1e-5)
+    assert engines.deviation(found, case, steps=2000) < (
+        5e-5 if name == "unequal spheres" else 1e-5
+    )
     speed = found[case][1].normal_speed
-    assert speed == pytest.approx(law.restitution * SPEED, rel=2e-4)
+    assert speed == pytest.approx(law.restitution * engines.SPEED, rel=2e-4)
 
 
 def test_damping_of_thornton() -> None:
@@ -108,21 +103,21 @@ def test_damping_of_thornton() -> None:
 
 @engine
 @present
-def test_linear_springs(found: Results) -> None:
+def test_linear_springs(found: engines.Results) -> None:
     """LinearSpring is YADE's CundallStrack with k_n and k_s given, here of equal spheres."""
-    assert deviation(found, SPRINGS, steps=2000) < 5e-5
+    assert engines.deviation(found, SPRINGS, steps=2000) < 5e-5
 
 
 @engine
 @present
-def test_hertz_with_linear_shear(found: Results) -> None:
+def test_hertz_with_linear_shear(found: engines.Results) -> None:
     """HertzWithLinearShear is the same law as Mindlin if nonLin is 1."""
-    assert deviation(found, LINEAR_SHEAR, steps=1000) < 5e-5
+    assert engines.deviation(found, LINEAR_SHEAR, steps=1000) < 5e-5
 
 
 @engine
 @present
-def test_known_defect_of_mindlin_deresiewitz(found: Results) -> None:
+def test_known_defect_of_mindlin_deresiewitz(found: engines.Results) -> None:
     """MindlinDeresiewitz of YADE sets no shear force: no impact changes psi."""
     impacts, outcomes = found[DERESIEWITZ]
     assert psi_out(impacts, outcomes) == pytest.approx(impacts.psi_in, abs=1e-12)
@@ -130,8 +125,8 @@ def test_known_defect_of_mindlin_deresiewitz(found: Results) -> None:
 
 @engine
 @present
-def test_one_run_alone(found: Results) -> None:
-    assert_same_alone(Yade(), found, DAMPED[1], "2023.02a")
+def test_one_run_alone(found: engines.Results) -> None:
+    engines.assert_same_alone(Yade(), found, DAMPED[1], "2023.02a")
 
 
 def test_what_it_has() -> None:
@@ -146,16 +141,16 @@ def test_what_it_has() -> None:
     )
     assert not any(Yade().supports(law) for law in others)
     with pytest.raises(InputError, match="YADE does not have it"):
-        run(Yade(), experiment("wall", others[0], 100))
+        run(Yade(), engines.experiment("wall", others[0], 100))
 
 
 def test_absent_program() -> None:
-    assert_absent(Yade("/nowhere/yade"), "YADE", FORCE)
+    engines.assert_absent(Yade("/nowhere/yade"), "YADE", FORCE)
 
 
 def test_script_is_python_that_has_every_impact() -> None:
     """The script compiles, and its impacts are those asked for, to the last digit."""
-    impacts = experiment("unequal spheres", FORCE, 100)
+    impacts = engines.experiment("unequal spheres", FORCE, 100)
     text = Yade().files(impacts)[SCRIPT]
     compile(text, SCRIPT, "exec")
     _, _, table = text.partition("impacts = [\n")
@@ -167,7 +162,7 @@ def test_script_is_python_that_has_every_impact() -> None:
 
 def test_results_of_a_run_that_did_not_finish(tmp_path) -> None:
     """Bodies that still touch are no results."""
-    impacts = experiment("wall", FORCE, 100)
+    impacts = engines.experiment("wall", FORCE, 100)
     (tmp_path / RESULT).write_text("0 0.004999 0.1 0.2 0.3\n" * 30)
     with pytest.raises(ValueError, match="still touch"):
         Yade().outcomes(tmp_path, impacts)
