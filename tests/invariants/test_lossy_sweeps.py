@@ -69,9 +69,8 @@ def test_a_fixed_loss_holds_at_every_point(loss):
     name, text = loss.split(" = ")
     case = BALL | {name: text}
     grid = Grid({"angle": [0.0, 0.4], "speed": ["50 cm/s", 2.0], "friction": [0.0, 0.3]})
-    problem = SweepProblem(
-        case, grid, ["normal_restitution", "psi_out", "duration", "max_force", "chi"]
-    )
+    outputs = ["normal_restitution", "psi_out", "duration", "max_force", "chi"]
+    problem = SweepProblem(case, grid, outputs)
     found, given = problem.block(whole(grid)), grid.inputs(whole(grid))
     for at in range(8):
         require_same(problem, found, case, at, {key: float(v[at]) for key, v in given.items()})
