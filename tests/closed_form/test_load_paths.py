@@ -340,9 +340,8 @@ def test_controls_come_back_to_the_bit():
             pushed = load_path(PAIR, normal_force=loads, tangential_force=given)
             np.testing.assert_array_equal(pushed.normal_force, loads)
             np.testing.assert_array_equal(pushed.tangential_force, given)
-            driven = load_path(
-                PAIR, penetration=pushed.penetration, displacement=pushed.displacement
-            )
+            again = {"penetration": pushed.penetration, "displacement": pushed.displacement}
+            driven = load_path(PAIR, **again)
             np.testing.assert_array_equal(driven.penetration, pushed.penetration)
             np.testing.assert_array_equal(driven.displacement, pushed.displacement)
             size = 1e-9 * MU * loads.max()

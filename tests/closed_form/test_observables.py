@@ -149,12 +149,8 @@ def test_every_way_of_giving_the_motion_before(name, way):
     pair, truth = impacts(name)
     known = {key: truth[key] for key in (*way, *names_of(pair, ("spin", "spin2")), "spin_out")}
     for wanted in names_of(pair, BEFORE):
-        np.testing.assert_allclose(
-            convert_observables(pair, known=known, wanted=wanted),
-            truth[wanted],
-            rtol=1e-10,
-            atol=1e-12,
-        )
+        found = convert_observables(pair, known=known, wanted=wanted)
+        np.testing.assert_allclose(found, truth[wanted], rtol=1e-10, atol=1e-12)
     known["normal_speed_out"] = truth["normal_speed_out"]
     found = convert_observables(pair, known=known, wanted="contact_rebound_angle")
     np.testing.assert_allclose(found, truth["contact_rebound_angle"], rtol=1e-9)
@@ -231,10 +227,8 @@ def test_speed_after_with_scatter_takes_the_sign_that_is_nearer():
 
 
 def test_what_is_not_known_stays_unknown():
-    known = {"speed": 2.0, "angle": 0.5, "spin_out": [1.0, np.nan]}
-    found = convert_observables(
-        PAIRS["sphere on wall"], known=known, wanted="tangential_restitution"
-    )
+    pair, known = PAIRS["sphere on wall"], {"speed": 2.0, "angle": 0.5, "spin_out": [1.0, np.nan]}
+    found = convert_observables(pair, known=known, wanted="tangential_restitution")
     assert np.isnan(found).tolist() == [False, True]
 
 

@@ -186,9 +186,8 @@ def test_scaled_forces_scale_their_impulses():
         slowed = score(columns | {"time": (1.0 + c) * columns["time"]}, case=hit).forces
         assert slowed.duration_error == pytest.approx(c, abs=1e-3)
         assert slowed.restitution == pytest.approx(1.0 + 2.0 * c, abs=1e-4)
-        assert slowed.psi[-1] - hit.psi_out == pytest.approx(
-            c * (hit.psi_out - hit.psi_in), abs=1e-4
-        )
+        change = hit.psi_out - hit.psi_in
+        assert slowed.psi[-1] - hit.psi_out == pytest.approx(c * change, abs=1e-4)
 
 
 def test_all_ways_of_giving_results_are_one(tmp_path):

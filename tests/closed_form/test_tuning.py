@@ -45,9 +45,7 @@ def test_linear_spring_against_an_own_scan():
     coarse = np.geomspace(0.02, 5.0, 60)
     fine = np.linspace(0.76, 0.80, 41)
     exact = carom.rebound(PSI, CHI)
-    worst = [
-        np.abs(linear_springs(r / KAPPA, PSI, CHI) - exact).max(axis=1) for r in (coarse, fine)
-    ]
+    worst = [np.abs(linear_springs(r / KAPPA, PSI, CHI) - exact).max(1) for r in (coarse, fine)]
     assert 0.7 < coarse[worst[0].argmin()] < 0.85
     best = fine[worst[1].argmin()]
     assert best == pytest.approx(0.777, abs=2e-3)

@@ -13,9 +13,8 @@ from carom.dimensionless.rebounds import lossy_rebounds, regime_borders
 def psi_out(psi, chi, e):
     psi, chi, e = np.broadcast_arrays(*map(np.atleast_1d, (psi, chi, e)))
     alpha = np.array([viscous_loss(each) for each in e])
-    return lossy_rebounds(
-        psi.astype(float), chi.astype(float), LossNumbers(Loss.VISCOUS, alpha)
-    ).psi_out
+    losses = LossNumbers(Loss.VISCOUS, alpha)
+    return lossy_rebounds(psi.astype(float), chi.astype(float), losses).psi_out
 
 
 @pytest.mark.parametrize("e", [0.1, 0.3, 0.6, 0.9, 0.99])

@@ -213,9 +213,8 @@ def test_many_impacts_are_the_sum_of_each():
     assert float(spot.total_worn_volume) == pytest.approx(5e-13 * work, rel=1e-8, abs=0.0)
     widest = max(hit.max_radius for hit in hits)
     np.testing.assert_allclose(spot.distance, np.linspace(0.0, widest, 5))
-    inmost = sum(
-        n * hit.wear(2).mean_friction_work.values[0] for n, hit in zip(counts, hits, strict=True)
-    )
+    works = [hit.wear(2).mean_friction_work.values[0] for hit in hits]
+    inmost = sum(n * work for n, work in zip(counts, works, strict=True))
     assert float(spot.mean_friction_work[0]) == pytest.approx(inmost, rel=1e-12, abs=0.0)
     assert float(spot.max_friction_work) >= inmost * (1.0 - 1e-12)
     coarse, fine = (

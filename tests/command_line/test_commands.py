@@ -192,9 +192,8 @@ def loaded_by(program):
     """Return which of the slow packages a program loads."""
     slow = "numpy numba scipy xarray pint matplotlib pandas rich"
     end = f"; import sys; print(*[name for name in {slow.split()!r} if name in sys.modules])"
-    done = subprocess.run(
-        [sys.executable, "-c", program + end], capture_output=True, text=True, check=True
-    )
+    command = [sys.executable, "-c", program + end]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
     return set(done.stdout.splitlines()[-1].split())
 
 

@@ -24,7 +24,7 @@ LAWS = {
     "--yield-velocity material": carom.ElasticPlastic(),
     "--relaxation-time 20us --modulus-ratio 1.5": carom.StandardLinearSolid(1.5, "20 us"),
 }
-CASE = f'loss_time = "2 us"\n{checks.CASE}'
+CASE = checks.CASE.replace("[first]", 'loss_time = "2 us"\n[first]')
 SWEEP = """
 [sweep.axes]
 restitution = [0.6, 0.8, 1.0, 1.2]

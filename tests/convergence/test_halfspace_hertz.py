@@ -30,9 +30,8 @@ def measured():
             patch, radii, pressure = pressed(elements, depth)
             exact = 2.0 / np.pi * np.sqrt(np.maximum(depth - radii**2, 0.0))
             off = np.abs(pressure - exact)
-            several["force"].append(
-                patch.grid.element * pressure.sum() / (4.0 / 3.0 * depth**1.5) - 1.0
-            )
+            force = patch.grid.element * pressure.sum()
+            several["force"].append(force / (4.0 / 3.0 * depth**1.5) - 1.0)
             several["inside"].append(off[radii <= 0.75 * np.sqrt(depth)].max())
             several["mean"].append(np.sqrt(patch.grid.element * np.sum(off**2)))
             several["worst"].append(off.max())

@@ -71,9 +71,8 @@ def test_two_grids_give_1e_6_and_say_so() -> None:
 
 def test_the_oracle_agrees() -> None:
     for psi, chi in zip(*random_impacts(5, 4), strict=True):
-        assert oracle.extrapolated(psi, chi, springs=500) == pytest.approx(
-            carom.rebound(psi, chi), abs=5e-6
-        )
+        found = oracle.extrapolated(psi, chi, springs=500)
+        assert found == pytest.approx(carom.rebound(psi, chi), abs=5e-6)
 
 
 @pytest.mark.parametrize("psi", [4.0, 9.0])
@@ -118,10 +117,8 @@ def test_sequence_of_phases_is_the_exact_one() -> None:
 def test_plates(give: float, e: float, duration: float, psi_out: tuple[float, ...]) -> None:
     """Zener's plates, against 800 springs in 4000 steps of a march of its own; e for small lambda
     is exp(-(3/2) B(3/5, 3/2) lambda)."""
-    solid, close = (
-        Solid(int(Loss.PLATE), give),
-        6e-6 if give == 0.1 else 6e-4 if give > 1.0 else 6e-5,
-    )
+    solid = Solid(int(Loss.PLATE), give)
+    close = 6e-6 if give == 0.1 else 6e-4 if give > 1.0 else 6e-5
     for psi, wanted in zip((0.5, 1.0, 2.0, 3.0, 4.5), psi_out, strict=True):
         found = numbers(psi, Inertia(1.4412), solid)
         assert found[PSI_OUT] == pytest.approx(wanted, abs=close)

@@ -25,9 +25,8 @@ FAR = [(9.0, 0.0), (-7.0, 24.0), (60.0, -60.0), (0.0, 127.0)]
 
 def closed_form(point):
     """Return the coefficients by name, as floats."""
-    return {
-        name: float(value) for name, value in influence(*map(np.array, point))._asdict().items()
-    }
+    values = influence(*map(np.array, point))._asdict()
+    return {name: float(value) for name, value in values.items()}
 
 
 def integral_around(kernel, point):

@@ -249,8 +249,7 @@ def test_a_terminal_without_the_micro_sign_gets_a_u(encoding, micro):
     """Which is read as well."""
     code = "from carom.quantities.prefixes import text; print(text(2.5e-6, 'm'))"
     environment = os.environ | {"PYTHONIOENCODING": encoding}
-    done = subprocess.run(
-        [sys.executable, "-c", code], env=environment, capture_output=True, check=True
-    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, env=environment, capture_output=True, check=True)
     assert done.stdout.decode(encoding).strip() == f"2.5 {micro}m"
     assert read_text("2.5 um", "m") == read_text("2.5 µm", "m") == 2.5e-6

@@ -59,9 +59,8 @@ def bars(axis):
 
 def test_bars_are_the_errors_best_first(laws, ranking):
     drawn = [bar for _, axis in rows(laws) for bar in bars(axis)]
-    wanted = zip(
-        ranking.law.values, ranking.max_error.values, ranking.rms_error.values, strict=True
-    )
+    columns = (ranking.law, ranking.max_error, ranking.rms_error)
+    wanted = zip(*(column.values for column in columns), strict=True)
     assert drawn == [(name, pytest.approx(m), pytest.approx(r)) for name, m, r in wanted]
     assert drawn[0][0] in ("Stronge, bilinear", "linear spring, k_t/k_n = kappa")
     assert sorted(drawn, key=lambda bar: bar[1]) == drawn

@@ -33,9 +33,8 @@ def test_map_is_symmetric_and_its_mean_is_the_profile(hit):
     """Around a circle; the depth is k/mu times the work."""
     angles = 2.0 * np.pi * (np.arange(24) + 0.5) / 24
     r = 0.8 * hit.max_radius
-    around = [
-        float(hit.wear(x=[r * np.cos(t)], y=[r * np.sin(t)]).friction_work[0, 0]) for t in angles
-    ]
+    maps = [hit.wear(x=[r * np.cos(t)], y=[r * np.sin(t)]) for t in angles]
+    around = [float(one.friction_work[0, 0]) for one in maps]
     worn = hit.wear(6, coefficient=1e-13)
     assert np.mean(around) == pytest.approx(float(worn.mean_friction_work[4]), rel=1e-12, abs=0.0)
     assert np.ptp(around) > 1e-3 * np.mean(around)

@@ -102,6 +102,5 @@ def test_the_pressure_adds_up_to_the_momentum():
         solution = carom.solve(0.5, 1.44, losses=losses)
         radii, areas = _quadrature(solution)
         found = float(solution.pressed(radii) @ areas)
-        assert found == pytest.approx(
-            8.0 / 15.0 * np.pi * (1.0 + solution.restitution), rel=1e-9, abs=0.0
-        )
+        exact = 8.0 / 15.0 * np.pi * (1.0 + solution.restitution)
+        assert found == pytest.approx(exact, rel=1e-9, abs=0.0)

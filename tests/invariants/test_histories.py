@@ -45,9 +45,8 @@ def random_impact(kind, rng):
     spin, spin2 = rng.normal(size=2) / radius
     spin2 = spin2 if len(pair.moving) == 2 else 0.0
     carried = sum(b.radius * w for b, w in zip(pair.moving, (spin, spin2), strict=False))
-    return carom.impact(
-        pair, normal_speed=1.0, tangential_speed=slip - carried, spin=spin, spin2=spin2
-    )
+    spins = {"spin": spin, "spin2": spin2}
+    return carom.impact(pair, normal_speed=1.0, tangential_speed=slip - carried, **spins)
 
 
 @pytest.fixture(params=[(kind, seed) for kind in KINDS for seed in range(4)], ids=str)

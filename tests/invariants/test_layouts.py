@@ -6,12 +6,11 @@ apart, so the last digits may differ; more may not.
 
 import numpy as np
 import pytest
+from tests.checks import BALL, FLOOR
 
 import carom
 
-PAIR = carom.Pair(
-    carom.Sphere(radius=5e-3, material="steel"), carom.HalfSpace(material="steel"), friction=0.3
-)
+PAIR = carom.Pair(BALL, FLOOR, friction=0.3)
 VISCOUS = carom.KelvinVoigt(restitution=0.8)
 HIT = carom.impact(PAIR, speed=1.0, angle=0.6)
 LAW, MIXTURE = carom.laws.ReboundLaw(1.44), carom.laws.ReboundLaw((1.2, 1.6))

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import quad
+from tests.checks import BALL, FLOOR
 
 import carom
 from carom.contacts.load_paths import load_path
@@ -15,9 +16,7 @@ from carom.dimensionless.load_paths.memory import RADIUS, RIM, SLOPE, profile_of
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.quantities.refusals import InputError
 
-PAIR = carom.Pair(
-    carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.3
-)
+PAIR = carom.Pair(BALL, FLOOR, friction=0.3)
 EXAMPLES = settings(max_examples=60, derandomize=True, deadline=None)
 number = {"allow_nan": False, "allow_subnormal": False}
 places = st.tuples(st.floats(-0.15, 1.0, **number), st.floats(-0.7, 0.7, **number))

@@ -69,9 +69,8 @@ def test_a_fixed_loss_holds_at_every_point(loss):
     name, text = loss.split(" = ")
     case = BALL | {name: text}
     grid = Grid({"angle": [0.0, 0.4], "speed": ["50 cm/s", 2.0], "friction": [0.0, 0.3]})
-    problem = SweepProblem(
-        case, grid, ["normal_restitution", "psi_out", "duration", "max_force", "chi"]
-    )
+    outputs = ["normal_restitution", "psi_out", "duration", "max_force", "chi"]
+    problem = SweepProblem(case, grid, outputs)
     found, given = problem.block(whole(grid)), grid.inputs(whole(grid))
     for at in range(8):
         require_same(problem, found, case, at, {key: float(v[at]) for key, v in given.items()})
@@ -137,28 +136,18 @@ def test_descriptions_tell_losses_apart_and_leave_elastic_sweeps_as_they_were():
     case = {"friction": 0.2, "speed": 2.0, "first": {"radius": 0.005}}
     elastic = SweepProblem(case, grid, ["psi_out"])
     steel = {"label": "steel", "young": 210e9, "poisson": 0.3, "density": 7850.0}
+    plain = {"first.radius": 0.005, "friction": 0.2, "speed": 2.0}
+    axes = {"angle": [0.5], "first.material": [steel]}
     assert identity(elastic) == {
-        "case": {
-            "first.radius": 0.005,
-            "friction": 0.2,
-            "speed": 2.0,
-            "spin": 0.0,
-            "spin2": 0.0,
-            "tangential_speed": 0.0,
-        },
+        "case": dict.fromkeys(("spin", "spin2", "tangential_speed"), 0.0) | plain,
         "second": ["half-space"],
-        "design": {
-            "kind": "grid",
-            "order": ["angle", "first.material"],
-            "axes": {"angle": [0.5], "first.material": [steel]},
-        },
+        "design": {"kind": "grid", "order": [*axes], "axes": axes},
         "outputs": ["psi_out"],
     }
     losses = ({}, {"restitution": 0.9}, {"restitution": 0.8}, {"loss_time": 1e-6})
     losses += ({"yield_velocity": 0.1}, {"yield_velocity": "material"})
-    told = [
-        json.dumps(SweepProblem(case | loss, grid, ["psi_out"]).description()) for loss in losses
-    ]
+    problems = [SweepProblem(case | loss, grid, ["psi_out"]) for loss in losses]
+    told = [json.dumps(problem.description()) for problem in problems]
     assert len(set(told)) == len(losses)
     assert str(carom.material("steel").yield_strength) in told[-1]
 

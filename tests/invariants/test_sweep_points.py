@@ -110,9 +110,8 @@ def test_everything_that_can_be_asked_for():
 
 def test_materials_and_kinds_by_name():
     """Names of materials and kinds as inputs give what the same names in a case give."""
-    grid = Grid(
-        {"first.material": ["steel", "nylon"], "second.kind": ["cup", "sphere"], "angle": [1]}
-    )
+    bodies = {"first.material": ["steel", "nylon"], "second.kind": ["cup", "sphere"]}
+    grid = Grid({**bodies, "angle": [1]})
     case = {"friction": 0.1, "speed": 1, "first": {"radius": 0.01}, "second": {"radius": 0.03}}
     found = SweepProblem(case, grid).block(whole(grid))
     for i, stuff in enumerate(("steel", "nylon")):
@@ -188,9 +187,8 @@ def test_two_rigid_bodies_and_names_that_are_not_known():
     bad = PointStatus.NOT_A_NUMBER  # what is rigid has no density, with which it could move
     assert status.tolist() == [PointStatus.SOLVED, bad, bad]
     table = Table({"first.material.young": [1e9, math.inf], "angle": [0.1, 0.1]})
-    status = SweepProblem({**BALL, "second": {"material": "rigid"}}, table).block((slice(0, 2),))[
-        "status"
-    ]
+    problem = SweepProblem({**BALL, "second": {"material": "rigid"}}, table)
+    status = problem.block((slice(0, 2),))["status"]
     assert status.tolist() == [PointStatus.SOLVED, PointStatus.OUT_OF_RANGE]
 
 

@@ -9,9 +9,8 @@ from carom.dimensionless.numerics.hertz import DURATION
 
 RADIUS, FRICTION, SHALLOW = 5e-3, 0.2, 1e-6  # d_max/R: the normal of a pair hardly turns
 SOLID = {"young": 210e9, "poisson": 0.3, "friction": FRICTION}
-BALL = carom.Sphere(
-    radius=RADIUS, material=carom.Material(young=210e9, poisson=0.3, density=7850.0)
-)
+STEEL = carom.Material(young=210e9, poisson=0.3, density=7850.0)
+BALL = carom.Sphere(radius=RADIUS, material=STEEL)
 PAIR = carom.Pair(BALL, BALL, friction=FRICTION)
 SPEED = 0.5 * (SHALLOW * RADIUS / PAIR.scales(0.5).length) ** 1.25
 PSI = np.linspace(0.0, 6.0, 64)

@@ -19,9 +19,8 @@ from bulk.cells import both_ways
 from page_blocks import blocks
 
 YOUNG = 1e9  # Pa, so that nothing is out of the ordinary; masses of 1 kg, diameters of 1 m
-BALL = carom.Sphere(
-    radius=0.5, material=carom.Material(young=YOUNG, poisson=0.3, density=6.0 / np.pi)
-)
+STUFF = carom.Material(young=YOUNG, poisson=0.3, density=6.0 / np.pi)
+BALL = carom.Sphere(radius=0.5, material=STUFF)
 PAIR = carom.Pair(BALL, BALL, friction=0.3)
 
 
@@ -41,9 +40,8 @@ def test_laws_are_given_the_contact_that_they_are_named_after():
     speed = 0.01
     scales, unit = PAIR.scales(speed), 1.0 / np.sqrt(YOUNG)  # of time, in s
     assert contact_laws.overlap(speed * unit) == pytest.approx(scales.length, rel=1e-9)
-    assert contact_laws.duration(speed * unit) * unit == pytest.approx(
-        2.943275184 * scales.time, rel=1e-9
-    )
+    lasted = contact_laws.duration(speed * unit) * unit
+    assert lasted == pytest.approx(2.943275184 * scales.time, rel=1e-9)
     setting = contact_laws.Setting(0.3, 0.9, 1e-3, contact_laws.secant(1e-3))
     force = 4.0 / 3.0 * PAIR.effective_modulus / YOUNG * np.sqrt(0.25) * 1e-3**1.5
     assert setting.spring * 1e-3 == pytest.approx(force, rel=1e-12)

@@ -38,9 +38,8 @@ def pushed(shear, poisson, radius, friction, force, part):
     stuff = Material(young=2.0 * shear * (1.0 + poisson) * MPA, poisson=poisson, density=1000)
     ball = Sphere(radius=radius * MM, material=stuff)
     pair = Pair(ball, HalfSpace(material=stuff), friction)
-    return carom.load_path(
-        pair, normal_force=[force, force], tangential_force=[0.0, part * friction * force]
-    )
+    push = [0.0, part * friction * force]
+    return carom.load_path(pair, normal_force=[force, force], tangential_force=push)
 
 
 @pytest.fixture(scope="module")
