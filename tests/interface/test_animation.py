@@ -77,7 +77,7 @@ def test_a_file_survives_when_an_instant_fails(hit, history, frames, tmp_path):
     target = tmp_path / "hit.gif"
     target.write_bytes(b"before")
     instants = (fields if fields is not None else hit.fields(1.0) for fields in [frames[0], None])
-    refused("time", animate, history, instants, target)
+    refused("at", animate, history, instants, target)
     assert target.read_bytes() == b"before"
     assert [path.name for path in tmp_path.iterdir()] == ["hit.gif"]
 

@@ -33,7 +33,7 @@ def test_a_refusal_is_one_line_whatever_it_names():
     ],
 )
 def test_times(hit, ask, time, message):
-    refused(f"^time: .*{message}", getattr(hit, ask), time)
+    refused(f"^at: .*{message}", getattr(hit, ask), time)
 
 
 @pytest.mark.parametrize(
