@@ -25,7 +25,8 @@ SEVERAL_TEXT = (
 )
 LOOK_TEXT = """**look : width, font_size, style, ax
     Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`. What
-    has one panel is drawn into `ax`, Axes of your own, if you give them."""
+    has one panel is drawn into `ax`, Axes of your own, if you give them; legends have room in a
+    figure of `plt.subplots(layout="constrained")`."""
 AT_TEXT = """at : float or str, optional
     Of a result: the time in s of an impact, by default that of the largest normal force, or the
     step of a load path, by default the last."""
