@@ -124,6 +124,21 @@ def test_a_signal_leaves_no_temporary_file(number, arguments, there, command):
     assert all((there / name).read_text() in ("older", SMALL) for name in before)
 
 
+def test_a_signal_while_a_store_is_made_leaves_nothing(there):
+    """A thread that makes it would go on after the folder has been removed."""
+    program = """
+import os, signal, sys, threading, time
+def hook(event, given):
+    if event == "os.mkdir" and "/.carom-" in os.fspath(given[0]):
+        signal.pthread_kill(threading.main_thread().ident, signal.SIGTERM)
+        time.sleep(0.5)
+sys.addaudithook(hook)
+"""
+    arguments = ["sweep", "sweep.toml", "--store", "sweep.zarr"]
+    assert ended(there, program + RUN, arguments) == (143, "", "")
+    assert left(there) == ["sweep.toml"]
+
+
 def test_ctrl_c_in_sampling_is_told_in_one_line(there):
     """The sampler would print what was interrupted, with a traceback, among the results."""
     program = AT_IMPORT.format(module="", number="SIGINT").replace(

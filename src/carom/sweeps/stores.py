@@ -25,6 +25,8 @@ import filelock
 import numpy as np
 import zarr
 from zarr.codecs import ZstdCodec
+from zarr.core.buffer import Buffer
+from zarr.storage import MemoryStore
 
 from carom.dimensionless.numerics.threads import available_cores
 from carom.io.files import STORE
@@ -138,9 +140,9 @@ def _create(path: Path, problem: SweepProblem) -> None:
     target = os.path.realpath(path)
     new = Path(os.path.dirname(target), f".carom-{uuid.uuid4().hex}")
     try:
-        with warnings.catch_warnings():  # of what the format 3 does not yet have on paper
-            warnings.simplefilter("ignore")
-            _fill(new, problem)
+        for name, content in _blank_files(problem).items():
+            (new / name).parent.mkdir(parents=True, exist_ok=True)
+            (new / name).write_bytes(content.to_bytes())
         freeze(new)
         os.rename(new, target)
     except OSError as error:
@@ -152,21 +154,30 @@ def _create(path: Path, problem: SweepProblem) -> None:
         shutil.rmtree(new, ignore_errors=True)
 
 
-def _fill(path: Path, problem: SweepProblem) -> None:
-    blank_dataset(problem).to_zarr(path, zarr_format=3, consolidated=False)
-    group = zarr.open_group(path, mode="r+")
-    for name, info in problem.variables().items():
-        group.create_array(
-            name,
-            dtype=info.dtype,
-            shape=problem.design.shape,
-            chunks=problem.chunks(),
-            compressors=COMPRESSOR,
-            dimension_names=problem.design.dims,
-            fill_value=BLANK[info.dtype],
-            attributes=json.loads(json.dumps(info.attributes, default=np.ndarray.tolist)),
-        )
-    zarr.consolidate_metadata(path)
+def _blank_files(problem: SweepProblem) -> dict[str, Buffer]:
+    """Return the files of a store without points.
+
+    Threads of zarr would go on writing into a folder while a signal has it removed.
+    """
+    files: dict[str, Buffer] = {}
+    store = MemoryStore(files)
+    with warnings.catch_warnings():  # of what the format 3 does not yet have on paper
+        warnings.simplefilter("ignore")
+        blank_dataset(problem).to_zarr(store, zarr_format=3, consolidated=False)
+        group = zarr.open_group(store, mode="r+")
+        for name, info in problem.variables().items():
+            group.create_array(
+                name,
+                dtype=info.dtype,
+                shape=problem.design.shape,
+                chunks=problem.chunks(),
+                compressors=COMPRESSOR,
+                dimension_names=problem.design.dims,
+                fill_value=BLANK[info.dtype],
+                attributes=json.loads(json.dumps(info.attributes, default=np.ndarray.tolist)),
+            )
+        zarr.consolidate_metadata(store)
+    return files
 
 
 def _check(path: Path, problem: SweepProblem) -> None:
