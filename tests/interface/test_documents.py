@@ -54,6 +54,15 @@ def test_short_paths_in_the_architecture_are_there():
     assert paths - here <= {"lib/"}
 
 
+def test_names_in_the_architecture_are_there():
+    """Files of tests, tables, functions and classes that are named without their place."""
+    names = set(re.findall(r"`([A-Z][A-Z_]+|_?[a-z]+_[a-z_]+|test_\w+\.py)`", ARCHITECTURE))
+    files = [path for top in ("src", "tests") for path in (ROOT / top).rglob("*.py")]
+    said = "\n".join(path.read_text(encoding="utf-8") for path in files)
+    places = {name for path in files for name in (path.name, path.parent.name)}
+    assert names - {*re.findall(r"\w+", said)} - places == set()
+
+
 def test_ten_files_to_read_are_there():
     section = re.search(r"(?ms)^#+ Ten files to read$(.*?)(?=^#|\Z)", ARCHITECTURE)
     paths = re.findall(r"`(src/carom/[\w/]+\.py)`", section[1])
