@@ -13,7 +13,7 @@ WORDS = script("picture_words")
 BOXES = [(170, 140), (170, 300), (250, 200), (330, 390), (420, 360), (560, 240), (700, 500)]
 SHARES = [-0.4, 0.05, 0.3, 0.5, 0.62, 0.8, 0.95, 1.4]
 PICTURE = script("picture")
-TOLD = script("told")
+SENTENCES = script("sentences")
 TIMES = [round(float(share), 3) for share in np.linspace(0.02, 0.98, 49)]
 
 
@@ -122,7 +122,7 @@ def test_hatches_tell_the_sign(visit):
     ],
 )
 def test_sentences(visit, query, share, sentence):
-    (told,) = visit().page.evaluate(TOLD, [query, [share]])
+    (told,) = visit().page.evaluate(SENTENCES, [query, [share]])
     assert re.search(sentence, told)
     assert told[0].isupper()
     assert told.endswith(".")
@@ -139,7 +139,7 @@ def test_what_is_told_is_so(visit):
         query = f"given=numbers&psi={psi:.4f}&chi={chi:.4f}&restitution={e}"
         losses = None if e == 1.0 else carom.KelvinVoigt(restitution=e)
         solved = carom.solve(round(psi, 4), round(chi, 4), losses=losses)
-        for share, told in zip(TIMES, page.evaluate(TOLD, [query, TIMES]), strict=True):
+        for share, told in zip(TIMES, page.evaluate(SENTENCES, [query, TIMES]), strict=True):
             check(solved, share, told, query)
 
 
@@ -207,6 +207,6 @@ def test_tiny_forces_are_told_as_large_ones_are(visit):
     """Billiard balls that roll on each other as gear wheels all but do: nothing is rounded away."""
     queries = [f"?given=numbers&psi={psi:.15g}" for psi in (1e-4, 1e-9)]
     shares = [-0.3, 0.1, 0.3, 0.5, 0.7, 0.9, 1.3]
-    one, other = (visit().page.evaluate(TOLD, [query[1:], shares]) for query in queries)
+    one, other = (visit().page.evaluate(SENTENCES, [query[1:], shares]) for query in queries)
     assert one == other
     assert not any("without friction" in sentence or "to rest" in sentence for sentence in one)

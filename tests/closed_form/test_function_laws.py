@@ -250,7 +250,7 @@ def test_functions_are_ranked_scored_and_mapped_as_laws_are():
     assert mine.force_error == pytest.approx(theirs.force_error, abs=1e-6)
     assert mine.fine_step.steps == theirs.fine_step.steps
     entry = carom.verify.Entry("my spring", spring, "")
-    assert carom.verify.rank([entry], psi=[1.0]).standings[0].entry.label == "my spring"
+    assert carom.verify.rank([entry], psi_1=[1.0]).standings[0].entry.label == "my spring"
     axes = [[0.5, 1.0, 3.0], [1.2, 1.4]]
     own = carom.verify.error_map(spring, *axes)
     expected = carom.verify.error_map(dem.LammpsMindlin("mindlin"), *axes)

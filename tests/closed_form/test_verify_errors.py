@@ -182,15 +182,15 @@ def test_no_number_of_steps_where_there_is_none():
         (lambda: error_map("mindlin"), "law: 'mindlin' .*must be a contact law"),
         (lambda: error_map(carom.dem.LinearSpring(), chi=[1.0, 0.0]), "chi: 0.0 .*positive"),
         (lambda: error_map(carom.dem.LinearSpring(), chi=-1.0), "chi: -1.0 .*positive"),
-        (lambda: error_map(carom.dem.LinearSpring(), psi=[np.nan]), "psi: .*finite"),
-        (lambda: error_map(carom.dem.LinearSpring(), psi=[]), "psi: .*finite"),
+        (lambda: error_map(carom.dem.LinearSpring(), psi_1=[np.nan]), "psi_1: .*finite"),
+        (lambda: error_map(carom.dem.LinearSpring(), psi_1=[]), "psi_1: .*finite"),
         (lambda: error_map(carom.dem.LinearSpring(), steps=2), "steps: 2 .*at least 4"),
         (lambda: force_error(None, 1.0, CHI), "law: None"),
         (lambda: step_error(carom.dem.LinearSpring(), 9), "steps: 9 .*at least 10"),
         (lambda: step_error(carom.dem.LinearSpring(), 20.5), "steps: 20.5 .*whole"),
         (lambda: step_error(carom.dem.LinearSpring, 20), "law: .*must be a contact law"),
         (lambda: advised_steps(carom.dem.LinearSpring(), 0.0), "allowed: 0.0 .*positive"),
-        (lambda: advised_steps(carom.dem.LinearSpring(), 0.1, [np.inf]), "psi: .*finite"),
+        (lambda: advised_steps(carom.dem.LinearSpring(), 0.1, [np.inf]), "psi_1: .*finite"),
     ],
 )
 def test_refused(call, message):

@@ -132,9 +132,9 @@ def rebounds(calls):
         calls.add(f"{kind}.at", each.at, time=[0.1, 1.0])
         calls.add(f"{kind}.history", each.history, n=5)
     for name in ("memory", "phase_at", "slip_rate"):
-        calls.add(name, getattr(solved, name), time=1.0)
+        calls.add(name, getattr(solved, name), at=1.0)
     for name in ("traction", "slid"):
-        calls.add(name, getattr(solved, name), time=1.0, radii=[0.0, 0.5])
+        calls.add(name, getattr(solved, name), at=1.0, radii=[0.0, 0.5])
     calls.add("slip_angles", solved.slip_angles, lateral_ratio=0.2)
     calls.add("curve", carom.curve, chi=1.44, psi_1=[0.0, 1.0], losses=None)
     calls.add("regime_map", carom.regime_map, psi_1=[0.5, 2.0], chi=1.44, progress=False)
@@ -143,12 +143,12 @@ def rebounds(calls):
 def tabulated(calls):
     law, mixed = carom.laws.ReboundLaw(1.44), carom.laws.ReboundLaw((1.2, 1.3))
     for name, each in (("law", law), ("impulse", law.impulse), ("dissipation", law.dissipation)):
-        calls.add(name, each, psi=[0.5, 2.0])
+        calls.add(name, each, psi_1=[0.5, 2.0])
     from_dict = carom.laws.ReboundLaw.from_dict
     calls.add("from_dict", from_dict, table=law.to_dict())
     calls.add("from_dict, items", lambda **table: from_dict(table), **law.to_dict())
     calls.add("from_dict, one item", _with_one(law), item=law.edges[1])
-    calls.add("mixture", mixed, psi=[0.5, 2.0], chi=1.25, return_status=False)
+    calls.add("mixture", mixed, psi_1=[0.5, 2.0], chi=1.25, return_status=False)
     calls.add("SmoothLaw", carom.laws.SmoothLaw, restitution=0.9)
     calls.add("RoughLaw", carom.laws.RoughLaw, restitution=0.9)
     both = {"restitution": 0.9, "tangential_restitution": 0.4}
@@ -171,9 +171,9 @@ def contact_laws(calls):
     calls.add("FunctionRebound", dem.FunctionRebound, function=RULE.function, name="own")
     calls.add("FunctionRebound.rebound", RULE.rebound, **many, return_status=False)
     spring, speed = dem.LinearSpring(), {"pair": PAIR, "normal_speed": 1.0}
-    calls.add("force_error", verify.force_error, law=spring, psi=0.5, **AT_CHI)
-    calls.add("force_error, own", verify.force_error, law=OWN, psi=0.5, chi=1.44)
-    grid = {"psi": [0.5, 1.0], **AT_CHI}
+    calls.add("force_error", verify.force_error, law=spring, psi_1=0.5, **AT_CHI)
+    calls.add("force_error, own", verify.force_error, law=OWN, psi_1=0.5, chi=1.44)
+    grid = {"psi_1": [0.5, 1.0], **AT_CHI}
     calls.add("error_map", verify.error_map, law=dem.HardSphere(0.4), **grid, **steps)
     calls.add("stiffnesses", verify.stiffnesses, **speed)
     calls.add("poisson_from_kappa", verify.poisson_from_kappa, kappa=0.8)
@@ -186,7 +186,7 @@ def contact_laws(calls):
     motion = {"normal_speed": 0.1, "tangential_speed": (0.1, 0.0), "spin": (0.0, 1.0)}
     given = {"pair": PAIR, "law": dem.LammpsMindlin(), "steps": 99}
     calls.add("Experiment", verify.Experiment, **given, **motion)
-    calls.add("bench", verify.bench, engine=verify.Lammps("/nowhere"), steps=100, psi=[0.5])
+    calls.add("bench", verify.bench, engine=verify.Lammps("/nowhere"), steps=100, psi_1=[0.5])
     calls.add("Entry", verify.Entry, label="one", law=spring, used_by="")
 
 
@@ -256,7 +256,7 @@ def slow_ones(calls):
     calls.add("wear, components", carom.wear_of_many, pair=BALLS, **CARTESIAN, spin2=1.0)
     swept = {"case": CASE, "design": GRID, "outputs": ["psi_out"], "scheduler": None}
     calls.add("sweep", carom.sweep, **swept, **alone, resume=False)
-    at = {"psi": [0.5], **AT_CHI}
+    at = {"psi_1": [0.5], **AT_CHI}
     calls.add("step_error", verify.step_error, law=dem.LinearSpring(), steps=50, **at)
     calls.add("advised_steps", verify.advised_steps, law=dem.LinearSpring(), allowed=0.1, **at)
     calls.add("rank", verify.rank, entries=[dem.LinearSpring()], **at, progress=False)

@@ -86,7 +86,7 @@ def named(name):
 
 
 def test_a_ranking_of_any_names_can_be_drawn(tmp_path):
-    ranking = carom.verify.rank([named(name) for name in NAMES], psi=[0.5])
+    ranking = carom.verify.rank([named(name) for name in NAMES], psi_1=[0.5])
     carom.plots.save_figure(ranking.plot(), tmp_path / "rank.svg")
 
 

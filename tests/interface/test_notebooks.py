@@ -96,7 +96,7 @@ def test_load_paths_are_a_table_and_a_picture(pair):
 
 def test_rankings_are_a_table_and_a_picture():
     laws = [carom.dem.LinearSpring(), carom.dem.HardSphere()]
-    ranking = carom.verify.rank(laws, psi=[1.0, 2.0])
+    ranking = carom.verify.rank(laws, psi_1=[1.0, 2.0])
     rows, html = told(ranking)
     worst = {one.entry.label: one.max_error for one in ranking.standings}
     shown = {name: float(text.split()[0]) for name, text in rows.items()}

@@ -31,7 +31,7 @@ def drawers(pair, hit):
         "plot_strength": carom.bearable_speeds(pair, angle=["0 deg", "60 deg"]),
         "plot_curve": carom.curve(1.44, [0.0, 0.5, 1.0, 6.0]),
         "plot_regime_map": carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]),
-        "plot_laws": verify.rank([law], psi=psi),
+        "plot_laws": verify.rank([law], psi_1=psi),
         "plot_error_map": verify.error_map(law, psi, [1.2, 1.4]),
         "plot_score": verify.score({"psi_1": psi, "psi_2": carom.rebound(psi, 1.44)}, chi=1.44),
     }

@@ -31,7 +31,7 @@ LAWS = tuple(entry for entry in CATALOGUE if entry.label in NAMES)
 
 @pytest.fixture(scope="module")
 def ranking():
-    return rank(LAWS, psi=[3.0, 0.5, 1.0, 1.5, 5.0]).to_dataset()
+    return rank(LAWS, psi_1=[3.0, 0.5, 1.0, 1.5, 5.0]).to_dataset()
 
 
 @pytest.fixture(scope="module")

@@ -79,7 +79,7 @@ def test_odd_numbers_are_drawn_or_refused_in_silence(
 
 
 def test_words_that_no_font_has_are_drawn_in_silence(tmp_path, capfd, caplog):
-    laws = carom.verify.rank(chi=1.44, psi=[0.5, 1.0]).to_dataset()
+    laws = carom.verify.rank(chi=1.44, psi_1=[0.5, 1.0]).to_dataset()
     names = [f"\u92fc {i}" for i in range(laws.sizes["law"])]
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -87,7 +87,7 @@ def test_bad_impacts_have_a_status_and_are_left_out(pair):
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({}, "speed: give speed and angle, or normal_speed and tangential_speed"),
+        ({}, "speed: missing; give speed and angle, or normal_speed"),
         ({"speed": 1.0, "normal_speed": 1.0}, "speed: give speed and angle, or normal_speed"),
         ({"normal_speed": 1.0, "angle": 0.1}, "angle: give speed and angle, or normal_speed"),
         ({"speed": [1.0, 2.0], "angle": [0.1, 0.2, 0.3]}, "do not fit each other"),

@@ -51,7 +51,7 @@ def dataset(ranking):
 
 
 def test_by_default_it_is_the_published_comparison(ranking):
-    assert (ranking.chi, ranking.psi) == (CHI, PSI)
+    assert (ranking.chi, ranking.psi_in) == (CHI, PSI)
     assert ranking.kappa == pytest.approx(4 * CHI / 7, rel=1e-15)
     entries = [standing.entry for standing in ranking.standings]
     assert sorted(entries, key=CATALOGUE.index) == [*CATALOGUE]
@@ -197,7 +197,7 @@ def test_catalogue_names_each_law_once():
     [
         ({"chi": -1.0}, "chi: -1.0 .*positive"),
         ({"kappa": 0.0}, "kappa: 0.0 .*positive"),
-        ({"psi": [np.nan]}, "psi: .*finite"),
+        ({"psi_1": [np.nan]}, "psi_1: .*finite"),
         ({"entries": []}, "entries: .*at least one law"),
     ],
 )

@@ -191,8 +191,8 @@ def vectors(name: str, values: ArrayLike | None) -> NDArray[np.floating] | None:
 
 def common_shape(arrays: Sequence[Any]) -> tuple[int, ...]:
     """Return the shape to which the arrays broadcast, None left out, or raise InputError."""
-    given = ((name, each) for name, each in zip(NAMES, arrays, strict=True) if each is not None)
-    shapes = {name: tuple(each.shape) for name, each in given}
+    present = ((name, each) for name, each in zip(NAMES, arrays, strict=True) if each is not None)
+    shapes = {name: tuple(each.shape) for name, each in present}
     for name in ("velocity1", "normal"):
         if name not in shapes:
             raise InputError(f"{name}: missing; give an array of shape (..., 3)")

@@ -135,8 +135,8 @@ def _candidates(best: Best) -> tuple[Array, list[str]]:
     everywhere = np.broadcast_to(sigma, model.problem.measured.shape)
     weights = model.weights(best.at, everywhere, best.scale)
     slopes = information(model, best.at, weights, RobustLoss(inf)).slopes
-    told = gaussian_mean(np.gradient(best.loss.root(NORMAL), NORMAL) ** 2)  # of one more value
-    return np.sqrt(told) * slopes, [REGIMES[index] for index in model.regimes(best.at)]
+    per_value = gaussian_mean(np.gradient(best.loss.root(NORMAL), NORMAL) ** 2)  # of one more value
+    return np.sqrt(per_value) * slopes, [REGIMES[index] for index in model.regimes(best.at)]
 
 
 def _impacts(problem: FitProblem) -> FitProblem:

@@ -195,8 +195,8 @@ def _refitted(model: Model, at: Array, common: Best) -> Best:
     """Return least squares of a law with the errors of another one: no outliers are left."""
     weights = model.weights(at, common.sigma, common.scale)
     starts = np.concatenate([at[np.newaxis], scan(model, SQUARES, common.sigma)])
-    found = descend(model.residuals(weights, SQUARES), starts, model.bounds)
-    return fitted(model, SQUARES, found.at[np.argmin(found.sums)], common.sigma, common.scale)
+    minima = descend(model.residuals(weights, SQUARES), starts, model.bounds)
+    return fitted(model, SQUARES, minima.at[np.argmin(minima.sums)], common.sigma, common.scale)
 
 
 def criterion(best: Best) -> float:
@@ -282,8 +282,8 @@ class LossComparison:
         if others[0].excess <= CLEAR:
             how = f"{next_law} is less likely"
         varies = f"depends on the speed as in {first.law}"
-        told = "is the same at all speeds" if first.law == CONSTANT else varies
-        return f"the restitution {told}; {how}"
+        behaviour = "is the same at all speeds" if first.law == CONSTANT else varies
+        return f"the restitution {behaviour}; {how}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as plain numbers, by law; what cannot be computed is None."""
@@ -298,9 +298,9 @@ class LossComparison:
         fitted = [f"{each.law}: {each.parameter.name} {each.parameter}" for each in self.standings]
         wide = max(48, *map(len, fitted))
         lines = [f"{head:{wide}s}AICc excess  weight"]
-        for each, told in zip(self.standings, fitted, strict=True):
+        for each, line in zip(self.standings, fitted, strict=True):
             excess, weight = each.cells
-            lines.append(f"  {told:{wide}s} {excess:>8s}  {weight:>6s}")
+            lines.append(f"  {line:{wide}s} {excess:>8s}  {weight:>6s}")
         return "\n".join([*lines, self.verdict])
 
 
@@ -321,10 +321,10 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
     excess, weights = weighed(criteria)
     standings = []
     for place in np.argsort(criteria):
-        found = profiled(fits[place], confidence)
-        law = found.best.model.law
-        parameter = estimate_of(found, law.names[0])
-        standings.append(LossFit(law.name, excess[place], weights[place], found.best, parameter))
+        profile = profiled(fits[place], confidence)
+        law = profile.best.model.law
+        parameter = estimate_of(profile, law.names[0])
+        standings.append(LossFit(law.name, excess[place], weights[place], profile.best, parameter))
     measured, errors = _restitutions(problem, standings[0].best)
     return LossComparison(tuple(standings), problem.motion.normal_speed, measured, errors)
 
@@ -385,8 +385,8 @@ def viscous(pair: Pair, normal_speed: Array, values: Values) -> Array:
 def _viscous() -> CubicSpline:
     """Return log(-log e) of log alpha, which is nearly straight at both ends."""
     alphas, work = np.geomspace(1e-7, 90.0, 241), new_work()
-    found = np.array([restitution(float(alpha), work) for alpha in alphas])
-    return CubicSpline(np.log(alphas), np.log(-np.log(found)))
+    restitutions = np.array([restitution(float(alpha), work) for alpha in alphas])
+    return CubicSpline(np.log(alphas), np.log(-np.log(restitutions)))
 
 
 def plastic(pair: Pair, normal_speed: Array, values: Values) -> Array:

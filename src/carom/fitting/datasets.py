@@ -217,7 +217,7 @@ def _dataset(
     if "kappa" in model.free:
         variables["chi"] = ("sample", half_ratio(model.problem.pair) * values["kappa"][:, 0])
     longest = float(np.nanmax(times)) if np.isfinite(times).any() else float("nan")
-    told = {
+    attributes = {
         "title": "posterior of parameters from measured rebounds",
         "steps": steps,
         "seed": -1 if seed is None else seed,
@@ -226,4 +226,4 @@ def _dataset(
         "inputs": {name: each.value for name, each in fit.estimates.items()},
     }
     coords = {"sample": ("sample", np.arange(len(chain)), {"long_name": "sample"})}
-    return labelled_dataset(variables, coords, told)
+    return labelled_dataset(variables, coords, attributes)

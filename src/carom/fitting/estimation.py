@@ -34,8 +34,8 @@ class Information:
     def covariance(self) -> Array:
         """Covariance of the coordinates; one that is not told is uncertain by 1/WEAK."""
         sizes, directions = np.linalg.eigh(self.matrix)
-        known = np.maximum(sizes, 0.0) + WEAK**2 * 1e-2
-        return np.asarray((directions / known) @ directions.T)
+        certain = np.maximum(sizes, 0.0) + WEAK**2 * 1e-2
+        return np.asarray((directions / certain) @ directions.T)
 
     @property
     def used(self) -> Array:
@@ -142,14 +142,14 @@ class Best:
         """
         if self.loss.is_square:
             return 1.0
-        found = self.residuals[self.model.problem.present]
+        deviations = self.residuals[self.model.problem.present]
         used = float(self.information.used.sum())
 
         def ratio(mean: Callable[[Callable[[Array], Array]], float]) -> float:
             return mean(lambda r: self.loss.influence(r) ** 2) / mean(self.loss.slope)
 
         normal = ratio(lambda f: errors.gaussian_mean(f(errors.NORMAL)))
-        return max(normal, ratio(lambda f: errors.mean_over(found, f, used)))
+        return max(normal, ratio(lambda f: errors.mean_over(deviations, f, used)))
 
 
 def likelihood(best: Best) -> float:
@@ -205,10 +205,10 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
         for each in begun
         if each.against <= least + HOPELESS
     ]
-    found = min(followed, key=lambda each: each.against)
-    others = [each.at for each in (*followed, *begun) if each is not found]
+    best = min(followed, key=lambda each: each.against)
+    others = [each.at for each in (*followed, *begun) if each is not best]
     elsewhere = np.array([*others, *minima[FOLLOWED:]])
-    return fitted(model, found.loss, found.at, found.sigma, found.scale, elsewhere)
+    return fitted(model, best.loss, best.at, best.sigma, best.scale, elsewhere)
 
 
 def rough_minima(model: Model, loss: errors.RobustLoss, start: Array | None = None) -> Array:
@@ -262,12 +262,12 @@ def _followed(
         if not loss.is_square:
             loss = errors.likeliest(residuals[problem.present])
         used = information(model, at, weights, loss).used
-        found = errors.scattered(problem, residuals * sigma, expected[0], used, loss)
+        scattered = errors.scattered(problem, residuals * sigma, expected[0], used, loss)
         factors = scale * errors.scatter(residuals, problem.present, used, loss)
-        given = np.where(estimated, 1.0, np.maximum(factors, 1.0))
+        widened = np.where(estimated, 1.0, np.maximum(factors, 1.0))
         common = scale * errors.typical_deviation(residuals, problem.present)
-        scale = np.where(errors.too_small(problem.present, given, common), given, 1.0)
-        sigma = np.where(estimated, found, sigma)
+        scale = np.where(errors.too_small(problem.present, widened, common), widened, 1.0)
+        sigma = np.where(estimated, scattered, sigma)
         lowest = descend(
             model.residuals(model.weights(at, sigma, scale), loss), at[np.newaxis], model.bounds
         )
@@ -298,8 +298,8 @@ def polished(
     residuals = model.residuals(weights, loss)
     present = model.problem.present.ravel()
 
-    def of(given: Any) -> Array:
-        at = np.array([list(given.valuesdict().values())])
+    def of(point: Any) -> Array:
+        at = np.array([list(point.valuesdict().values())])
         return np.asarray(residuals(at)[0][present])
 
     result = lmfit.minimize(of, parameters, method="leastsq", xtol=1e-9, ftol=1e-10)

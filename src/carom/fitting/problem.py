@@ -108,16 +108,16 @@ class FitProblem:
 
     def moved(self, changes: Mapping[str, Array]) -> IncomingMotion:
         """Return the motion before with some of its columns changed by so much."""
-        known = {name: values + changes.get(name, 0.0) for name, values in self.before.items()}
-        for name in {"angle", "contact_angle"} & set(known):
-            known[name] = np.clip(known[name], -STEEPEST, STEEPEST)
+        quantities = {name: values + changes.get(name, 0.0) for name, values in self.before.items()}
+        for name in {"angle", "contact_angle"} & set(quantities):
+            quantities[name] = np.clip(quantities[name], -STEEPEST, STEEPEST)
         if not self.has_speeds:
-            known["normal_speed"] = np.ones(len(self.measured))
+            quantities["normal_speed"] = np.ones(len(self.measured))
         speeds = (
-            convert_observables(self.pair, known=known, wanted=name)
+            convert_observables(self.pair, known=quantities, wanted=name)
             for name in ("normal_speed", "tangential_speed")
         )
-        spins = (known.get(name, np.zeros(len(self.measured))) for name in ("spin", "spin2"))
+        spins = (quantities.get(name, np.zeros(len(self.measured))) for name in ("spin", "spin2"))
         return IncomingMotion(*speeds, *spins)
 
     @cached_property

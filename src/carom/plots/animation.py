@@ -80,8 +80,8 @@ def animate(
     target = checked_animation(path)
     ending = ending_of(target, ANIMATIONS)
     total = len(frames) if isinstance(frames, Sized) else None
-    told = (lambda *_: progress()) if callable(progress) else progress
-    with advancing("animation", total, told, unit="frames") as advance:
+    shown_progress = (lambda *_: progress()) if callable(progress) else progress
+    with advancing("animation", total, shown_progress, unit="frames") as advance:
         pictures = _pictures(history, frames, RESOLUTION[ending], advance)
         first = next(pictures, None)
         if first is None:

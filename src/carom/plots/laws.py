@@ -59,7 +59,7 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     Examples
     --------
     >>> import carom
-    >>> ranking = carom.verify.rank(carom.verify.catalogue()[:2], psi=[0.5, 1.0, 3.0])
+    >>> ranking = carom.verify.rank(carom.verify.catalogue()[:2], psi_1=[0.5, 1.0, 3.0])
     >>> axis = carom.plots.plot_laws(ranking.to_dataset()).axes[1]
     >>> [text.get_text() for text in axis.get_yticklabels()]
     ['linear spring, $k_t/k_n$ = $\\\\kappa$', 'linear spring, $k_t/k_n$ = 2/7']
@@ -139,11 +139,11 @@ def _key(dataset: xr.Dataset) -> Iterator[Any]:
     yield Patch(fc="0.4", label="root mean square")
 
 
-def _read_limit(given: Any) -> float:
+def _read_limit(value: Any) -> float:
     allowed = f"must be positive, at most {LARGEST:g}"
-    limit = pure_number("limit", given, allowed)
+    limit = pure_number("limit", value, allowed)
     if not 0.0 < limit <= LARGEST:
-        raise refusal("limit", given, allowed)
+        raise refusal("limit", value, allowed)
     return limit
 
 
@@ -202,10 +202,10 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
 
 def _title(dataset: xr.Dataset) -> str:
     """Return the law with its parameters, as far as the dataset tells them."""
-    given = json.loads(dataset.attrs.get("law_parameters", "{}"))
+    parameters = json.loads(dataset.attrs.get("law_parameters", "{}"))
     values = [
         f"{name.replace('_', ' ')} {value:.4g}" if isinstance(value, float) else str(value)
-        for name, value in given.items()
+        for name, value in parameters.items()
         if value is not None and value != PLAIN.get(name)
     ]
     words = ", ".join([dataset.attrs.get("law", ""), *values])

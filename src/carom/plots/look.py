@@ -70,12 +70,12 @@ class Look(TypedDict, total=False):
     ax: Axes | None
 
 
-def _read(name: str, given: Any, limits: tuple[float, float], unit: str) -> float:
+def _read(name: str, value: Any, limits: tuple[float, float], unit: str) -> float:
     """Return a size, or refuse it in one line."""
     allowed = f"must be a number of {unit} from {limits[0]:g} to {limits[1]:g}"
-    size = pure_number(name, given, allowed)
+    size = pure_number(name, value, allowed)
     if not limits[0] <= size <= limits[1]:
-        raise refusal(name, given, allowed)
+        raise refusal(name, value, allowed)
     return size
 
 

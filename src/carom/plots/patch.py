@@ -196,11 +196,11 @@ def _nearest(grid: Array, places: Array) -> Any:
     return np.abs(grid[:, np.newaxis] - places).argmin(axis=0)
 
 
-def _draw_arrows(axis: Axes, found: Arrows, length: float) -> None:
-    if found.fastest == 0.0:
+def _draw_arrows(axis: Axes, arrows: Arrows, length: float) -> None:
+    if arrows.fastest == 0.0:
         return
-    unit = found.longest * length / found.fastest
-    vectors = found.x * length, found.y * length, found.along * unit, found.across * unit
+    unit = arrows.longest * length / arrows.fastest
+    vectors = arrows.x * length, arrows.y * length, arrows.along * unit, arrows.across * unit
     scale: Any = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "pivot": "mid"}
     shape: Any = {"width": 0.01, "headwidth": 3.6, "headlength": 4.0, "headaxislength": 3.6}
     colors: Any = {"fc": "black", "ec": "white", "lw": 0.3, "zorder": 4}

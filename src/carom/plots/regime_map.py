@@ -84,20 +84,20 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ['$\\\\psi_1 = $$4\\\\chi-1$', 'G+']
     """
     figure, axis = style.single_axis(width=style.DOUBLE, height=TALL * style.DOUBLE + 30.0)
-    found = regions(dataset)
-    colours = _colours({group_of(region.name) for region in found if region.name})
-    for region in found:
+    drawn = regions(dataset)
+    colours = _colours({group_of(region.name) for region in drawn if region.name})
+    for region in drawn:
         face = colours[group_of(region.name)] if region.name else "white"
         hatch = None if region.name else "xxxx"
         axis.add_patch(PathPatch(region.path(), fc=face, hatch=hatch, **EDGE))
     axis.set(xlim=limits(dataset, "psi_in"), ylim=limits(dataset, "chi"))
     axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi"))
     draw_borders(axis, float(dataset.get("restitution", 1.0)))
-    least = UNSEEN * area(found[0].rings[0])
-    shown = {group_of(one.name) for one in found if one.name and area(one.rings[0]) > least}
+    least = UNSEEN * area(drawn[0].rings[0])
+    shown = {group_of(one.name) for one in drawn if one.name and area(one.rings[0]) > least}
     _add_key(figure, sorted(shown), colours)
     lists = [dataset[name].values.tolist() for name in NAMED if name in dataset]
-    _label_regions(figure, axis, found, list(dict.fromkeys(chain.from_iterable(lists))))
+    _label_regions(figure, axis, drawn, list(dict.fromkeys(chain.from_iterable(lists))))
     return figure
 
 
@@ -140,13 +140,13 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
     where.legend(handles=handles, ncols=columns, title=title, **place, **SPACING)
 
 
-def _label_regions(figure: Figure, axis: Axes, found: list[Region], names: list[str]) -> None:
+def _label_regions(figure: Figure, axis: Axes, areas: list[Region], names: list[str]) -> None:
     """Write the sequence of every wide region into it or beside it; list others below the map."""
     lines = [np.asarray(line.get_xydata()) for line in axis.lines]
     _set_height(figure, axis)
     size, to_mm = _laid_out(figure, axis)
-    labels = find_labels(found, lines, to_mm, size)
-    drawn = {region.name for region in found}
+    labels = find_labels(areas, lines, to_mm, size)
+    drawn = {region.name for region in areas}
     labels.narrow.extend(name for name in names if name not in drawn)
     _list(figure, labels)
     for label in labels.placed.values():

@@ -89,10 +89,10 @@ def _near(dataset: xr.Dataset) -> xr.Dataset:
 
 def _names(dataset: xr.Dataset) -> Any:
     """Return what computed each result, code and law, or "results"."""
-    told = [dataset[name].values.tolist() for name in ("code", "law") if name in dataset]
-    if not told:
+    origins = [dataset[name].values.tolist() for name in ("code", "law") if name in dataset]
+    if not origins:
         return np.full(dataset["psi_in"].size, "results", dtype=object)
-    rows = (", ".join(filter(None, row)) for row in zip(*told, strict=True))
+    rows = (", ".join(filter(None, row)) for row in zip(*origins, strict=True))
     return np.array([row or "results" for row in rows], dtype=object)
 
 
@@ -179,10 +179,10 @@ def _force(axis: Axes, dataset: xr.Dataset, name: str) -> Array:
     axis.set_xlabel("")
     style.zero_line(axis)
     exact = dataset[f"{name}_exact"].values
-    given, unit, scale = style.scaled(dataset, name, like=exact)
+    force, unit, scale = style.scaled(dataset, name, like=exact)
     axis.plot(time, exact * scale, color=style.BLUE, label="exact")
     how = {"marker": "o", "ms": 2.0, "ls": ""} if time.size <= SPARSE else {"ls": style.DASHES[1]}
-    axis.plot(time, given, color=style.VERMILION, label=_label(dataset, _names(dataset)[0]), **how)
+    axis.plot(time, force, color=style.VERMILION, label=_label(dataset, _names(dataset)[0]), **how)
     if name == "tangential_force":
         limit = float(dataset["friction"]) * dataset["normal_force_exact"].values * scale
         style.limit_lines(axis, time, limit, r"$\pm\mu F_z$, exact")

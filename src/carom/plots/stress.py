@@ -48,10 +48,10 @@ def plot_stress(
     """
     if dataset["von_mises"].ndim == 2:
         style.check_grid(dataset, "von_mises", "z", "x")
-    known = [str(name) for name, item in dataset.items() if item.dims == ("z", "x")]
-    if not known:
+    mapped = [str(name) for name, item in dataset.items() if item.dims == ("z", "x")]
+    if not mapped:
         raise InputError("stress: a map needs it on a grid of z and x, not at points")
-    one_of("variable", variable, known)
+    one_of("variable", variable, mapped)
     figure, axis = style.single_axis(height=66.0)
     x, unit, length = style.scaled(dataset, "x")
     z = dataset["z"].values * length

@@ -62,9 +62,9 @@ def blank_dataset(
     problem: SweepProblem, arrays: Mapping[str, NDArray[Any]] | None = None
 ) -> "xr.Dataset":
     """Return the dataset of a sweep with its coordinates, and with these arrays as variables."""
-    known = problem.variables()
+    infos = problem.variables()
     variables = {
-        name: (problem.design.dims, values, known[name].attributes)
+        name: (problem.design.dims, values, infos[name].attributes)
         for name, values in (arrays or {}).items()
     }
     title = f"sweep of oblique impacts of {spheres(problem.loses)}"
@@ -124,11 +124,11 @@ def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summar
         counts.update(dict(zip(values.tolist(), numbers.tolist(), strict=True)))
         for name in shown:
             values = dataset[name][box].values
-            if (found := values[np.isfinite(values)]).size:
+            if (finite := values[np.isfinite(values)]).size:
                 least, most = ranges[name]
                 ranges[name] = (
-                    float(np.fmin(least, found.min())),
-                    float(np.fmax(most, found.max())),
+                    float(np.fmin(least, finite.min())),
+                    float(np.fmax(most, finite.max())),
                 )
     statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
     solved = counts[PointStatus.SOLVED] + counts[PointStatus.STRENGTH_NOT_KNOWN]

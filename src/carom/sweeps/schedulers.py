@@ -112,8 +112,8 @@ def _checked_threads(client: Any, address: str) -> int:
         raise refusal(
             "scheduler", address, f"it has no workers; start one with: dask worker {address}"
         ) from None
-    for worker, found in client.run(versions, on_error="return").items():
-        _require_same(worker, found, versions())
+    for worker, there in client.run(versions, on_error="return").items():
+        _require_same(worker, there, versions())
     return sum(client.nthreads().values())
 
 
@@ -124,14 +124,14 @@ def versions() -> dict[str, str]:
     return own | {"a solver compiled by": compiled_by()}
 
 
-def _require_same(worker: str, found: Any, expected: dict[str, str]) -> None:
+def _require_same(worker: str, there: Any, expected: dict[str, str]) -> None:
     """Raise InputError if a worker does not have the versions of this process."""
-    if not isinstance(found, dict):
-        raise InputError(f"scheduler: worker {worker} cannot load this version of carom ({found})")
+    if not isinstance(there, dict):
+        raise InputError(f"scheduler: worker {worker} cannot load this version of carom ({there})")
     for name, wanted in expected.items():
-        if found.get(name) != wanted:
+        if there.get(name) != wanted:
             raise InputError(
-                f"scheduler: worker {worker} has {name} {found.get(name)}, not {wanted} as here; "
+                f"scheduler: worker {worker} has {name} {there.get(name)}, not {wanted} as here; "
                 "install the same"
             )
 

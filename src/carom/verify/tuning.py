@@ -18,6 +18,7 @@ from carom.dimensionless.numerics.hertz import DURATION
 from carom.io.progress import Progress, advancing
 from carom.plots.result import card
 from carom.quantities.arrays import Array
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, one_of, refusal
 from carom.quantities.units import finite, positive
 from carom.verify import errors
@@ -158,12 +159,13 @@ class Tuning:
         )
 
 
+@known_keywords
 def tune(
     laws: LawOrFunction | Sequence[LawOrFunction] = TUNED,
     *,
     chi: float,
     kappa: float | None = None,
-    psi: ArrayLike | None = None,
+    psi_1: ArrayLike | None = None,
     measure: str = "max",
     progress: Progress = None,
 ) -> Tuning:
@@ -182,7 +184,7 @@ def tune(
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
         Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
-    psi : array_like, optional
+    psi_1 : array_like, optional
         Incidences psi_1, by default 60 of them up to 4 chi, beyond which all impacts slide.
     measure : str
         Error to minimise: "max", the largest, or "rms", the root mean square.
@@ -209,9 +211,9 @@ def tune(
     >>> best.parameter, round(best.value, 2), round(best.before, 2), round(best.max_error, 2)
     ('stiffness', 0.7, 0.61, 0.17)
     """
-    if psi is None:
-        psi = np.linspace(0.0, 4.0 * positive("chi", chi), INCIDENCES)[1:]
-    impacts = Impacts.of(psi, chi, kappa)
+    if psi_1 is None:
+        psi_1 = np.linspace(0.0, 4.0 * positive("chi", chi), INCIDENCES)[1:]
+    impacts = Impacts.of(psi_1, chi, kappa)
     one_of("measure", measure, MEASURES)
     advice = []
     chosen = listed("laws", laws)

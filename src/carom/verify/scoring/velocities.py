@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.bodies.kinematics import Tangential, components, inertia
+from carom.bodies.kinematics import Tangential, by_angle, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.datasets.observables import FASTEST, SLOWEST
@@ -84,13 +84,11 @@ def score_velocities(results: UserTable, case: ScoredCase, limit: float) -> Scor
 
 def _speeds(results: UserTable) -> tuple[Any, Any]:
     """Return normal and tangential speed before, from either way of giving them."""
-    if not {"speed", "angle"} & set(results.columns):
-        results.require("normal_speed", "tangential_speed")
-        return results["normal_speed"], results["tangential_speed"]
-    results.require("speed", "angle")
-    if {"normal_speed", "tangential_speed"} & set(results.columns):
-        raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
-    return components(results["speed"], results["angle"])
+    angular = bool({"speed", "angle"} & set(results.columns))
+    names = ("speed", "angle") if angular else ("normal_speed", "tangential_speed")
+    results.require(*names)
+    one, other = (results[name] for name in names)
+    return components(one, other) if by_angle(results.columns) else (one, other)
 
 
 def _after(
