@@ -74,7 +74,7 @@ def with_old_fields(record: type[Record]) -> type[Record]:
 
     def __getattr__(self: Record, name: str) -> Any:
         new = OLD_FIELDS.get(name)
-        if new not in dir(self):
+        if new is None or not (hasattr(record, new) or new in record.__annotations__):
             raise AttributeError(f"{record.__name__} has no attribute {name!r}")
         _warn(f"{record.__name__}.{name}", new)
         return getattr(self, new)

@@ -1,7 +1,7 @@
 """The approach of two bodies, their motion after two impulses, and the observables of it."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Collection
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import zip_longest
@@ -24,25 +24,20 @@ def approach(
     """Return normal and tangential speed from either way of giving them, in m/s."""
     motion = {"speed": speed, "angle": angle}
     motion |= {"normal_speed": normal_speed, "tangential_speed": tangential_speed}
-    if by_angle([name for name, value in motion.items() if value is not None]):
+    if by_angle(motion):
         return components(positive("speed", speed), slope(0.0 if angle is None else angle))
     tangential = finite("tangential_speed", 0.0 if tangential_speed is None else tangential_speed)
     return positive("normal_speed", normal_speed), tangential
 
 
-def by_angle(names: Collection[str]) -> bool:
-    """Tell whether speed and angle are given, instead of normal and tangential speed.
-
-    Raises InputError if parts of both ways are given, or neither.
-    """
-    angular, there = "speed" in names, {*names}
+def by_angle(motion: Mapping[str, Any]) -> bool:
+    """Tell whether speed and angle are given, or both velocities; InputError for both or none."""
+    there = {name for name, value in motion.items() if value is not None}
+    angular, either = "speed" in there, "give speed and angle, or normal_speed"
+    missing = not there & {"speed", "normal_speed"} and f"speed: missing; {either}"
     mixed = there & {"normal_speed", "tangential_speed"} if angular else "angle" in there
-    either = "give speed and angle, or normal_speed"
-    refuse(
-        f"speed: missing; {either}"
-        if not angular and "normal_speed" not in there
-        else mixed and f"{'speed' if angular else 'angle'}: {either} and tangential_speed"
-    )
+    name = "speed" if angular else "angle"
+    refuse(missing or (mixed and f"{name}: {either} and tangential_speed"))
     return angular
 
 

@@ -75,8 +75,8 @@ def read_steps(
     along = _one_of(2, tangential_force=tangential, displacement=moved)
     sizes = {len(values) for _, values in (across, along) if values.ndim} - {1}
     allowed = f"must have {across[1].size} values as {across[0]}, or a single one"
-    several = f"an array of {along[1].size} values"
-    refuse(len(sizes) > 1 and refusal(along[0], several, allowed))
+    if len(sizes) > 1:
+        raise refusal(along[0], f"an array of {len(along[1])} values", allowed)
     n = max(sizes, default=1)
     control = np.broadcast_to(across[1], n).copy()
     target = np.broadcast_to(along[1], (n, *along[1].shape[1:])).copy()

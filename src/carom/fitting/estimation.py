@@ -303,9 +303,9 @@ def polished(
         return np.asarray(residuals(at)[0][present])
 
     result = lmfit.minimize(of, parameters, method="leastsq", xtol=1e-9, ftol=1e-10)
-    found = np.array(list(result.params.valuesdict().values()))
-    before, after = np.square(of(parameters)).sum(), np.square(residuals(found[None])).sum()
-    return (found if after <= before else at), result
+    lowest = np.array(list(result.params.valuesdict().values()))
+    before, after = np.square(of(parameters)).sum(), np.square(residuals(lowest[None])).sum()
+    return (lowest if after <= before else at), result
 
 
 def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
@@ -334,15 +334,15 @@ def _valleys(sums: Array) -> Mask:
 
     Along an axis counts the least of all points with the same place on it.
     """
-    found = np.zeros(sums.size, dtype=bool)
+    valleys = np.zeros(sums.size, dtype=bool)
     places = np.arange(sums.size).reshape(sums.shape)
     for axis, count in enumerate(sums.shape):
         across = np.moveaxis(sums, axis, 0).reshape(count, -1)
         least, at = across.min(axis=1), across.argmin(axis=1)
         beside = np.concatenate([[np.inf], least, [np.inf]])
         low = (least <= beside[:-2]) & (least <= beside[2:])
-        found[np.moveaxis(places, axis, 0).reshape(count, -1)[low, at[low]]] = True
-    return found
+        valleys[np.moveaxis(places, axis, 0).reshape(count, -1)[low, at[low]]] = True
+    return valleys
 
 
 def _levels(model: Model, name: str) -> Array:
@@ -362,9 +362,9 @@ def _likely_restitutions(problem: FitProblem) -> Array:
     """Return normal restitutions to start from: what was measured, or a few."""
     measured = dict(zip(problem.responses, problem.measured.T, strict=True))
     if "normal_restitution" in measured:
-        found = measured["normal_restitution"]
+        ratios = measured["normal_restitution"]
     elif "normal_speed_out" in measured:
-        found = measured["normal_speed_out"] / problem.motion.normal_speed
+        ratios = measured["normal_speed_out"] / problem.motion.normal_speed
     else:
         return np.array([0.6, 0.8, 0.95])
-    return np.clip([float(np.nanmedian(found))], 0.35, 0.999)
+    return np.clip([float(np.nanmedian(ratios))], 0.35, 0.999)

@@ -18,15 +18,7 @@ from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import (
-    Faults,
-    InputError,
-    checked_type,
-    clipped,
-    nearest,
-    refusal,
-    refuse,
-)
+from carom.quantities.refusals import Faults, InputError, checked_type, clipped, nearest, refusal
 from carom.quantities.units import WHY_POSITIVE, number
 
 MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit
@@ -343,22 +335,23 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
     held: dict[str, float] = {}
     for name, value in fixed.items():
         _check_name("fixed", name)
-        number_read = number(name, value, "rad/s" if name == OFFSET else "1")
+        si = number(name, value, "rad/s" if name == OFFSET else "1")
         if name == "chi":
             if "kappa" in fixed:
                 raise InputError("kappa and chi: each follows from the other; fix one of them")
-            name, number_read = "kappa", number_read / half_ratio(problem.pair)
+            name, si = "kappa", si / half_ratio(problem.pair)
         parameter = ranges.get(name) or offset_parameter(problem)
-        if not parameter.low <= number_read <= parameter.high:
+        if not parameter.low <= si <= parameter.high:
             low, high = (GLOSSARY[name].text(end) for end in (parameter.low, parameter.high))
             allowed = f"{name} must lie between {low} and {high}"
             raise refusal(f"fixed {name}", value, allowed)
-        held[name] = number_read
+        held[name] = si
     return held
 
 
 def _check_name(where: str, name: Any) -> None:
     there_are = f"parameters are {', '.join(NAMES)}"
     shown = clipped(checked_type(where, name, str, there_are))
-    near = nearest(shown, NAMES) or there_are
-    refuse(name not in NAMES and f"{where}: {shown!r} is no parameter; {near}")
+    if name not in NAMES:
+        near = nearest(shown, NAMES) or there_are
+        raise InputError(f"{where}: {shown!r} is no parameter; {near}")

@@ -164,19 +164,14 @@ def _tried(best: Best, trial: Trial) -> tuple[float, str] | None:
         return None
     other = estimate(model, best.loss)
     kept = present & (np.abs(other.residuals) <= OUTLYING)
-    misfit = float(np.square(other.residuals[kept]).sum())
+    chi2 = float(np.square(other.residuals[kept]).sum())
     size = np.where(present, other.sigma * other.scale, 1.0)
     instead = float(np.square(as_given[kept] / size[kept]).sum())
-    few = kept.sum() * log(max(instead, 1e-300) / max(misfit, 1e-300)) < FAR
-    if (
-        few
-        or instead - misfit < FAR
-        or misfit > PART * instead
-        or kept.sum() < LEAST * present.sum()
-    ):
+    few = kept.sum() * log(max(instead, 1e-300) / max(chi2, 1e-300)) < FAR
+    if few or instead - chi2 < FAR or chi2 > PART * instead or kept.sum() < LEAST * present.sum():
         return None
     changed = 2.0 * float((present.sum(axis=0) * np.log(np.abs(trial.factors))).sum())
-    words = f"these data fit as {trial.words}: chi-square {misfit:.3g} instead of {instead:.3g}"
+    words = f"these data fit as {trial.words}: chi-square {chi2:.3g} instead of {instead:.3g}"
     return likelihood(other) - changed, words
 
 

@@ -25,7 +25,7 @@ from carom.plots.drawing import draws
 from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
 from carom.plots.look import Look
 from carom.plots.patch import patch_panel, patch_title
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 
 Progress = bool | Callable[[], object] | None
 
@@ -238,5 +238,4 @@ def _write_mp4(where: Path, pictures: Iterator[Image.Image]) -> None:
             for picture in chain([first], pictures):
                 into.write(picture.tobytes())
         said = encoder.communicate()[1].decode(errors="replace").strip()
-    if encoder.returncode:
-        raise InputError(f"output file: ffmpeg failed; {said}")
+    refuse(encoder.returncode and f"output file: ffmpeg failed; {said}")

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.plots import style
 from carom.plots.look import Look, into, quiet
-from carom.quantities.refusals import InputError, hint
+from carom.quantities.refusals import InputError, hint, refuse
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -96,9 +96,7 @@ def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
     Keywords that it does not know are refused.
     """
     words = [*(word for word in parameters if word != "look"), *LOOK]
-    for word in look:
-        if word not in LOOK:
-            raise InputError(f"{word}: no keyword of {name}; {hint(word, words)}")
+    refuse(*(f"{w}: no keyword of {name}; {hint(w, words)}" for w in look if w not in LOOK))
     axes = look.get("ax")
     wanted = {word: value for word, value in look.items() if word != "ax" and value is not None}
     if axes is not None and "width" in wanted:
@@ -147,8 +145,7 @@ def _dataset(result: Any, take: str | Take, at: Any) -> Any:
 
 def _named(results: Any, name: str) -> Iterator[tuple[str, Any]]:
     """Yield results or datasets with their names: those of a dictionary, or numbers."""
-    if not results:
-        raise InputError(f"{name}: there is nothing to draw; give one result or more")
+    refuse(not results and f"{name}: there is nothing to draw; give one result or more")
     items = results.items() if isinstance(results, dict) else enumerate(results, 1)
     names = [str(key) for key, _ in items]
     if len(set(names)) < len(names):
@@ -161,8 +158,7 @@ def checked_dataset(
 ) -> Any:
     """Return a dataset in which all is that is needed, or refuse it in words that begin as told."""
     lacks = _lacking(dataset, needed, along)
-    if lacks:
-        raise InputError(f"{drawn}; what was given {lacks}")
+    refuse(lacks and f"{drawn}; what was given {lacks}")
     return dataset
 
 

@@ -18,7 +18,7 @@ from carom.plots.drawing import Drawable, draws
 from carom.plots.legends import legend_outside
 from carom.plots.look import Look
 from carom.plots.regimes import draw_borders
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import pure_number
 
 SKY = "#56B4E9"
@@ -142,8 +142,7 @@ def _key(dataset: xr.Dataset) -> Iterator[Any]:
 def _read_limit(value: Any) -> float:
     allowed = f"must be positive, at most {LARGEST:g}"
     limit = pure_number("limit", value, allowed)
-    if not 0.0 < limit <= LARGEST:
-        raise refusal("limit", value, allowed)
+    refuse(not 0.0 < limit <= LARGEST and refusal("limit", value, allowed))
     return limit
 
 

@@ -13,7 +13,7 @@ from carom.plots import style
 from carom.plots.drawing import Drawable, draws
 from carom.plots.look import Look
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import InputError
+from carom.quantities.refusals import InputError, refuse
 
 MOST_LINES = len(style.LINES)  # more coefficients of friction than this make a map
 LEVELS = 24  # of a map
@@ -45,8 +45,7 @@ def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     2
     """
     names = [name for name in SPEEDS if name in dataset and _finite(dataset, name).size]
-    if not names:
-        raise InputError("plot_strength: no speed in this dataset is finite; there is no limit")
+    refuse(not names and "plot_strength: no speed in this dataset is finite; there is no limit")
     if dataset.sizes["angle"] < 2:
         raise InputError("plot_strength: one angle makes no curve; give two or more")
     columns = min(len(names), 2)

@@ -164,11 +164,11 @@ class Design(Shown, ABC):
 
     names: tuple[str, ...]
     choices: Choices
-    _given: Mapping[str, Any] = field(repr=False)
+    _by_input: Mapping[str, Any] = field(repr=False)
     sampled: ClassVar[bool] = True
 
-    def __init__(self, choices: Choices, given: Mapping[str, Any], **more: Any) -> None:
-        fields = {"names": tuple(given), "choices": choices, "_given": given, **more}
+    def __init__(self, choices: Choices, by_input: Mapping[str, Any], **more: Any) -> None:
+        fields = {"names": tuple(by_input), "choices": choices, "_by_input": by_input, **more}
         for name, value in fields.items():
             object.__setattr__(self, name, value)
 
@@ -198,7 +198,7 @@ class Design(Shown, ABC):
         """Return what is hardly meant among the inputs, in words."""
         numbers = [
             (leaf(name), values[:2] if isinstance(values, Range) else values)
-            for name, values in self._given.items()
+            for name, values in self._by_input.items()
             if name not in self.choices
         ]
         for choice in chain.from_iterable(self.choices.values()):
@@ -211,7 +211,7 @@ class Design(Shown, ABC):
             name: [choice.description() for choice in self.choices[name]]
             if name in self.choices
             else describe(values)
-            for name, values in self._given.items()
+            for name, values in self._by_input.items()
         }
 
 
@@ -260,17 +260,17 @@ class Grid(Design):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        return tuple(values.size for values in self._given.values())
+        return tuple(values.size for values in self._by_input.values())
 
     def coords(self) -> dict[str, Any]:
         labels = {name: [one.label for one in self.choices[name]] for name in self.choices}
         return {
             dim: (dim, labels.get(name, values), input_attributes(name, self.choices))
-            for dim, (name, values) in zip(self.dims, self._given.items(), strict=True)
+            for dim, (name, values) in zip(self.dims, self._by_input.items(), strict=True)
         }
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        parts = [values[part] for values, part in zip(self._given.values(), box, strict=True)]
+        parts = [values[part] for values, part in zip(self._by_input.values(), box, strict=True)]
         lattice = np.meshgrid(*parts, indexing="ij")
         return {name: at.ravel() for name, at in zip(self.names, lattice, strict=True)}
 
@@ -333,7 +333,7 @@ class LatinHypercube(Design):
         index = np.arange(*box[0].indices(self.samples), dtype=np.uint64)
         words = secrets(self.seed, len(self.names))
         inputs: dict[str, NDArray[Any]] = {}
-        for (name, reach), secret in zip(self._given.items(), words, strict=True):
+        for (name, reach), secret in zip(self._by_input.items(), words, strict=True):
             values = reach.at(fractions(index, self.samples, secret))
             inputs[name] = values.astype(CODE) if name in self.choices else values
         return inputs

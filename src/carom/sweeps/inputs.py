@@ -103,13 +103,9 @@ def _hint(name: Any) -> str:
 def refuse_contradictions(names: Iterable[str]) -> None:
     """Raise InputError if one thing is given in two ways."""
     there = set(names)
-    pairs = [(there & some, there & others, why) for some, others, why in EXCLUSIVE]
-    refuse(
-        *(
-            one and other and f"{min(one)}: give it or {min(other)}, not both; {why}"
-            for one, other, why in pairs
-        )
-    )
+    for some, others, why in EXCLUSIVE:
+        one, other = sorted(there & some), sorted(there & others)
+        refuse(one and other and f"{one[0]}: give it or {other[0]}, not both; {why}")
 
 
 def read_choices(name: str, values: Any) -> tuple[Choice, ...]:

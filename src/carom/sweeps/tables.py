@@ -68,14 +68,14 @@ class Table(Design):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        return (self._given[self.names[0]].size,)
+        return (self._by_input[self.names[0]].size,)
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        return {name: values[box[0]] for name, values in self._given.items()}
+        return {name: values[box[0]] for name, values in self._by_input.items()}
 
     def description(self) -> dict[str, Any]:
         digest = hashlib.sha256()
-        for values in self._given.values():
+        for values in self._by_input.values():
             digest.update(np.ascontiguousarray(values).tobytes())
         choices = {name: [one.description() for one in self.choices[name]] for name in self.choices}
         whole = {"inputs": list(self.names), "rows": self.shape[0], "choices": choices}

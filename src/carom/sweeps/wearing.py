@@ -76,13 +76,9 @@ class Many(NamedTuple):
 
 def _read_columns(pair: Pair, motion: dict[str, ArrayLike | None]) -> dict[str, Array]:
     """Return what was given as lines of one length, by name, or raise InputError."""
-    angular = by_angle([name for name, value in motion.items() if value is not None])
-    others = ("normal_speed", "tangential_speed") if angular else ("speed", "angle")
-    columns = {
-        name: 0.0 if value is None else value
-        for name, value in motion.items()
-        if name not in others
-    }
+    others = ("normal_speed", "tangential_speed") if by_angle(motion) else ("speed", "angle")
+    used = {name: value for name, value in motion.items() if name not in others}
+    columns = {name: 0.0 if value is None else value for name, value in used.items()}
     along_the_same(**columns)
     read = {name: numbers(name, value, REALS, gaps=True) for name, value in columns.items()}
     check_second_spin(pair, columns["spin2"], spins=bool(read["spin2"].any()))

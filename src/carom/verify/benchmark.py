@@ -17,7 +17,7 @@ from carom.io.user_table import CASE
 from carom.old_names import with_old_fields
 from carom.quantities.arrays import finite_line
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, checked_type, refusal
+from carom.quantities.refusals import checked_type, refusal, refuse
 from carom.verify import errors
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
@@ -161,8 +161,7 @@ def bench(
     """
     checked_type("engine", engine, Engine, "must be a DEM program, e.g. carom.verify.Lammps()")
     bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi_1", psi_1)
-    if engine.executable() is None:
-        raise InputError(f"{engine.name}: {engine.remedy}")
+    refuse(engine.executable() is None and f"{engine.name}: {engine.remedy}")
     supported = _supported(engine, [as_entry(each) for each in listed("entries", entries)])
     slow = (OVERLAP * bodies.effective_radius / bodies.scales(1.0).length) ** 1.25
     speeds = tuple((psis * bodies.scales(slow).tangential_speed).tolist())

@@ -19,7 +19,7 @@ from carom.io.progress import Progress, advancing
 from carom.plots.result import card
 from carom.quantities.arrays import Array
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, one_of, refusal
+from carom.quantities.refusals import InputError, one_of, refusal, refuse
 from carom.quantities.units import finite, positive
 from carom.verify import errors
 from carom.verify.entries import CATALOGUE, LawOrFunction, as_law, called, listed
@@ -346,12 +346,10 @@ def _without_bodies(
 
 def _range(first: float, last: float, start: str, stop: str | None) -> Array:
     """Return psi_1 from the first to the last; `start` and `stop` are their texts."""
-    if first < 0.0:
-        raise refusal("from", start, "must not be negative")
+    refuse(first < 0.0 and refusal("from", start, "must not be negative"))
     if first >= last and stop is None:
         raise refusal(
             "from", start, f"at psi_1 = {first:.4g} the contact slides throughout; give a lower one"
         )
-    if first >= last:
-        raise refusal("to", stop, f"must be above --from, {start}")
+    refuse(first >= last and refusal("to", stop, f"must be above --from, {start}"))
     return np.linspace(first, last, INCIDENCES)[0 if first > 0.0 else 1 :]
