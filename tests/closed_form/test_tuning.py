@@ -50,12 +50,12 @@ def test_linear_spring_against_an_own_scan():
     best = fine[worst[1].argmin()]
     assert best == pytest.approx(0.777, abs=2e-3)
     assert worst[1].min() == pytest.approx(0.070, abs=1e-3)
-    (found,) = tune([dem.LinearSpring()], chi=CHI).advice
-    assert found.parameter == "stiffness_ratio"
-    assert found.value == pytest.approx(best, abs=2e-3)
-    assert found.max_error == pytest.approx(worst[1].min(), abs=1e-3)
+    (actual,) = tune([dem.LinearSpring()], chi=CHI).advice
+    assert actual.parameter == "stiffness_ratio"
+    assert actual.value == pytest.approx(best, abs=2e-3)
+    assert actual.max_error == pytest.approx(worst[1].min(), abs=1e-3)
     as_given = np.abs(linear_springs([1.0], PSI, CHI) - exact).max()
-    assert found.before == pytest.approx(as_given, abs=1e-3)
+    assert actual.before == pytest.approx(as_given, abs=1e-3)
 
 
 def test_neighbours_are_worse(tuned):
@@ -68,9 +68,9 @@ def test_neighbours_are_worse(tuned):
         for factor in (0.98, 1.02):
             other = replace(one.law, **{one.parameter: factor * one.value})
             assert cost(error_of(other)) > least, other
-        (given,) = (law for law in ONE_EACH if called(law) == called(one.law))
-        assert one.before == pytest.approx(np.abs(error_of(given)).max(), rel=1e-12)
-        assert cost(error_of(given)) > least
+        (values,) = (law for law in ONE_EACH if called(law) == called(one.law))
+        assert one.before == pytest.approx(np.abs(error_of(values)).max(), rel=1e-12)
+        assert cost(error_of(values)) > least
 
 
 @pytest.mark.parametrize("measure", MEASURE)
@@ -172,10 +172,10 @@ def test_record_and_table_hold_the_advice():
 
 
 def test_progress_is_told():
-    told = []
+    entries = []
     laws = [dem.HardSphere(), dem.HardSphere(0.2), dem.HardSphere(0.4)]
-    tune(laws, chi=CHI, psi_1=[1.0], progress=lambda done, whole: told.append((done, whole)))
-    assert told == [(1, 3), (2, 3), (3, 3)]
+    tune(laws, chi=CHI, psi_1=[1.0], progress=lambda done, whole: entries.append((done, whole)))
+    assert entries == [(1, 3), (2, 3), (3, 3)]
 
 
 @pytest.mark.parametrize(
@@ -189,9 +189,9 @@ def test_progress_is_told():
     ],
 )
 def test_refused(options, message):
-    given = {"laws": [dem.HardSphere()], "chi": CHI} | options
+    inputs = {"laws": [dem.HardSphere()], "chi": CHI} | options
     with pytest.raises(carom.InputError, match=message):
-        tune(**given)
+        tune(**inputs)
 
 
 @pytest.mark.parametrize("chi", [0.4, 6.0])

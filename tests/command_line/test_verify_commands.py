@@ -45,11 +45,11 @@ def test_laws_as_json(verify):
     else on standard output."""
     code, out, err = verify("laws", "--json")
     record = json.loads(out)
-    found = {law["law"]: law["max_error"] for law in record["laws"]}
+    actual = {law["law"]: law["max_error"] for law in record["laws"]}
     assert (code, err) == (0, "")
-    assert found.keys() == {entry.label for entry in CATALOGUE}
-    assert {label: found[label] for label in MEASURED} == pytest.approx(MEASURED, abs=1e-3)
-    assert list(found.values()) == sorted(found.values())
+    assert actual.keys() == {entry.label for entry in CATALOGUE}
+    assert {label: actual[label] for label in MEASURED} == pytest.approx(MEASURED, abs=1e-3)
+    assert list(actual.values()) == sorted(actual.values())
 
 
 def test_laws_of_a_shell(verify):
@@ -141,10 +141,10 @@ def test_tune_names_the_exact_law(verify, e):
     """Those who cannot change their law should know that some codes can; in LIGGGHTS e is 1."""
     Path("ball.toml").write_text(CASE)
     out = verify("tune", "ball.toml", "--restitution", e)[1]
-    told = json.loads(verify("tune", "ball.toml", "--restitution", e, "--json")[1])["exact_law"]
+    answer = json.loads(verify("tune", "ball.toml", "--restitution", e, "--json")[1])["exact_law"]
     assert "pair_style carom in LAMMPS" in out
-    assert told["LAMMPS"] == "pair_style carom"
-    assert ("tangential carom in LIGGGHTS" in out) == ("LIGGGHTS" in told) == (e == 1.0)
+    assert answer["LAMMPS"] == "pair_style carom"
+    assert ("tangential carom in LIGGGHTS" in out) == ("LIGGGHTS" in answer) == (e == 1.0)
 
 
 @pytest.mark.usefixtures("few_laws")
@@ -164,9 +164,9 @@ def test_lammps_as_json(verify):
     code, out, err = verify("lammps", "--json")
     record = json.loads(out)
     laws = {law["law"]: law for law in record["laws"]}
-    found = {label: laws[label]["max_error"] for label in MEASURED}
+    actual = {label: laws[label]["max_error"] for label in MEASURED}
     assert (code, err, record["engine"]) == (0, "", "LAMMPS")
-    assert found == pytest.approx(MEASURED, abs=1e-3)
+    assert actual == pytest.approx(MEASURED, abs=1e-3)
     assert max(law["law_error"] for label, law in laws.items() if label != EXACT) < 1e-6
     assert laws.get(EXACT, {"law_error": 0.0})["law_error"] < 1e-5  # where the plugin is built
     order = [law["max_error"] for law in record["laws"]]

@@ -69,11 +69,11 @@ def test_odd_numbers_are_drawn_or_refused_in_silence(
             try:
                 save_figure(getattr(plots, name)(odd), tmp_path / "x.svg")
             except carom.InputError as error:
-                told = str(error)
+                text = str(error)
             else:
-                told = name
-        assert told.startswith(name)
-        assert "\n" not in told
+                text = name
+        assert text.startswith(name)
+        assert "\n" not in text
     assert capfd.readouterr() == ("", "")
     assert caplog.records == []
 
