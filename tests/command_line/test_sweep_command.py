@@ -185,7 +185,7 @@ def test_a_single_impact_tells_that_it_leaves_the_sweep_out(run):
     ],
 )
 def test_refuses_flags_in_one_line_and_leaves_nothing(refusal, monkeypatch, arguments, word):
-    monkeypatch.setattr("carom.sweeps.schedulers.ANSWER", 0.5)
+    monkeypatch.setattr("carom.sweeps.schedulers.ANSWER_SECONDS", 0.5)
     assert word in refusal("sweep", "case.toml", *arguments)
     assert [path.name for path in Path().iterdir()] == ["case.toml"]
 

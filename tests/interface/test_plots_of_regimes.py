@@ -12,7 +12,7 @@ import carom
 from carom.plots import plot_regime_map, save_figure
 from carom.plots.legends import wrapped
 from carom.plots.regime_map import group_of
-from carom.plots.region_labels import SMALLEST, find_labels, in_letters
+from carom.plots.region_labels import SMALLEST_LABEL, find_labels, in_letters
 from carom.plots.regions import area, limits, regions
 
 SPACES = str.maketrans({"\n": " ", "\u00a0": " "})
@@ -166,4 +166,4 @@ def test_long_lines_are_broken_where_there_is_room():
     lines = wrapped(text, 60.0).split("\n")
     assert len(lines) > 1
     assert " ".join(lines) == text
-    assert SMALLEST == 0.2, "as the docstring of plot_regime_map and the tests have it"
+    assert SMALLEST_LABEL == 0.2, "as the docstring of plot_regime_map and the tests have it"

@@ -35,7 +35,7 @@ def model(tmp_path_factory):
     for name in HEADERS:
         (folder / f"{name}.h").write_text('#include "liggghts.h"\n')
     includes = [f"-I{path}" for path in (building.HEADERS, liggghts.MODEL, folder, CPP)]
-    flags = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", *building.MATHS]
+    flags = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", *building.MATH_FLAGS]
     source = str(CPP / "in_liggghts.cpp")
     subprocess.run(["c++", *flags, *includes, source, "-o", folder / "run"], check=True)
 

@@ -16,7 +16,7 @@ from carom.adapters.building import Built
 from carom.quantities.refusals import InputError, refusal, refuse
 
 SOURCES = building.HERE / "lammps_plugin"
-FLAGS = ("-std=c++17", "-O3", *building.MATHS, "-fPIC", "-shared", "-fvisibility=hidden")
+FLAGS = ("-std=c++17", "-O3", *building.MATH_FLAGS, "-fPIC", "-shared", "-fvisibility=hidden")
 SIZES = ("smallbig", "bigbig")  # of integers, as LAMMPS was built
 NAME = "caromplugin.so"  # LAMMPS loads *plugin.so
 COMMAND = "lammps build"

@@ -21,7 +21,7 @@ from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan
 from carom.fitting.intervals import profiled, settle
 from carom.fitting.least_squares import descend
 from carom.fitting.model import EXACT, OFFSET, FittedLaw, Model, Parameter, Values
-from carom.fitting.problem import OUTLYING, FitProblem, RobustLoss
+from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -35,7 +35,7 @@ SQUARES = RobustLoss(inf)
 ALARM = 0.001  # probability of calling a value of a response that has none an outlier
 FEWEST, RANGE = 4, 1.2  # values; of the speeds, largest over smallest: below nothing can be told
 LEAST, MOST = 1e-8, 10.0  # of a loss time, in units of d_max/V_1
-SLOWEST = 1e-5  # yield velocity, in units of the smallest speed
+LEAST_YIELD = 1e-5  # velocity, in units of the smallest speed
 CONSTANT = "constant"
 LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
@@ -177,7 +177,7 @@ def _far(best: Best) -> Mask:
     extreme studentized deviates (Rosner 1983).
     """
     residuals, present = best.residuals, best.model.problem.present
-    far = present & (np.abs(residuals) > OUTLYING)
+    far = present & (np.abs(residuals) > OUTLIER)
     for place in np.flatnonzero(best.estimated):
         sizes = np.where(present[:, place], np.abs(residuals[:, place]), -1.0)
         order = np.argsort(-sizes)
@@ -355,7 +355,7 @@ def _laws(problem: FitProblem) -> tuple[FittedLaw, ...]:
     speeds = problem.motion.normal_speed
     times = _times(problem.pair, speeds)
     loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None)
-    yielding = Parameter("yield_velocity", SLOWEST * speeds.min(), float(speeds.max()), None)
+    yielding = Parameter("yield_velocity", LEAST_YIELD * speeds.min(), float(speeds.max()), None)
     return (
         FittedLaw(CONSTANT, (laws.ANY_RESTITUTION,), laws.untouched),
         FittedLaw("KelvinVoigt", (loss_time,), laws.untouched, viscous),

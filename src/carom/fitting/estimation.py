@@ -164,7 +164,7 @@ def normalization(model: Model, weights: errors.Weights, loss: errors.RobustLoss
 
 
 STARTS = 6  # starting points that are followed to the end
-FINE = {  # levels of the scan
+LEVELS = {  # of the scan
     "friction": 25,
     "kappa": 12,
     "tangential_restitution": 9,
@@ -349,13 +349,13 @@ def _levels(model: Model, name: str) -> Array:
     """Return the coordinates of a parameter in the scan."""
     if name == "restitution":
         return _likely_restitutions(model.problem)
-    if name not in FINE:
+    if name not in LEVELS:
         return np.zeros(1)
     place = model.free.index(name)
     low, high = model.bounds.low[place], model.bounds.high[place]
     if name == "friction":
         low, high = np.log(5e-3), np.log(3.0)
-    return np.linspace(low, high, FINE[name] + 2)[1:-1]
+    return np.linspace(low, high, LEVELS[name] + 2)[1:-1]
 
 
 def _likely_restitutions(problem: FitProblem) -> Array:

@@ -20,7 +20,7 @@ FIRST = 4.0  # parts of the range in which an open side is searched for, at firs
 ROUNDS, CLOSE = 16, 2e-3  # at most; of the distance at which the loss has risen enough
 HELD_FIRST = (OFFSET, "restitution", "tangential_restitution", "kappa", "friction")
 EXAMPLES = {"restitution": 0.98, "kappa": 0.82, "friction": 0.1, OFFSET: 0.0}
-MEMBER = 0.25  # part of a direction that a parameter of a group has at least
+LEAST_PART = 0.25  # of a direction that a parameter of a group has
 ROUNDED = 1e-10  # of the information: less is that of rounded difference quotients
 WORSE = 0.5  # rise of the loss at which a starting value contradicts the data
 
@@ -163,7 +163,7 @@ def weak_group(information: Information, names: tuple[str, ...]) -> tuple[str, .
     sizes, directions = np.linalg.eigh(information.matrix)
     if sizes[0] >= max(WEAK**2, ROUNDED * sizes[-1]):
         return ()
-    members = [n for n, part in zip(names, directions[:, 0], strict=True) if abs(part) > MEMBER]
+    members = [n for n, part in zip(names, directions[:, 0], strict=True) if abs(part) > LEAST_PART]
     return tuple(sorted(members, key=HELD_FIRST.index))
 
 

@@ -13,7 +13,7 @@ from carom.datasets import observables
 from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged
-from carom.fitting.problem import NOTHING, FitProblem, IncomingMotion
+from carom.fitting.problem import NO_SPEED, FitProblem, IncomingMotion
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
@@ -24,7 +24,7 @@ from carom.quantities.units import WHY_POSITIVE, number
 MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit
 LARGEST = 1e9  # of what has no unit
 NO_LARGER = "must be positive and, apart from scatter, no larger than {}"
-START = 0.3  # friction of bodies of which none is known, to begin with
+START_FRICTION = 0.3  # of bodies of which none is known
 HEIGHTS = {"drop_height": "normal_speed", "rebound_height": "normal_speed_out"}
 TWICE = ("speed", "angle", "tangential_speed", "contact_angle", "psi_in", "normal_restitution")
 GRAVITY = 9.80665  # m/s^2
@@ -122,8 +122,8 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
             f"pair: a chi of {bodies.chi:.3g} cannot be fitted, only one from {least:.2g} to "
             f"{most:.2g}; check radii and gyration_radius"
         )
-    has_friction = bodies.friction > 0.0
-    return bodies if has_friction else Pair(bodies.first, bodies.second, START), has_friction
+    rubs = bodies.friction > 0.0
+    return bodies if rubs else Pair(bodies.first, bodies.second, START_FRICTION), rubs
 
 
 def _errors(rows: UserTable, name: str) -> Array:
@@ -177,7 +177,7 @@ def _check_responses(pair: Pair, rows: UserTable, motion: IncomingMotion, veloci
     """Raise InputError for responses that contradict the motion before, or are out of range."""
     for name in filter(rows.columns.__contains__, observables.RELATIVE):
         basis = velocity if name.startswith("contact") else motion.tangential_speed
-        rested = np.abs(basis) <= NOTHING * motion.normal_speed
+        rested = np.abs(basis) <= NO_SPEED * motion.normal_speed
         allowed = "the tangential velocity before is zero; write '-', or give tangential_speed_out"
         rows.refuse(name, rested & np.isfinite(rows[name]), allowed)
     most = {

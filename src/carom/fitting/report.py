@@ -12,7 +12,7 @@ from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.model import Model
-from carom.fitting.problem import OUTLYING, FitProblem, RobustLoss, least_error, typical_deviation
+from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, least_error, typical_deviation
 from carom.fitting.reading import HEIGHTS, taken_by_air
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -163,7 +163,7 @@ def _tried(best: Best, trial: Trial) -> tuple[float, str] | None:
     if not _is_promising(model, best.loss, as_given):
         return None
     other = estimate(model, best.loss)
-    kept = present & (np.abs(other.residuals) <= OUTLYING)
+    kept = present & (np.abs(other.residuals) <= OUTLIER)
     chi2 = float(np.square(other.residuals[kept]).sum())
     size = np.where(present, other.sigma * other.scale, 1.0)
     instead = float(np.square(as_given[kept] / size[kept]).sum())
@@ -183,14 +183,14 @@ def _is_promising(model: Model, loss: RobustLoss, as_given: Array) -> bool:
     return bool(typical.any())
 
 
-AT_END = 1e-6  # of a coordinate from an end of its range
+NEAR_END = 1e-6  # of a coordinate from an end of its range
 APART = 0.1  # of a coordinate between two minima
 COLUMN = 14
 ONE_INCIDENCE = (
     "one incidence determines friction or kappa, not both; fix one, or measure at other angles"
 )
 THIN = 2e-3  # part of a restitution that air may take unsaid
-POSSIBLE = (2.0 / 3.0, 1.0)  # kappa for Poisson's ratios from 1/2 to 0
+ELASTIC_KAPPA = (2.0 / 3.0, 1.0)  # for Poisson's ratios from 1/2 to 0
 
 
 def as_text(fit: FitRecord) -> str:
@@ -220,7 +220,7 @@ def notes(fit: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> t
     """Return what is to be known besides the numbers; `whole` is the fit with nothing held."""
     best = fit.best
     problem = best.model.problem
-    far = np.asarray((np.abs(best.residuals) > OUTLYING).any(axis=1))
+    far = np.asarray((np.abs(best.residuals) > OUTLIER).any(axis=1))
     lines = [*_about_errors(best), *([f"outliers: {problem.rows.named(far)}"] if far.any() else [])]
     lines += [*_about_regimes(fit), *_about_ranges(best)]
     if {"friction", "kappa"} <= set(whole.model.free) and problem.is_one:  # all psi_1 are one
@@ -276,7 +276,7 @@ def _about_ranges(best: Best) -> list[str]:
     ):
         ends = {parameter.low: at - low, parameter.high: high - at}
         for end, distance in ends.items():
-            if distance < AT_END and end not in LIMITS[parameter.name]:
+            if distance < NEAR_END and end not in LIMITS[parameter.name]:
                 reach = f"from {GLOSSARY[parameter.name].span(parameter.low, parameter.high, 3)}"
                 lines.append(f"{parameter.name}: the best value is at an end of the range {reach}")
     return lines
@@ -287,7 +287,7 @@ def _about_bodies(kappa: Estimate) -> list[str]:
     if not kappa.determined or kappa.low <= kappa.elastic <= kappa.high:
         return []
     differs = f"kappa: the interval excludes {kappa.elastic:.3g}, which the elastic constants give"
-    if POSSIBLE[0] <= kappa.value <= POSSIBLE[1]:
+    if ELASTIC_KAPPA[0] <= kappa.value <= ELASTIC_KAPPA[1]:
         return [f"{differs}; check bodies, units and signs"]
     return [f"{differs}, and kappa is 2/3 to 1 for elastic bodies; check bodies, units and signs"]
 

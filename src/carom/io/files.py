@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 TABLES = (".nc", ".csv")
-STORE = ".zarr"  # of a sweep
+STORE_ENDING = ".zarr"  # of a sweep
 EXPORTED = (
     "CSV is an export; store a dataset as .nc to read it again, "
     "one of Carom 0.2 there by carom.save(carom.read('x.csv'), 'x.nc')"
@@ -111,10 +111,10 @@ def _table(dataset: "xr.Dataset") -> str:
 def read_dataset(source: Path) -> "xr.Dataset":
     """Return the dataset of a file or store, or raise InputError if it is not one of Carom's."""
     ending = source.suffix.lower()
-    if ending == STORE and source.is_dir():
+    if ending == STORE_ENDING and source.is_dir():
         sweep: xr.Dataset = extra("carom.io.stores", "a store").read_store(source)
         return sweep
-    reason = f"must end in .nc, or be the store of a sweep, {STORE}"
+    reason = f"must end in .nc, or be the store of a sweep, {STORE_ENDING}"
     if ending == ".csv":
         reason = EXPORTED
     elif ending == ".nc" and not source.is_file():

@@ -29,7 +29,7 @@ from carom.quantities.refusals import InputError, refusal, refuse
 
 Progress = bool | Callable[[], object] | None
 
-RATE = 12  # frames a second
+FRAME_RATE = 12  # a second
 RESOLUTION = {".gif": 110, ".mp4": 200}  # in dots per inch
 MARGIN = 1.08  # around the largest contact
 
@@ -203,7 +203,7 @@ def _write_gif(where: Path, pictures: Iterator[Image.Image]) -> None:
     palette = _palette()
     frames = (picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures)
     next(frames).save(
-        where, save_all=True, append_images=frames, duration=round(1000 / RATE), loop=0
+        where, save_all=True, append_images=frames, duration=round(1000 / FRAME_RATE), loop=0
     )
 
 
@@ -228,7 +228,7 @@ def _palette() -> Image.Image:
 def _write_mp4(where: Path, pictures: Iterator[Image.Image]) -> None:
     first = next(pictures)
     command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24"]
-    command += ["-s", f"{first.width}x{first.height}", "-r", str(RATE), "-i", "-"]
+    command += ["-s", f"{first.width}x{first.height}", "-r", str(FRAME_RATE), "-i", "-"]
     command += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p"]
     command.append(str(where))
     pipe = subprocess.PIPE

@@ -23,7 +23,7 @@ PATHS: dict[str, dict[str, Any]] = {
 }
 AHEAD = 0.02  # from the foot to the head of an arrow, as a share of the figure
 APART = 0.1  # between the heads of arrows, likewise
-SHORTEST = 0.15  # of a phase with an arrow
+SHORTEST_PHASE = 0.15  # with an arrow
 ARROWS = 8  # on a path without phases
 
 
@@ -117,7 +117,7 @@ def _arrows(points: Array, count: int) -> list[Array]:
     """Return foot and head of arrows, evenly along a path."""
     steps = np.hypot(*np.diff(points, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    if along[-1] <= SHORTEST:
+    if along[-1] <= SHORTEST_PHASE:
         return []
     feet = (np.arange(count) + 0.4) / count * along[-1]
     ends = np.column_stack([feet, feet + AHEAD])

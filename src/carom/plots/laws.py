@@ -26,13 +26,13 @@ COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, SKY)
 STYLES: Any = [{"color": c, "ls": d} for c, d in zip(COLORS, (*style.DASHES[1:], "-"), strict=True)]
 EXACT: Any = {"color": style.BLACK, "lw": 1.6, "zorder": 2}
 POINT: Any = {"marker": "o", "ms": 1.4}
-SAME = 1e-6  # in psi_2; laws closer than this share a line
+SAME_PSI = 1e-6  # laws closer than this in psi_2 share a line
 SAMPLE = (-0.085, -0.015)  # where a bar shows its line, in widths of its axes
-WORDS = 32  # characters in a line of a law's label
+LABEL_WIDTH = 32  # in characters
 PITCH, EDGE = 5.6, 22.0  # height of a bar and of what is around them, in mm
 NOTED = 0.1  # an error that is outlined
 CONTOURS: Any = {"colors": "0.25", "linewidths": 0.6, "linestyles": ["--", "-"]}
-LARGEST = 1e100  # limit of a map
+LARGEST_LIMIT = 1e100
 LEAST = 1e-3  # a colour scale ends no nearer to zero
 PLAIN = {  # parameters of elastic laws, not worth a mention
     "stiffness": 1.0,
@@ -87,7 +87,7 @@ def _kinds(curves: Any) -> Any:
     """Return which rebound each law has, counted from 0 in their order; equal ones are one."""
     kinds: list[int] = []
     for row, curve in enumerate(curves):
-        same = (k for k in range(row) if np.allclose(curves[k], curve, rtol=0.0, atol=SAME))
+        same = (k for k in range(row) if np.allclose(curves[k], curve, rtol=0.0, atol=SAME_PSI))
         twin = next(same, None)
         kinds.append(max(kinds, default=-1) + 1 if twin is None else kinds[twin])
     return np.array(kinds)
@@ -124,7 +124,7 @@ def _draw_bars(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any], mo
     names = [str(name).replace("$", r"\$") for name in dataset["law"].values[rows]]
     axis.set_yticks(
         places,
-        [style.with_formulas(textwrap.fill(n, WORDS, break_long_words=False)) for n in names],
+        [style.with_formulas(textwrap.fill(n, LABEL_WIDTH, break_long_words=False)) for n in names],
     )
     axis.tick_params(axis="y", length=0.0, pad=15.0)
     axis.set_ylim(most - 0.5, -0.5)
@@ -140,9 +140,9 @@ def _key(dataset: xr.Dataset) -> Iterator[Any]:
 
 
 def _read_limit(value: Any) -> float:
-    allowed = f"must be positive, at most {LARGEST:g}"
+    allowed = f"must be positive, at most {LARGEST_LIMIT:g}"
     limit = pure_number("limit", value, allowed)
-    refuse(not 0.0 < limit <= LARGEST and refusal("limit", value, allowed))
+    refuse(not 0.0 < limit <= LARGEST_LIMIT and refusal("limit", value, allowed))
     return limit
 
 

@@ -17,7 +17,7 @@ from carom.plots.look import AXES, Look
 from carom.plots.regimes import draw_borders
 from carom.plots.region_labels import (
     PITCH,
-    SMALLEST,
+    SMALLEST_LABEL,
     Label,
     Labels,
     find_labels,
@@ -44,7 +44,7 @@ ABOVE = 1.1  # where the key to a user's Axes begins, above the names of borders
 UNDER = 0.8  # of the way from the middle of a label to its edge: where a leader line ends
 UNSEEN = 1e-6  # of the area of the largest region: colours that the key leaves out
 LISTED = 40  # sequences below a map, of those that are not marked
-TALL = 0.42  # the map, in widths of the figure
+HEIGHT = 0.42  # of the map, in widths of the figure
 MARGIN = 11.0  # of text beside a figure's edges, in points
 
 
@@ -83,7 +83,7 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     >>> [text.get_text() for text in figure.axes[0].texts][2:4]
     ['$\\\\psi_1 = $$4\\\\chi-1$', 'G+']
     """
-    figure, axis = style.single_axis(width=style.DOUBLE, height=TALL * style.DOUBLE + 30.0)
+    figure, axis = style.single_axis(width=style.DOUBLE, height=HEIGHT * style.DOUBLE + 30.0)
     drawn = regions(dataset)
     colours = _colours({group_of(region.name) for region in drawn if region.name})
     for region in drawn:
@@ -158,7 +158,7 @@ def _set_height(figure: Figure, axis: Axes) -> None:
     """Make a figure as high as its map needs, and what is around it."""
     if AXES.get() is not None:
         return
-    wanted, (_, height) = TALL * figure.get_figwidth(), _laid_out(figure, axis)[0]
+    wanted, (_, height) = HEIGHT * figure.get_figwidth(), _laid_out(figure, axis)[0]
     figure.set_figheight(figure.get_figheight() + wanted - height / 25.4)
 
 
@@ -176,7 +176,7 @@ def _list(figure: Figure, labels: Labels) -> None:
     """Write below the map what numbers mean, and which sequences are not marked, and why."""
     numbered = (f"{k}\u00a0=\u00a0{_tied(name)}" for k, name in enumerate(labels.numbered, 1))
     parts = ["; ".join(numbered)]
-    reasons = {f"narrower than {SMALLEST:g} mm": labels.narrow, "without room": labels.lost}
+    reasons = {f"narrower than {SMALLEST_LABEL:g} mm": labels.narrow, "without room": labels.lost}
     for reason, names in reasons.items():
         counted = [
             _tied(name) + f"\u00a0({k}\u00a0regions)" * (k > 1)

@@ -17,7 +17,7 @@ from carom.quantities.refusals import InputError, refuse
 
 MOST_LINES = len(style.LINES)  # more coefficients of friction than this make a map
 LEVELS = 24  # of a map
-SHOWN = (1.0, 2.0, 5.0)  # of each decade, labelled on axes and curves
+TICKS = (1.0, 2.0, 5.0)  # of each decade, labelled on axes and curves
 TITLES = {
     "yield_speed": "{} body yields",
     "tensile_speed": "{} body, tensile strength",
@@ -80,7 +80,7 @@ def _lines(axis: Axes, dataset: xr.Dataset, name: str) -> None:
         text = f"{style.label('friction')} = {mu:g}"
         axis.plot(angle, row, color=style.LINES[i], ls=style.DASHES[i], label=text)
     axis.set_yscale("log")
-    axis.yaxis.set_major_locator(LogLocator(subs=SHOWN))
+    axis.yaxis.set_major_locator(LogLocator(subs=TICKS))
     axis.yaxis.set_major_formatter("{x:g}")
     axis.yaxis.set_minor_formatter("")
     axis.set_ylabel(style.label(name))
@@ -95,7 +95,7 @@ def _map(axis: Axes, dataset: xr.Dataset, name: str) -> None:
     shades = np.geomspace(low, high * (1.0 + 1e-9), LEVELS)
     axis.contourf(angle, friction, values, shades, cmap=style.MAP, norm=LogNorm(low, high))
     decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
-    levels = np.outer(decades, SHOWN).ravel()
+    levels = np.outer(decades, TICKS).ravel()
     levels = levels[(levels > low) & (levels < high)]
     if levels.size:
         curves = axis.contour(angle, friction, values, levels, colors="white", linewidths=0.7)

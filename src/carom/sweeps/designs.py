@@ -31,7 +31,7 @@ Box = tuple[slice, ...]
 Values = dict[str, NDArray[Any]]
 
 FEWEST, MOST = 1024, 2**14  # points of a block
-BLOCKS = 32  # that a sweep of middling size is cut into
+USUAL_BLOCKS = 32  # that a sweep of middling size is cut into
 
 
 def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
@@ -39,7 +39,7 @@ def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
 
     Blocks have fewer points where each point costs more.
     """
-    room = min(max(prod(shape) // BLOCKS, FEWEST // cost), MOST // cost)
+    room = min(max(prod(shape) // USUAL_BLOCKS, FEWEST // cost), MOST // cost)
     chunks = []
     for length in reversed(shape):
         pieces = ceil(length / max(1, min(length, room)))

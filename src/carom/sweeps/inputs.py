@@ -36,7 +36,7 @@ for _body in BODIES:
     _inertia = ({f"{_body}.gyration_radius"}, {f"{_body}.inner_radius"}, "both give its inertia")
     EXCLUSIVE += [_inertia, ({f"{_body}.material"}, _values, "both tell what it is made of")]
 UNREADABLE = -1  # code of a choice
-MOST = np.iinfo(CODE).max  # choices
+MOST_NAMES = np.iinfo(CODE).max
 
 
 class Choice(NamedTuple):
@@ -120,7 +120,7 @@ def checked_choices(name: str, choices: list[Choice]) -> tuple[Choice, ...]:
     labels, count = [choice.label for choice in choices], len(choices)
     twice = dict.fromkeys(label for label in labels if labels.count(label) > 1)
     refuse(
-        not 0 < count <= MOST and refusal(name, f"{count} names", f"give 1 to {MOST}"),
+        not 0 < count <= MOST_NAMES and refusal(name, f"{count} names", f"give 1 to {MOST_NAMES}"),
         *(refusal(name, label, "it is given twice; names must differ") for label in twice),
     )
     return tuple(choices)

@@ -39,7 +39,7 @@ class Wanted(NamedTuple):
 WANTED = {
     f"{quantity}_{body}": Wanted(quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES
 }
-SPEEDS: dict[str, Callable[[StruckBody], float]] = {  # as a multiple of the speed of the impact
+BEARABLE: dict[str, Callable[[StruckBody], float]] = {  # as a multiple of the speed of the impact
     "yield_speed": lambda body: growth(body.yield_ratio()),
     "tensile_speed": lambda body: growth(body.tension_ratio()),
     "crack_speed": StruckBody.cracking,
@@ -75,8 +75,8 @@ def strength_values(
 
 
 def _value(quantity: str, body: StruckBody, speed: float) -> float:
-    if quantity in SPEEDS:
-        return float(speed * SPEEDS[quantity](body))
+    if quantity in BEARABLE:
+        return float(speed * BEARABLE[quantity](body))
     return body.peak(quantity).value if quantity in MEASURES else body.intensity().value
 
 

@@ -209,8 +209,8 @@ OUTPUTS = (
 OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")
 # By what tells the losses: blocks are smaller by so much, as impacts cost more, and take seconds.
 COSTLIER = {None: 1, "yield_velocity": 50, "relaxation_time": 100}
-VISCOUS = 16
-SEARCHED = 500  # where the largest stresses are wanted
+VISCOUS_COST = 16
+STRESS_COST = 500  # where the largest stresses are wanted
 
 
 class VariableInfo(NamedTuple):
@@ -248,7 +248,7 @@ class SweepProblem:
     def chunks(self) -> tuple[int, ...]:
         """Return the shape of the blocks into which the sweep is cut."""
         searched = any(name in WANTED for name in self.outputs)
-        cost = SEARCHED if searched else COSTLIER.get(self._common.loss, VISCOUS)
+        cost = STRESS_COST if searched else COSTLIER.get(self._common.loss, VISCOUS_COST)
         return chunk_shape(self.design.shape, cost)
 
     def block(self, box: Box, threads: int | None = 1) -> Values:

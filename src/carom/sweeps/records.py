@@ -19,8 +19,8 @@ from carom.sweeps.problem import SweepProblem
 if TYPE_CHECKING:
     import xarray as xr
 
-MOST = 50_000_000  # points in memory: some GB
-LONG = 1000  # values of an axis; the dataset has them as its coordinate
+MOST_IN_MEMORY = 50_000_000  # points: some GB
+LONG_AXIS = 1000  # values of an axis; the dataset has them as its coordinate
 
 
 class SweepStopped(RuntimeError):
@@ -34,7 +34,7 @@ class MemoryRecord:
         self._problem = problem
         shape = problem.design.shape
         try:
-            if prod(shape) > MOST:
+            if prod(shape) > MOST_IN_MEMORY:
                 raise MemoryError
             self._arrays = {
                 name: np.empty(shape, info.dtype) for name, info in problem.variables().items()
@@ -81,7 +81,7 @@ def identity(problem: SweepProblem) -> dict[str, Any]:
 def _condensed(value: Any) -> Any:
     if isinstance(value, dict):
         return {name: _condensed(part) for name, part in value.items()}
-    if isinstance(value, list) and len(value) > LONG:
+    if isinstance(value, list) and len(value) > LONG_AXIS:
         digest = sha256(json.dumps(value).encode()).hexdigest()
         return {"length": len(value), "first": value[0], "last": value[-1], "sha256": digest}
     return value

@@ -19,9 +19,9 @@ from carom.sweeps.designs import Box, Values
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped
 
-ANSWER = 5.0  # seconds a scheduler, and its first worker, have to answer
+ANSWER_SECONDS = 5.0  # that a scheduler, and its first worker, have to answer
 CLUSTER = "a scheduler"
-AHEAD = 2  # blocks in flight for each thread
+BLOCKS_AHEAD = 2  # in flight for each thread
 
 
 class Team(NamedTuple):
@@ -37,7 +37,7 @@ class Team(NamedTuple):
         flying: dict[futures.Future[Values], Box] = {}
         try:
             while True:
-                for box in islice(queue, AHEAD * self.size - len(flying)):
+                for box in islice(queue, BLOCKS_AHEAD * self.size - len(flying)):
                     flying[self.submit(box)] = box
                 if not flying:
                     return
@@ -86,7 +86,7 @@ def _client(address: str) -> Iterator[Any]:
     distributed = extra("distributed", CLUSTER)
     try:
         extra("distributed.comm.addressing", CLUSTER).parse_address(address, strict=True)
-        client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
+        client = distributed.Client(address, timeout=ANSWER_SECONDS, set_as_default=False)
     except OSError:
         raise InputError(
             f"scheduler: {address!r} does not answer; start one with 'dask scheduler', and workers "
@@ -107,7 +107,7 @@ def _client(address: str) -> Iterator[Any]:
 def _checked_threads(client: Any, address: str) -> int:
     """Return the number of threads of a cluster; raise InputError if it cannot be used."""
     try:
-        client.wait_for_workers(1, timeout=ANSWER)
+        client.wait_for_workers(1, timeout=ANSWER_SECONDS)
     except TimeoutError:
         raise refusal(
             "scheduler", address, f"it has no workers; start one with: dask worker {address}"

@@ -29,7 +29,7 @@ from zarr.core.buffer import Buffer
 from zarr.storage import MemoryStore
 
 from carom.dimensionless.numerics.threads import available_cores
-from carom.io.files import STORE
+from carom.io.files import STORE_ENDING
 from carom.io.paths import checked_path
 from carom.io.stores import CHUNK, STATUS, SealedStore, freeze, read_store
 from carom.io.version import __version__
@@ -111,11 +111,11 @@ def opened(folder: str | Path, problem: SweepProblem, resume: bool) -> Iterator[
 
 
 def _checked(folder: str | Path) -> Path:
-    kind = f"folder that ends in {STORE}"
+    kind = f"folder that ends in {STORE_ENDING}"
     path = checked_path("store", folder, kind)
     there = os.path.isdir(os.path.dirname(os.path.realpath(path)))
     refuse(
-        path.suffix.lower() != STORE
+        path.suffix.lower() != STORE_ENDING
         and refusal("store", str(folder), f"must be the name of a {kind}"),
         not there
         and refusal("store", str(path), "the folder that holds it must exist; make it first"),

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from carom.bodies.cases import SWEEP, Case
+from carom.bodies.cases import SWEEP_TABLE, Case
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, column_in_si
 from carom.quantities.glossary import GLOSSARY
@@ -156,9 +156,9 @@ def plan(
     case: Case, path: Path, columns: Mapping[str, str] | None = None
 ) -> tuple[Design, list[str] | None]:
     """Return the design and the outputs that a case file asks for."""
-    table = case.get(SWEEP)
+    table = case.get(SWEEP_TABLE)
     if not isinstance(table, Mapping):
-        raise InputError(f"{SWEEP}: missing in {path}; add [sweep.axes] with {EXAMPLE}")
+        raise InputError(f"{SWEEP_TABLE}: missing in {path}; add [sweep.axes] with {EXAMPLE}")
     outputs = table.get("outputs")
     if "outputs" in table:
         checked_type("outputs", outputs, list, 'must be a list of names, e.g. ["rebound_angle"]')

@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 REALS = "give real numbers, one or an array of them"
-HUGE = 1e250  # N m; per area it is more
-BLOCK = 20_000  # impacts that are solved before progress is told
-FINE = 201  # distances at least among which the largest wear of a spot is sought
+LARGEST_WORK = 1e250  # in N m; per area it is more
+IMPACTS_AT_ONCE = 20_000  # that are solved before progress is said
+FEWEST_DISTANCES = 201  # distances at least among which the largest wear of a spot is sought
 STATUS = {
     "long_name": "what became of the impact",
     **flags([status.message for status in PointStatus], first=PointStatus.NOT_RUN),
@@ -104,8 +104,8 @@ def _solve_all(
     nothing = np.full(counts.size, np.nan)
     many = Many(columns, counts, status, nothing, nothing.copy())
     with advancing("solving the impacts", counts.size, progress, unit="impacts") as advance:
-        for start in range(0, counts.size, BLOCK):
-            part = slice(start, start + BLOCK)
+        for start in range(0, counts.size, IMPACTS_AT_ONCE):
+            part = slice(start, start + IMPACTS_AT_ONCE)
             with np.errstate(all="ignore"):
                 _fill(pair, losses, many.part(part))
             advance(many.status[part].size)
@@ -122,7 +122,7 @@ def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
     block.status[:] = _status(block.columns, block.counts, outcome)
     solve_block(outcome, losses, block.status, None)
     rubbed_now = np.asarray(rubbed(outcome), dtype=np.float64)
-    block.status[block.solved & ~(rubbed_now < HUGE)] = PointStatus.BEYOND_FLOATING_POINT
+    block.status[block.solved & ~(rubbed_now < LARGEST_WORK)] = PointStatus.BEYOND_FLOATING_POINT
     block.rubbed[block.solved] = rubbed_now[block.solved]
     block.radii[block.solved] = np.asarray(outcome.max_radius)[block.solved]
 
@@ -268,7 +268,7 @@ def _on_spot(
     progress: Progress,
 ) -> dict[str, Any]:
     """Return what all impacts on one spot rub and wear, at these distances and at the deepest."""
-    inner = np.linspace(0.0, distance[-1], FINE)
+    inner = np.linspace(0.0, distance[-1], FEWEST_DISTANCES)
     radii = np.union1d(distance, inner)
     mean, lateral, (normal, motion) = *np.zeros((2, radii.size)), _motion_of(many.columns)
     which = np.flatnonzero(many.solved & (many.counts > 0.0))

@@ -25,7 +25,7 @@ from carom.verify.entries import CATALOGUE, EXACT, Entry, as_entry, listed
 from carom.verify.errors import INCIDENCES, Impacts
 from carom.verify.tables import text_table
 
-STEPS = 2000  # per duration of Hertz's contact
+STEPS_PER_CONTACT = 2000
 OVERLAP = 1e-6  # d_max/R*: so small that the turning of a normal costs some 2e-5 in psi_2
 COLUMNS = ":<32s max:7.3f at:5.2f rms:7.3f law:8.1e seconds:8.2f"
 
@@ -115,7 +115,7 @@ def bench(
     *,
     pair: Pair | None = None,
     psi_1: ArrayLike = INCIDENCES,
-    steps: int = STEPS,
+    steps: int = STEPS_PER_CONTACT,
     time_limit: float = 120.0,
     progress: Progress = None,
 ) -> Bench:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
-CHI = 1.4412  # of solid spheres with nu = 0.3
+SOLID_CHI = 1.4412  # of solid spheres with nu = 0.3
 LARGEST_PSI, LARGEST_CHI = 1e9, 1e4
 FORCE_INSTANTS = 400
 RESTITUTION_MISSED = 1e-3  # less is rounding
@@ -272,7 +272,7 @@ def step_error(
     law: LawOrFunction,
     steps: int,
     psi_1: ArrayLike = INCIDENCES,
-    chi: float = CHI,
+    chi: float = SOLID_CHI,
     *,
     kappa: float | None = None,
 ) -> float:
@@ -320,7 +320,7 @@ def advised_steps(
     law: LawOrFunction,
     allowed: float,
     psi_1: ArrayLike = INCIDENCES,
-    chi: float = CHI,
+    chi: float = SOLID_CHI,
     *,
     kappa: float | None = None,
 ) -> TimeSteps | None:

@@ -20,7 +20,7 @@ from carom.quantities.keywords import known_keywords
 from carom.quantities.units import or_none
 from carom.verify import errors
 from carom.verify.entries import CATALOGUE, Entry, LawOrFunction, as_entry, damped, listed
-from carom.verify.errors import CHI, INCIDENCES, Impacts, TimeSteps
+from carom.verify.errors import INCIDENCES, SOLID_CHI, Impacts, TimeSteps
 from carom.verify.tables import text_table
 
 if TYPE_CHECKING:
@@ -174,7 +174,7 @@ def _without_copies(exact: list[Array]) -> tuple[tuple[str, ...], Array]:
 def rank(
     entries: Sequence[Entry | LawOrFunction] = CATALOGUE,
     *,
-    chi: float = CHI,
+    chi: float = SOLID_CHI,
     kappa: float | None = None,
     psi_1: ArrayLike = INCIDENCES,
     restitution: float | None = None,

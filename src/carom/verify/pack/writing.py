@@ -26,7 +26,7 @@ from carom.verify.pack import frozen
 from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, folders_with, frozen_files
 
 CHECKSUMS = "SHA256SUMS"
-STEPS = 2000  # per duration of the contact
+STEPS_PER_CONTACT = 2000
 PROGRAMS: Mapping[str, tuple[Engine, ContactLaw]] = {  # each with a law that it has
     "lammps": (Lammps(), LammpsMindlin()),
     "liggghts": (Liggghts(), LiggghtsHertz()),
@@ -133,7 +133,7 @@ def experiment_of(name: str, case: Mapping[str, Any], inputs: frozen.DecimalTabl
         normal_speed=float(inputs.numbers("normal_speed")[0]),
         tangential_speed=tuple(inputs.numbers("tangential_speed").tolist()),
         spin=tuple(inputs.numbers("spin").tolist()),
-        steps=STEPS,
+        steps=STEPS_PER_CONTACT,
     )
 
 
