@@ -17,7 +17,7 @@ from carom.quantities.refusals import InputError, nearest
 from carom.quantities.units import counted
 
 ANGLES = np.arange(1.0, 86.0)  # of incidence that are considered, in degrees
-MOST_FURTHER = 10_000  # measurements at one incidence that are worth a thought
+WORTHWHILE = 10_000  # measurements at one incidence that are worth a thought
 MOST_LISTED = 1000  # measurements that are said one by one
 ROUNDING = 0.01  # of a measurement
 PRIOR = 1e-2  # information on what nothing is known of, per unit of its coordinate
@@ -58,7 +58,7 @@ class Advice:
 
     def __str__(self) -> str:
         best = f"{np.degrees(self.best.angle):.0f} deg"
-        alone = f"{self.best.needed} more" if self.best.needed else f"more than {MOST_FURTHER}"
+        alone = f"{self.best.needed} more" if self.best.needed else f"more than {WORTHWHILE}"
         lines = [
             f"To halve the interval of {self.parameter}, measure {alone} at {best}"
             f" ({self.best.regime}).",
@@ -87,9 +87,7 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
     needed = _needed(root, gains, place)
     places = [
         Incidence(
-            float(np.radians(degrees)),
-            regime,
-            None if need > MOST_FURTHER else ceil(need - ROUNDING),
+            float(np.radians(degrees)), regime, None if need > WORTHWHILE else ceil(need - ROUNDING)
         )
         for degrees, regime, need in zip(ANGLES, regimes, needed, strict=True)
     ]
@@ -186,7 +184,7 @@ def _needed(root: Array, gains: Array, place: int) -> Array:
         more = np.sqrt(times)[:, np.newaxis, np.newaxis] * gains
         return np.asarray(_variance(_joined(root, more), place) <= wanted)
 
-    low, high = np.full(len(gains), -3.0), np.full(len(gains), log10(MOST_FURTHER))
+    low, high = np.full(len(gains), -3.0), np.full(len(gains), log10(WORTHWHILE))
     never = ~suffices(10.0**high)
     for _ in range(40):
         middle = 0.5 * (low + high)
