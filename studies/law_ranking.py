@@ -87,7 +87,7 @@ def ranking(chi: float = CHI) -> Ranking:
 def tuning(chi: float) -> Tuning:
     """Return the laws with a free stiffness as close to the exact rebound as they get."""
     laws = [law for law in TUNED if type(law) in FREE]
-    return tune(laws, chi=chi, psi=INCIDENCES)
+    return tune(laws, chi=chi, psi_1=INCIDENCES)
 
 
 def ranked() -> str:

@@ -204,7 +204,7 @@ def lammps(unit: float) -> list[Row]:
     for steps in (COARSE, FINE, DEM_STEPS):
         start = clock()
         bench = carom.verify.bench(
-            engine, [carom.dem.LammpsMindlin("mindlin")], psi=psi, steps=steps
+            engine, [carom.dem.LammpsMindlin("mindlin")], psi_1=psi, steps=steps
         )
         seconds[steps] = clock() - start
     per_step = (seconds[FINE] - seconds[COARSE]) / ((FINE - COARSE) * psi.size)

@@ -28,15 +28,15 @@ material = "steel"
 
 def experiment(**changed):
     """Return impacts that an engine is asked for: of linear springs, in 1000 steps."""
-    given = {"pair": PAIR, "law": carom.dem.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
-    given |= {"tangential_speed": (0.005, -0.02), "spin": (0.0, 3.0)}
-    return carom.verify.Experiment(**(given | changed))
+    inputs = {"pair": PAIR, "law": carom.dem.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
+    inputs |= {"tangential_speed": (0.005, -0.02), "spin": (0.0, 3.0)}
+    return carom.verify.Experiment(**(inputs | changed))
 
 
-def refused(words, function, *given, **named):
+def refused(words, function, *inputs, **named):
     """Assert that a call is refused in one line with these words, a pattern; return the line."""
     with pytest.raises(carom.InputError) as error:
-        function(*given, **named)
+        function(*inputs, **named)
     line = str(error.value)
     assert "\n" not in line
     assert len(line) < 10_000

@@ -59,11 +59,11 @@ class Commands:
         Before it a program is run; files grow to so many bytes at most; stdout is another file.
         """
         caught = [os.pipe() if stdout is None else (None, stdout), os.pipe()]
-        told = {"folder": str(folder), "arguments": [*map(str, arguments)]}
-        told |= {"before": before, "largest": largest}
+        entries = {"folder": str(folder), "arguments": [*map(str, arguments)]}
+        entries |= {"before": before, "largest": largest}
         with open(os.devnull, "rb") as nothing:
             streams = [nothing.fileno(), *(into for _, into in caught)]
-            socket.send_fds(self._socket, [json.dumps(told).encode()], streams)
+            socket.send_fds(self._socket, [json.dumps(entries).encode()], streams)
         for _, into in caught:
             if into != stdout:
                 os.close(into)

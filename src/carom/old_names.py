@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Container
 from importlib import import_module
-from typing import Any
+from typing import Any, TypeVar
 from warnings import warn
 
 LAWS_OF_CODES = (
@@ -35,6 +35,9 @@ NEW_CALLS: dict[str, tuple[str, Callable[[], Any]]] = {  # what a name alone no 
     ),
 }
 OLD_KEYWORDS = {"time": "at", "step": "at", "psi": "psi_1"}
+OLD_FIELDS = {"psi": "psi_in", "told": "label"}
+
+Record = TypeVar("Record")
 
 
 def _get(path: str) -> Any:
@@ -58,11 +61,7 @@ def with_old_names(package: str, load: Callable[[str], Any]) -> Callable[[str], 
         if old not in NEW_NAMES and old not in NEW_CALLS:
             return load(name)
         new, find = NEW_CALLS.get(old) or (NEW_NAMES[old], lambda: _get(NEW_NAMES[old]))
-        warn(
-            f"{old} is now {new}; the old name is gone from 0.4 on",
-            DeprecationWarning,
-            stacklevel=2,
-        )
+        _warn(old, new)
         value = find()
         setattr(import_module(package), name, value)  # one warning
         return value
@@ -70,11 +69,29 @@ def with_old_names(package: str, load: Callable[[str], Any]) -> Callable[[str], 
     return __getattr__
 
 
-def renamed(name: str, function: str, known: Container[str]) -> str:
+def with_old_fields(record: type[Record]) -> type[Record]:
+    """Let the fields of a record be read by their names of version 0.2, too."""
+
+    def __getattr__(self: Record, name: str) -> Any:
+        new = OLD_FIELDS.get(name)
+        if new is None or not (hasattr(record, new) or new in record.__annotations__):
+            raise AttributeError(f"{record.__name__} has no attribute {name!r}")
+        _warn(f"{record.__name__}.{name}", new)
+        return getattr(self, new)
+
+    record.__getattr__ = __getattr__  # type: ignore[attr-defined]
+    return record
+
+
+def renamed(name: str, function: str, keywords: Container[str]) -> str:
     """Return the name of a keyword now, with a warning if it is one of version 0.2."""
     new = OLD_KEYWORDS.get(name, name)
-    if name in known or new not in known:
+    if name in keywords or new not in keywords:
         return name
-    words = f"{name}=, a keyword of {function}, is now {new}=; the old one is gone from 0.4 on"
-    warn(words, DeprecationWarning, stacklevel=3)
+    _warn(f"{name}=, a keyword of {function},", f"{new}=", stacklevel=4)
     return new
+
+
+def _warn(old: str, new: str, stacklevel: int = 3) -> None:
+    words = f"{old} is now {new}; the old name is gone from 0.4 on"
+    warn(words, DeprecationWarning, stacklevel)

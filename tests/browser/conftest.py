@@ -93,9 +93,9 @@ class Visit:
         end = time.monotonic() + seconds
         while True:
             try:
-                found = check()
-                assert found, "not so in time"
-                return found
+                value = check()
+                assert value, "not so in time"
+                return value
             except Exception:
                 if time.monotonic() > end:
                     raise
@@ -137,11 +137,11 @@ class Visit:
     def laid_over(self, *laws, chart="rebounds"):
         """Return the traces of a chart once these laws, which follow the answer, are among them."""
 
-        def found():
+        def actual():
             traces = self.traces(chart)
             return traces if set(laws) <= {name for name, _ in traces} else None
 
-        return self.until(found)
+        return self.until(actual)
 
     def choose(self, name, option):
         """Choose from a list."""
@@ -188,12 +188,12 @@ def chromium():
 @pytest.fixture(scope="session")
 def contexts(chromium):
     """Browsers' memories by width: what one visit has loaded, the next has."""
-    known = {}
+    values = {}
 
     def context(width, fresh):
-        if fresh or width not in known:
-            known[width] = chromium.new_context(viewport={"width": width, "height": 900})
-        return known[width]
+        if fresh or width not in values:
+            values[width] = chromium.new_context(viewport={"width": width, "height": 900})
+        return values[width]
 
     return context
 

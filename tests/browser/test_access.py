@@ -44,9 +44,9 @@ def test_every_control_has_a_name(visit, query):
     asked = seen.page.context.new_cdp_session(seen.page)
     nodes = asked.send("Accessibility.getFullAXTree")["nodes"]
     roles = ("button", "slider", "textbox", "spinbutton", "combobox", "link", "radio", "checkbox")
-    found = [node for node in nodes if node.get("role", {}).get("value") in roles]
-    assert len(found) >= 20
-    nameless = [node["role"]["value"] for node in found if not node["name"]["value"].strip()]
+    values = [node for node in nodes if node.get("role", {}).get("value") in roles]
+    assert len(values) >= 20
+    nameless = [node["role"]["value"] for node in values if not node["name"]["value"].strip()]
     assert nameless == []
 
 
@@ -56,9 +56,9 @@ def test_words_stand_out(visit, theme):
     seen.until(lambda: "friction" in seen.page.inner_text("#fit"))
     seen.page.fill("#angle", "95")
     seen.until(lambda: seen.notice())
-    found = seen.page.evaluate(CONTRASTS)
-    assert len(found) > 50
-    assert [each for each in found if each["ratio"] < 4.5] == []
+    answer = seen.page.evaluate(CONTRASTS)
+    assert len(answer) > 50
+    assert [each for each in answer if each["ratio"] < 4.5] == []
 
 
 def test_dark_and_light(visit):

@@ -69,8 +69,8 @@ def test_losses_are_shown_wherever_the_impact_is(visit):
     damped = carom.dem.LammpsMindlin("mindlin", restitution=0.8)
     expected = damped.rebound(drawn["x"], hit.pair.chi, kappa=hit.pair.kappa)
     assert drawn["y"] == pytest.approx(list(expected), abs=2e-5)
-    told = seen.page.locator("#laws").inner_text()
-    assert "no damping" in told
+    text = seen.page.locator("#laws").inner_text()
+    assert "no damping" in text
     assert seen.number("shear_lost_energy") == pytest.approx(hit.shear_lost_energy * 1e6, rel=1e-5)
     assert "µJ" in seen.result("shear_lost_energy")
     seen.page.fill("#restitution", "1")

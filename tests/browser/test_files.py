@@ -59,12 +59,12 @@ def test_histories_and_pictures(visit, folder):
     for name, tolerance in (("history.csv", 1e-9), ("history.nc", 0.0)):
         file = taken(seen, f"#{name.replace('.', '-')}", folder)
         assert file.name == name
-        found = carom.read(file) if name == "history.nc" else table(file)
+        dataset = carom.read(file) if name == "history.nc" else table(file)
         for column in ("time", "tangential_force", "stick_radius", "spin"):
             values = expected[column].values
             bound = tolerance * np.abs(values).max()
-            told = np.asarray(found[column], float)
-            assert told == pytest.approx(values, rel=0.0, abs=bound), column
+            answer = np.asarray(dataset[column], float)
+            assert answer == pytest.approx(values, rel=0.0, abs=bound), column
     for picture in PICTURES:
         with Image.open(taken(seen, f"#{picture}-png", folder)) as image:
             assert image.format == "PNG"
@@ -90,9 +90,9 @@ def test_the_lines_of_python_give_the_same_rebound(visit, folder, capsys):
 def test_the_files_of_numbers(visit, folder, capsys):
     seen = opened(visit("?given=numbers&psi=2.2&chi=1.3"), "files")
     solved = carom.solve(2.2, 1.3)
-    found = carom.read(taken(seen, "#history-nc", folder))
-    assert float(found["psi_out"]) == solved.psi_out
-    assert found["force"].values == pytest.approx(solved.history(201).force)
+    dataset = carom.read(taken(seen, "#history-nc", folder))
+    assert float(dataset["psi_out"]) == solved.psi_out
+    assert dataset["force"].values == pytest.approx(solved.history(201).force)
     assert b"<svg" in taken(seen, "#contact-svg", folder).read_bytes()
     assert taken(seen, "#curve-pdf", folder).read_bytes().startswith(b"%PDF")
     runpy.run_path(str(taken(seen, "#view-py", folder)))
@@ -105,16 +105,16 @@ def test_laws_laid_over(visit):
     seen = visit(f"?{urlencode({**QUERY, 'law': laws}, doseq=True)}")
     chart = seen.laid_over(*laws)
     answered = seen.page.evaluate("Carom.page.answers()[0].laws")
-    for told in answered:
-        law = named(told["label"])[0].law
-        line = chart[told["label"], "lines"]
+    for answer in answered:
+        law = named(answer["label"])[0].law
+        line = chart[answer["label"], "lines"]
         psi = np.array(line["x"])
         expected = law.rebound(psi, PAIR.chi, kappa=PAIR.kappa)
         assert psi.size > 40
         assert np.array(line["y"]) == pytest.approx(expected, abs=2e-4)
         at = float(law.rebound(HIT.psi_in, PAIR.chi, kappa=PAIR.kappa))
-        assert told["at"] == pytest.approx(at, rel=1e-9)
-        assert told["off"] == pytest.approx(at - HIT.psi_out, abs=1e-8)
+        assert answer["at"] == pytest.approx(at, rel=1e-9)
+        assert answer["off"] == pytest.approx(at - HIT.psi_out, abs=1e-8)
     assert {(label, "lines") for label in laws} <= set(seen.laid_over(*laws, chart="forces"))
 
 

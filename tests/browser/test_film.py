@@ -13,7 +13,7 @@ def share(seen):
     return float(seen.page.input_value("#time"))
 
 
-def told(seen):
+def time_and_phase(seen):
     """The time on the clock in µs, and the phase."""
     number, _, phase = seen.page.inner_text("#clock").partition(" µs · ")
     return float(number.replace("\N{MINUS SIGN}", "-")), phase.replace("\N{MINUS SIGN}", "-")
@@ -61,12 +61,14 @@ def test_the_clock_tells_time_and_phase(visit, usual):
         seen.page.evaluate(words)
         time = pytest.approx(middle * MICROSECOND, abs=0.051)
         sign = {0: "", 1: " +", -1: " -"}[phase.sign]
-        seen.until(lambda time=time, name=phase.kind + sign: told(seen) == (time, name))
+        seen.until(lambda time=time, name=phase.kind + sign: time_and_phase(seen) == (time, name))
     seen.page.focus("#time")
     seen.page.keyboard.press("End")
-    seen.until(lambda: told(seen) == (pytest.approx(1.6e6 * usual.duration, abs=0.051), "after"))
+    seen.until(
+        lambda: time_and_phase(seen) == (pytest.approx(1.6e6 * usual.duration, abs=0.051), "after")
+    )
     seen.page.keyboard.press("Home")
-    seen.until(lambda: told(seen)[1] == "before")
+    seen.until(lambda: time_and_phase(seen)[1] == "before")
 
 
 def test_the_cursor_stands_at_the_time_in_both_charts(visit, usual):

@@ -17,13 +17,13 @@ DATA = carom.datasets.names()[0]
 GO = "query => { history.pushState({}, '', query); dispatchEvent(new Event('popstate')); }"
 
 
-def hit_of(given):
-    first = carom.Sphere(radius=f"{given['radius']} mm", material=given["material"])
-    radius = f"{given['second_radius']} mm"
-    second = carom.Sphere(radius=radius, material=given["second_material"])
-    pair = carom.Pair(first, second, float(given["friction"]))
-    angle = f"{given['angle']} deg"
-    return carom.impact(pair, speed=float(given["speed"]), angle=angle, spin=float(given["spin"]))
+def hit_of(inputs):
+    first = carom.Sphere(radius=f"{inputs['radius']} mm", material=inputs["material"])
+    radius = f"{inputs['second_radius']} mm"
+    second = carom.Sphere(radius=radius, material=inputs["second_material"])
+    pair = carom.Pair(first, second, float(inputs["friction"]))
+    angle = f"{inputs['angle']} deg"
+    return carom.impact(pair, speed=float(inputs["speed"]), angle=angle, spin=float(inputs["spin"]))
 
 
 def checked(seen):
@@ -136,7 +136,7 @@ NONSENSE = {
 }
 
 
-def told(seen, beginning):
+def refuses(seen, beginning):
     """The page as it opens, below one line that begins so."""
     notice = seen.until(lambda: seen.notice())
     assert notice.startswith(beginning)
@@ -150,12 +150,12 @@ def told(seen, beginning):
 def test_nonsense_in_a_link(visit):
     for query in ("angle=ninety", "%ff%00=%fe&&=&=3"):
         seen = visit(f"?{query}", loading=True)
-        assert told(seen, NONSENSE.get(query, ""))
+        assert refuses(seen, NONSENSE.get(query, ""))
         seen.page.wait_for_timeout(500)
-        assert told(seen, NONSENSE.get(query, ""))  # and it stays
+        assert refuses(seen, NONSENSE.get(query, ""))  # and it stays
     for query, beginning in NONSENSE.items():
         seen.page.evaluate(GO, f"?{query}")
-        seen.until(lambda beginning=beginning: told(seen, beginning))
+        seen.until(lambda beginning=beginning: refuses(seen, beginning))
 
 
 def test_nonsense_beside_sense_keeps_the_sense(visit):

@@ -13,7 +13,7 @@ WORDS = script("picture_words")
 BOXES = [(170, 140), (170, 300), (250, 200), (330, 390), (420, 360), (560, 240), (700, 500)]
 SHARES = [-0.4, 0.05, 0.3, 0.5, 0.62, 0.8, 0.95, 1.4]
 PICTURE = script("picture")
-TOLD = script("told")
+SENTENCES = script("sentences")
 TIMES = [round(float(share), 3) for share in np.linspace(0.02, 0.98, 49)]
 
 
@@ -59,10 +59,10 @@ def test_the_key_stays_in_the_smallest_box(visit):
 
 def picture(page, part, share, colors, width=420, height=360):
     """Return where each colour is drawn, as masks of pixels."""
-    found = page.evaluate(PICTURE, [part, share, width, height, colors])
-    pixels = np.frombuffer(b64decode(found["data"]), np.uint8).reshape(*found["size"], 4)
+    value = page.evaluate(PICTURE, [part, share, width, height, colors])
+    pixels = np.frombuffer(b64decode(value["data"]), np.uint8).reshape(*value["size"], 4)
     masks = {}
-    for name, color in zip(colors, found["colors"], strict=True):
+    for name, color in zip(colors, value["colors"], strict=True):
         rgb = [int(pair, 16) for pair in re.findall("..", color.lstrip("#"))]
         masks[name] = (np.abs(pixels[..., :3] - rgb).max(axis=-1) < 8) & (pixels[..., 3] > 200)
     return masks
@@ -122,11 +122,11 @@ def test_hatches_tell_the_sign(visit):
     ],
 )
 def test_sentences(visit, query, share, sentence):
-    (told,) = visit().page.evaluate(TOLD, [query, [share]])
-    assert re.search(sentence, told)
-    assert told[0].isupper()
-    assert told.endswith(".")
-    assert told.count(".") == 1
+    (text,) = visit().page.evaluate(SENTENCES, [query, [share]])
+    assert re.search(sentence, text)
+    assert text[0].isupper()
+    assert text.endswith(".")
+    assert text.count(".") == 1
 
 
 def test_what_is_told_is_so(visit):
@@ -139,35 +139,35 @@ def test_what_is_told_is_so(visit):
         query = f"given=numbers&psi={psi:.4f}&chi={chi:.4f}&restitution={e}"
         losses = None if e == 1.0 else carom.KelvinVoigt(restitution=e)
         solved = carom.solve(round(psi, 4), round(chi, 4), losses=losses)
-        for share, told in zip(TIMES, page.evaluate(TOLD, [query, TIMES]), strict=True):
-            check(solved, share, told, query)
+        for share, reply in zip(TIMES, page.evaluate(SENTENCES, [query, TIMES]), strict=True):
+            check(solved, share, reply, query)
 
 
-def check(solved, share, told, query):
+def check(solved, share, text, query):
     """Compare one sentence with the state that the library knows."""
     edges = [phase.end / solved.duration for phase in solved.phases]
     if min(abs(share - edge) for edge in edges) < 0.005:
         return
     phase = solved.phase_at(share * solved.duration)
     near = solved.at((share + np.array([-2e-4, 0.0, 2e-4])) * solved.duration)
-    where = f"{query} at {share}: {told}"
+    where = f"{query} at {share}: {text}"
     zone = {"stick": "whole contact sticks", "slip": "rim slips", "gross slip": "contact slips"}
-    assert zone[phase.kind] in told, where
+    assert zone[phase.kind] in text, where
     way = "forwards" if phase.sign * solved.psi_in > 0.0 else "backwards"
-    assert phase.kind == "stick" or f"slips {way}" in told, where
+    assert phase.kind == "stick" or f"slips {way}" in text, where
     gains = np.diff(near.psi[[0, 2]] ** 2)[0]
-    instant = "for an instant" in told or "friction reverses" in told
-    if "springs back" in told or "spring drives" in told or "still drives" in told:
+    instant = "for an instant" in text or "friction reverses" in text
+    if "springs back" in text or "spring drives" in text or "still drives" in text:
         assert gains > 0.0, where
     elif not instant:
         assert gains < 0.0, where
-    if "springs back" in told:
+    if "springs back" in text:
         assert near.psi[1] * solved.psi_in < 0.0, where
-    if "has reversed" in told:
+    if "has reversed" in text:
         assert near.force[1] * solved.psi_in < 0.0, where
-    if "pressed in" in told:
+    if "pressed in" in text:
         assert near.speed[1] > -0.05, where
-    if "pushed away" in told:
+    if "pushed away" in text:
         assert near.speed[1] < 0.05, where
 
 
@@ -175,14 +175,14 @@ def test_slow_motion_is_smooth(visit):
     words = script("slow_motion")
     page = visit().page
     pace = page.evaluate("Carom.clock.pace()")
-    found = page.evaluate(words)
-    usual, slow = (np.diff(found[name])[:-1] for name in ("usual", "slow"))
+    value = page.evaluate(words)
+    usual, slow = (np.diff(value[name])[:-1] for name in ("usual", "slow"))
     step = 2.2 / pace / 60.0
     assert usual == pytest.approx(step)
     assert slow.max() == pytest.approx(step)
     assert slow.min() == pytest.approx(step / 6.0, rel=0.05)
     assert np.abs(np.diff(slow)).max() < 0.25 * step
-    middles = np.array(found["slow"])[:-2]
+    middles = np.array(value["slow"])[:-2]
     far = np.min(np.abs(middles[:, np.newaxis] - [0.4, 0.8]), axis=1) > 0.06
     assert slow[far] == pytest.approx(step)
 
@@ -194,12 +194,12 @@ def test_jumps_to_changes_of_phase(visit):
     phases = seen.page.evaluate("Carom.page.scenes[0].data.phases")
     names = [seen.page.evaluate("phase => Carom.scene.nameOf(phase)", phase) for phase in phases]
     borders = [-0.6, 0.0, *(phase["end"] for phase in phases), 1.6]
-    told = ["before", *names, names[-1], "after"]
+    reply = ["before", *names, names[-1], "after"]
     seen.page.evaluate("Carom.clock.play()")
-    for name, rows in (("next", range(1, len(told))), ("previous", range(len(told) - 2, -1, -1))):
+    for name, rows in (("next", range(1, len(reply))), ("previous", range(len(reply) - 2, -1, -1))):
         for row in rows:
             now, playing, phase = seen.page.evaluate(words, name)
-            assert (playing, phase) == (False, told[row])
+            assert (playing, phase) == (False, reply[row])
             assert borders[row] <= now <= borders[row] + 1.1e-6
 
 
@@ -207,6 +207,6 @@ def test_tiny_forces_are_told_as_large_ones_are(visit):
     """Billiard balls that roll on each other as gear wheels all but do: nothing is rounded away."""
     queries = [f"?given=numbers&psi={psi:.15g}" for psi in (1e-4, 1e-9)]
     shares = [-0.3, 0.1, 0.3, 0.5, 0.7, 0.9, 1.3]
-    one, other = (visit().page.evaluate(TOLD, [query[1:], shares]) for query in queries)
+    one, other = (visit().page.evaluate(SENTENCES, [query[1:], shares]) for query in queries)
     assert one == other
     assert not any("without friction" in sentence or "to rest" in sentence for sentence in one)

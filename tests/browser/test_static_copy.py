@@ -64,7 +64,7 @@ def states():
 
 
 @pytest.fixture(scope="module")
-def told(offline, states):
+def copied(offline, states):
     """What the copy makes of them."""
     return [json.loads(text) for text in offline.evaluate(SOLVE, states)]
 
@@ -75,15 +75,15 @@ def solved(states):
     return [carom.solve(psi, chi, losses=losses_of(e)) for psi, chi, e in states]
 
 
-def off(found, exact):
+def off(value, exact):
     """Return the largest difference, as a part of the largest value."""
     exact = np.asarray(exact)
-    return float(np.max(np.abs(np.array(found) - exact)) / max(np.max(np.abs(exact)), 1e-300))
+    return float(np.max(np.abs(np.array(value) - exact)) / max(np.max(np.abs(exact)), 1e-300))
 
 
-def test_rebounds(states, told, solved):
-    for state, found, exact in zip(states, told, solved, strict=True):
-        assert abs(found["out"] - exact.psi_out) <= 1e-6, state
+def test_rebounds(states, copied, solved):
+    for state, value, exact in zip(states, copied, solved, strict=True):
+        assert abs(value["out"] - exact.psi_out) <= 1e-6, state
 
 
 @pytest.mark.parametrize("restitution", RESTITUTIONS)
@@ -92,25 +92,25 @@ def test_rebounds_of_tiny_velocities(offline, restitution):
     states = [
         (psi, chi, restitution) for psi in (1e-7, 1e-4, 9e-4) for chi in (0.5, 1.44, 2.5, 3.0)
     ]
-    found = offline.evaluate("all => all.map(each => Carom.rebound.of(...each))", states)
-    for (psi, chi, e), out in zip(states, found, strict=True):
+    value = offline.evaluate("all => all.map(each => Carom.rebound.of(...each))", states)
+    for (psi, chi, e), out in zip(states, value, strict=True):
         exact = carom.rebound(psi, chi, losses=losses_of(e))
         assert out / psi == pytest.approx(exact / psi, abs=5e-4)
 
 
-def test_histories(states, told, solved):
-    for state, found, exact in zip(states, told, solved, strict=True):
+def test_histories(states, copied, solved):
+    for state, value, exact in zip(states, copied, solved, strict=True):
         history = exact.history(201)
-        assert off(found["psi"], history.psi) <= CLOSE, state
-        assert off(found["force"], history.force) <= CLOSE, state
-        assert off(found["contact"], history.contact_radius) <= CLOSE, state
+        assert off(value["psi"], history.psi) <= CLOSE, state
+        assert off(value["force"], history.force) <= CLOSE, state
+        assert off(value["contact"], history.contact_radius) <= CLOSE, state
         energies = {
             "stored": history.stored,
             "dissipated": history.dissipated,
             "shear": history.shear_lost,
         }
         for name, exact_energy in energies.items():
-            error = np.max(np.abs(found[name] - exact_energy))
+            error = np.max(np.abs(value[name] - exact_energy))
             least = HARDLY * 0.5 * state[0] ** 2
             assert error <= CLOSE * max(np.max(exact_energy), least), (state, name)
 
@@ -129,8 +129,8 @@ def test_histories_of_thin_rings(offline):
         assert off(json.loads(text)["force"], history.force) <= CLOSE, state
 
 
-def test_stick_radii(states, told, solved):
-    for state, found, exact in zip(states, told, solved, strict=True):
+def test_stick_radii(states, copied, solved):
+    for state, value, exact in zip(states, copied, solved, strict=True):
         share = np.linspace(0.0, 1.0, 201)
         changes = [phase.start / exact.duration for phase in exact.phases[1:]]
         near = np.zeros(share.size, dtype=bool)
@@ -138,32 +138,32 @@ def test_stick_radii(states, told, solved):
             near |= np.abs(share - at) < STEP
         times = np.clip(share + LATE * np.array([[-1.0], [0.0], [1.0]]), 0.0, 1.0)
         radii = exact.at((times * exact.duration).ravel()).stick_radius.reshape(3, -1)
-        stick = np.array(found["stick"])
+        stick = np.array(value["stick"])
         within = (stick >= radii.min(axis=0) - CLOSE) & (stick <= radii.max(axis=0) + CLOSE)
         assert np.all(within | near), state
 
 
-def test_phases(states, told, solved):
-    for state, found, exact in zip(states, told, solved, strict=True):
+def test_phases(states, copied, solved):
+    for state, value, exact in zip(states, copied, solved, strict=True):
         wanted = [
             (p.kind, p.sign, p.start / exact.duration, p.end / exact.duration) for p in exact.phases
         ]
-        given = [(p["kind"], p["sign"], p["start"], p["end"]) for p in found["phases"]]
-        wanted, given = ([p for p in all_ if p[3] - p[2] > SHORT] for all_ in (wanted, given))
-        assert [p[:2] for p in given] == [p[:2] for p in wanted], state
-        ends = np.array([p[2:] for p in given]) - np.array([p[2:] for p in wanted])
+        data = [(p["kind"], p["sign"], p["start"], p["end"]) for p in value["phases"]]
+        wanted, data = ([p for p in all_ if p[3] - p[2] > SHORT] for all_ in (wanted, data))
+        assert [p[:2] for p in data] == [p[:2] for p in wanted], state
+        ends = np.array([p[2:] for p in data]) - np.array([p[2:] for p in wanted])
         assert np.max(np.abs(ends)) <= STEP, state
 
 
-def test_tractions(states, told, solved):
+def test_tractions(states, copied, solved):
     line = np.linspace(0.0, 1.0, 33)
-    for state, found, exact in zip(states, told, solved, strict=True):
+    for state, value, exact in zip(states, copied, solved, strict=True):
         instants = 61 if state[2] == 1.0 else 31
         times = np.linspace(0.0, exact.duration, instants)
         now = exact.at(times)
-        given = np.array(found["tractions"])
-        assert given.shape == (instants, line.size)
-        wanted, kept = np.zeros_like(given), np.ones_like(given, dtype=bool)
+        data = np.array(value["tractions"])
+        assert data.shape == (instants, line.size)
+        wanted, kept = np.zeros_like(data), np.ones_like(data, dtype=bool)
         for row in range(1, instants - 1):
             wanted[row] = exact.traction(times[row], now.contact_radius[row] * line)
             if state[2] != 1.0:
@@ -172,7 +172,7 @@ def test_tractions(states, told, solved):
         if state[2] != 1.0:
             kept[:, -1] = False  # where it is infinite
         wanted = np.clip(wanted / exact.max_radius, -9.0, 9.0)
-        assert off(given[kept], wanted[kept]) <= CLOSE, state
+        assert off(data[kept], wanted[kept]) <= CLOSE, state
 
 
 def random_pairs():
@@ -205,10 +205,10 @@ def answers(offline):
 
 
 def test_bodies(answers):
-    for query, found in answers:
+    for query, value in answers:
         scene = scene_of(View.of(query))
-        assert "answer" in found, (query, found)
-        rows = found["answer"]["results"]
+        assert "answer" in value, (query, value)
+        rows = value["answer"]["results"]
         assert [row["name"] for row in rows] == [row["name"] for row in scene.results], query
         for row, exact in zip(rows, scene.results, strict=True):
             assert (row["symbol"], row["meaning"]) == (exact["symbol"], exact["meaning"])
@@ -231,14 +231,14 @@ def same_number(row, exact, scene):
 
 
 def test_scenes_of_bodies(answers):
-    for query, found in answers:
-        scene, given = scene_of(View.of(query)), found["answer"]
+    for query, value in answers:
+        scene, data = scene_of(View.of(query)), value["answer"]
         exact = scene.moving()
-        assert given["scene"]["unit"] == exact["unit"]
-        assert given["scene"]["duration"] == pytest.approx(exact["duration"], rel=1e-9)
+        assert data["scene"]["unit"] == exact["unit"]
+        assert data["scene"]["duration"] == pytest.approx(exact["duration"], rel=1e-9)
         for name in ("time", "contact", "force", "rim"):
-            assert np.max(np.abs(np.subtract(given["scene"][name], exact[name]))) < CLOSE, name
-        stage, wanted = given["scene"]["stage"], exact["stage"]
+            assert np.max(np.abs(np.subtract(data["scene"][name], exact[name]))) < CLOSE, name
+        stage, wanted = data["scene"]["stage"], exact["stage"]
         assert stage["caption"] == wanted["caption"], query
         assert np.allclose(stage["time"], wanted["time"], atol=2e-5)
         for body, other in zip(stage["bodies"], wanted["bodies"], strict=True):
@@ -248,7 +248,7 @@ def test_scenes_of_bodies(answers):
             for name in ("x", "y", "turn"):
                 assert np.allclose(body[name], other[name], atol=CLOSE * size), (query, name)
         for name, share in scene.energies.items():
-            assert np.allclose(given["history"]["energies"][name], share, atol=CLOSE), (query, name)
+            assert np.allclose(data["history"]["energies"][name], share, atol=CLOSE), (query, name)
 
 
 def test_answers_are_those_of_the_server(offline):
@@ -256,23 +256,23 @@ def test_answers_are_those_of_the_server(offline):
     from carom.explorer.answers import answer
 
     queries = ["given=numbers&psi=1.5", "given=numbers&psi=-3&chi=2&restitution=0.9", "angle=40"]
-    for query, found in zip(queries, offline.evaluate(ANSWER, queries), strict=True):
-        exact, given = json.loads(json.dumps(answer(View.of(query)))), found["answer"]
-        assert set(given) == set(exact)
-        assert set(given["scene"]) >= set(exact["scene"])
-        assert (given["query"], given["carried"]) == (exact["query"], exact["carried"])
-        assert set(given["history"]) == set(exact["history"])
-        assert list(given["history"]["energies"]) == list(exact["history"]["energies"])
-        assert given["history"]["unit"] == exact["history"]["unit"]
-        assert given["curve"]["borders"] == pytest.approx(exact["curve"]["borders"])
-        assert given["curve"]["at"] == pytest.approx(exact["curve"]["at"], abs=1e-6)
+    for query, value in zip(queries, offline.evaluate(ANSWER, queries), strict=True):
+        exact, data = json.loads(json.dumps(answer(View.of(query)))), value["answer"]
+        assert set(data) == set(exact)
+        assert set(data["scene"]) >= set(exact["scene"])
+        assert (data["query"], data["carried"]) == (exact["query"], exact["carried"])
+        assert set(data["history"]) == set(exact["history"])
+        assert list(data["history"]["energies"]) == list(exact["history"]["energies"])
+        assert data["history"]["unit"] == exact["history"]["unit"]
+        assert data["curve"]["borders"] == pytest.approx(exact["curve"]["borders"])
+        assert data["curve"]["at"] == pytest.approx(exact["curve"]["at"], abs=1e-6)
         exact_curve = carom.rebound(
-            given["curve"]["psi"],
+            data["curve"]["psi"],
             scene_of(View.of(query)).chi,
             losses=losses_of(scene_of(View.of(query)).restitution),
         )
-        assert np.allclose(given["curve"]["out"], exact_curve, atol=2e-6)
-        assert [given["curve"]["psi"][i] for i in (0, -1)] == [
+        assert np.allclose(data["curve"]["out"], exact_curve, atol=2e-6)
+        assert [data["curve"]["psi"][i] for i in (0, -1)] == [
             exact["curve"]["psi"][i] for i in (0, -1)
         ]
 
@@ -296,9 +296,9 @@ REFUSED = {
 
 def test_refusals(offline):
     for query, (field, words) in REFUSED.items():
-        (found,) = offline.evaluate(ANSWER, [query])
-        assert found["refusal"]["field"] == field, query
-        assert words in found["refusal"]["message"]
+        (value,) = offline.evaluate(ANSWER, [query])
+        assert value["refusal"]["field"] == field, query
+        assert words in value["refusal"]["message"]
     (unused,) = offline.evaluate(ANSWER, ["given=numbers&angle=95"])
     assert "answer" in unused
     (twice,) = offline.evaluate(ANSWER, ["angle=95&angle=40&pace=5"])
@@ -306,7 +306,7 @@ def test_refusals(offline):
 
 
 def test_links_that_say_a_number_otherwise(offline):
-    """The copy knows few restitutions; 0.90 is one of them. What it does not know is told."""
+    """The copy knows few restitutions; 0.90 is one of them. What it does not know is copied."""
     ask = """query => {
       const odd = Carom.fields.set(new URLSearchParams(query));
       return [Carom.fields.value("restitution"), odd];

@@ -101,14 +101,14 @@ def walton(friction, beta, restitution):
     return tangential
 
 
-def largest_error(pair, law, tangential, restitution, given, count):
+def largest_error(pair, law, tangential, restitution, inputs, count):
     """Return the largest difference over the speeds that enter each collision."""
-    after = carom.collide(pair, law=law, **given)
+    after = carom.collide(pair, law=law, **inputs)
     assert np.all(after.status == carom.status.CollisionStatus.COLLIDED)
     radii = (1.0, inertia(pair.first)[0], 1.0, inertia(pair.second)[0])
     worst = 0.0
     for i in range(count):
-        row = {name: values[i] for name, values in given.items()}
+        row = {name: values[i] for name, values in inputs.items()}
         wanted = collided(pair, tangential, row.pop("normal"), restitution, **row)
         speed = sum(r * np.linalg.norm(row.get(n, 0.0)) for r, n in zip(radii, NAMES, strict=True))
         for name, radius, value in zip(NAMES, radii, wanted, strict=True):
@@ -121,8 +121,8 @@ def largest_error(pair, law, tangential, restitution, given, count):
 def test_exact_law_is_newton_euler_with_the_rebound(name):
     """The law's 1e-9 in psi_2 is far below 1e-9 in speeds; 1e-9 of the speeds that enter."""
     pair = PAIRS[name]
-    given = random_collisions(pair, 150, 1)
-    assert largest_error(pair, None, exact_rebound(pair), 1.0, given, 150) <= 1e-9
+    collisions = random_collisions(pair, 150, 1)
+    assert largest_error(pair, None, exact_rebound(pair), 1.0, collisions, 150) <= 1e-9
 
 
 @pytest.mark.parametrize("name", PAIRS)
@@ -130,7 +130,7 @@ def test_exact_law_is_newton_euler_with_the_rebound(name):
 def test_rigid_laws_are_newton_euler_to_rounding(name, restitution):
     """Smooth, rough and Walton's, for every restitution, to 1e-13 of the speeds that enter."""
     pair = PAIRS[name]
-    given = random_collisions(pair, 40, 2)
+    collisions = random_collisions(pair, 40, 2)
     laws = [(carom.laws.SmoothLaw(restitution=restitution), walton(0.0, 0.0, restitution))]
     laws += [(carom.laws.RoughLaw(restitution=restitution), walton(np.inf, 1.0, restitution))]
     for friction, beta in product((0.0, 0.1, 5.0), (-1.0, -0.3, 0.5, 1.0)):
@@ -139,7 +139,7 @@ def test_rigid_laws_are_newton_euler_to_rounding(name, restitution):
         )
         laws.append((law, walton(friction, beta, restitution)))
     for law, tangential in laws:
-        assert largest_error(pair, law, tangential, restitution, given, 40) <= 1e-13, law
+        assert largest_error(pair, law, tangential, restitution, collisions, 40) <= 1e-13, law
 
 
 @pytest.mark.parametrize("name", PAIRS)
@@ -168,24 +168,24 @@ def test_in_the_plane_is_the_impact(name, sideways):
 def test_without_friction_is_smooth():
     """Friction 0 leaves V_t and the spins alone: exact law and smooth law agree to the bit."""
     pair = carom.Pair(BALL, SHELL, friction=0.0)
-    given = random_collisions(pair, 500, 6)
-    exact = carom.collide(pair, **given)
-    smooth = carom.collide(pair, law=carom.laws.SmoothLaw(), **given)
+    collisions = random_collisions(pair, 500, 6)
+    exact = carom.collide(pair, **collisions)
+    smooth = carom.collide(pair, law=carom.laws.SmoothLaw(), **collisions)
     for name in NAMES:
         assert np.array_equal(getattr(exact, name), getattr(smooth, name))
-    assert np.array_equal(exact.spin1, given["spin1"])
+    assert np.array_equal(exact.spin1, collisions["spin1"])
 
 
 def test_a_moving_half_space_keeps_its_velocity():
     """In the frame of the wall the collision is the same; the wall itself goes on."""
     pair = PAIRS["half-space"]
-    given = random_collisions(pair, 300, 8)
-    after = carom.collide(pair, **given)
+    collisions = random_collisions(pair, 300, 8)
+    after = carom.collide(pair, **collisions)
     still = carom.collide(
         pair,
-        velocity1=given["velocity1"] - given["velocity2"],
-        spin1=given["spin1"],
-        normal=given["normal"],
+        velocity1=collisions["velocity1"] - collisions["velocity2"],
+        spin1=collisions["spin1"],
+        normal=collisions["normal"],
     )
-    assert np.array_equal(after.velocity2, given["velocity2"])
+    assert np.array_equal(after.velocity2, collisions["velocity2"])
     assert np.allclose(after.velocity1, still.velocity1 + after.velocity2, rtol=0, atol=1e-11)

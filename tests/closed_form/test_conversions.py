@@ -50,43 +50,43 @@ def contact(request):
     """Return stiffnesses at 0.7 m/s, and E*, G*, R*, m*, d_max of the same contact by hand."""
     modulus, shear, radius, mass = by_hand(request.param)
     deepest = (15 * mass * SPEED**2 / (16 * modulus * sqrt(radius))) ** 0.4
-    given = stiffnesses(PAIRS[request.param], SPEED)
-    return given, (modulus, shear, radius, mass, deepest)
+    values = stiffnesses(PAIRS[request.param], SPEED)
+    return values, (modulus, shear, radius, mass, deepest)
 
 
 def test_energy_presses_the_spring_to_the_depth_of_hertz(contact):
     """k_n d_max^2/2 = m V_1^2/2; k_t/k_n = kappa = G*/E*."""
-    found, (modulus, shear, _, mass, deepest) = contact
-    assert found.normal * deepest**2 == pytest.approx(mass * SPEED**2, rel=1e-12)
-    assert found.ratio == pytest.approx(shear / modulus, rel=1e-12)
-    assert found.tangential / found.normal == pytest.approx(shear / modulus, rel=1e-12)
+    actual, (modulus, shear, _, mass, deepest) = contact
+    assert actual.normal * deepest**2 == pytest.approx(mass * SPEED**2, rel=1e-12)
+    assert actual.ratio == pytest.approx(shear / modulus, rel=1e-12)
+    assert actual.tangential / actual.normal == pytest.approx(shear / modulus, rel=1e-12)
 
 
 def test_spring_that_lasts_as_long_as_hertz(contact):
     """pi sqrt(m/k) = (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10) d_max/V_1."""
-    found, (_, _, _, mass, deepest) = contact
+    actual, (_, _, _, mass, deepest) = contact
     duration = 0.8 * sqrt(pi) * gamma(0.4) / gamma(0.9) * deepest / SPEED
-    assert pi * sqrt(mass / found.normal_by_duration) == pytest.approx(duration, rel=1e-11)
-    assert 1.05 < found.normal_by_duration / found.normal < 1.2
+    assert pi * sqrt(mass / actual.normal_by_duration) == pytest.approx(duration, rel=1e-11)
+    assert 1.05 < actual.normal_by_duration / actual.normal < 1.2
 
 
 def test_coefficients_of_hertz_and_mindlin(contact):
     """F_n = k sqrt(R*) d^(3/2), its steepest slope at d_max; k_t a with 1/G_eff = sum (2-nu)/G."""
-    found, (modulus, shear, radius, _, deepest) = contact
+    actual, (modulus, shear, radius, _, deepest) = contact
     depth = deepest * np.array([1 - 1e-5, 1 + 1e-5])
-    load = found.hertz * sqrt(radius) * depth**1.5
-    assert found.hertz == pytest.approx(4 / 3 * modulus, rel=1e-12)
-    assert found.steepest == pytest.approx(np.diff(load)[0] / (2e-5 * deepest), rel=1e-8)
+    load = actual.hertz * sqrt(radius) * depth**1.5
+    assert actual.hertz == pytest.approx(4 / 3 * modulus, rel=1e-12)
+    assert actual.steepest == pytest.approx(np.diff(load)[0] / (2e-5 * deepest), rel=1e-8)
     effective = shear / 4
-    assert found.mindlin == pytest.approx(8 * effective, rel=1e-12)
+    assert actual.mindlin == pytest.approx(8 * effective, rel=1e-12)
 
 
 def test_poisson_from_kappa_is_the_inverse():
     """kappa = 2 (1 - nu)/(2 - nu), which pairs of one material have, too."""
     nu = np.linspace(-0.99, 0.5, 60)
     kappa = 2 * (1 - nu) / (2 - nu)
-    found = [poisson_from_kappa(k) for k in kappa]
-    assert found == pytest.approx(nu, abs=1e-12)
+    values = [poisson_from_kappa(k) for k in kappa]
+    assert values == pytest.approx(nu, abs=1e-12)
     for value in (0.0, 0.3, 0.5):
         stuff = carom.Material(young=1e9, poisson=value, density=1000)
         ball = carom.Sphere(radius=1e-3, material=stuff)
@@ -99,8 +99,8 @@ def test_damping_and_restitution_are_inverse(convention):
     wanted = np.concatenate([np.geomspace(0.0101, 0.999, 40), [1.0]])
     values = [damping_from_restitution(e, convention) for e in wanted]
     assert (np.diff(values) < 0.0).all()
-    found = [restitution_from_damping(v, convention) for v in values]
-    assert found == pytest.approx(wanted, abs=1e-10)
+    actual = [restitution_from_damping(v, convention) for v in values]
+    assert actual == pytest.approx(wanted, abs=1e-10)
     assert np.copysign(1.0, values[-1]) == 1.0
 
 
@@ -166,15 +166,15 @@ def test_recipes_hold_the_stiffnesses(name, e):
         "MercuryDPM linear": [kn, dashpot, kt],
         "MFiX linear": [kn, kt / kn, e],
     }
-    found = recipes(pair, SPEED, e)
-    assert found.keys() == expected.keys()
-    for code, text in found.items():
+    by_name = recipes(pair, SPEED, e)
+    assert by_name.keys() == expected.keys()
+    for code, text in by_name.items():
         numbers = re.findall(r"(?<![\w/])-?\d[\d.]*(?:e[+-]\d+)?", text)
         printed = [float(n) for n in numbers]
         assert printed == pytest.approx(expected[code], rel=1e-4, abs=1e-5), code
         assert not any(n.startswith("-") for n in numbers), code
-    assert ("coeff_restitution" in found["LAMMPS Hertz"]) == (e != 1.0)
-    assert ("has no damping" in found["YADE CundallStrack"]) == (e != 1.0)
+    assert ("coeff_restitution" in by_name["LAMMPS Hertz"]) == (e != 1.0)
+    assert ("has no damping" in by_name["YADE CundallStrack"]) == (e != 1.0)
 
 
 @pytest.mark.parametrize(
@@ -233,7 +233,7 @@ def test_lammps_takes_the_recipe(code, law, e):
     speeds = tuple(psi * pair.scales(slow).tangential_speed)
     wanted = Experiment(pair=pair, law=law, normal_speed=slow, tangential_speed=speeds, steps=2000)
     mindlin = law if isinstance(law, carom.dem.LammpsMindlin) else MINDLIN
-    found = run(ByRecipe(line=recipes(pair, slow, e, mindlin=mindlin)[code]), wanted).outcomes
+    outcomes = run(ByRecipe(line=recipes(pair, slow, e, mindlin=mindlin)[code]), wanted).outcomes
     expected = law.rebound(psi, pair.chi, kappa=pair.kappa, steps=2000)
-    assert psi_out(wanted, found) == pytest.approx(expected, abs=2e-4)
-    assert found.normal_speed / slow == pytest.approx(np.full(4, e), abs=3e-4)
+    assert psi_out(wanted, outcomes) == pytest.approx(expected, abs=2e-4)
+    assert outcomes.normal_speed / slow == pytest.approx(np.full(4, e), abs=3e-4)

@@ -38,8 +38,8 @@ def test_linear_spring_at_grazing_of_the_normal(ratio):
     """It sticks all but to the end: cos(pi sqrt(2 chi rho)) is left, rho = k_t/(k_n kappa)."""
     kappa, psi = 0.8, 1e-4
     expected = np.cos(np.pi * np.sqrt(2 * CHI * ratio / kappa))
-    found = dem.LinearSpring(ratio).rebound(psi, CHI, kappa=kappa) / psi
-    assert found == pytest.approx(expected, abs=3e-4)
+    value = dem.LinearSpring(ratio).rebound(psi, CHI, kappa=kappa) / psi
+    assert value == pytest.approx(expected, abs=3e-4)
 
 
 @pytest.mark.parametrize("stiffness", [0.5, 1.0, 1.7])
@@ -47,8 +47,8 @@ def test_constant_spring_beside_hertz_at_grazing_of_the_normal(stiffness):
     """U'' = -(15/4) chi s U over the whole contact."""
     psi = 1e-4
     expected = np.cos(DURATION * np.sqrt(3.75 * CHI * stiffness))
-    found = dem.HertzLinearHistory(stiffness).rebound(psi, CHI) / psi
-    assert found == pytest.approx(expected, abs=3e-3)
+    value = dem.HertzLinearHistory(stiffness).rebound(psi, CHI) / psi
+    assert value == pytest.approx(expected, abs=3e-3)
 
 
 @pytest.mark.parametrize("law", ELASTIC, ids=str)
@@ -114,5 +114,5 @@ def test_laws_that_are_one():
     mindlin = dem.LammpsMindlin("mindlin").rebound(psi, CHI)
     for law in (dem.LiggghtsHertz(), dem.EdemHertzMindlin()):
         assert np.array_equal(law.rebound(psi, CHI), mindlin)
-    given = dem.LinearSpring(0.8).rebound(psi, CHI, kappa=0.8)
-    assert np.allclose(given, dem.LinearSpring().rebound(psi, CHI), rtol=0.0, atol=1e-9)
+    psi_out = dem.LinearSpring(0.8).rebound(psi, CHI, kappa=0.8)
+    assert np.allclose(psi_out, dem.LinearSpring().rebound(psi, CHI), rtol=0.0, atol=1e-9)

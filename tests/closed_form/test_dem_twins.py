@@ -101,8 +101,8 @@ PSI = (0.2, 0.7, 1.1, 2.5, 4.5)
 def test_steps_are_those_of_the_code(law, code, count):
     """A law in fixed steps is what its code does, step for step."""
     expected = [steps.rebound(code(), psi, count) for psi in PSI]
-    found = law.rebound(PSI, CHI, kappa=KAPPA, steps=count)
-    assert np.allclose(found, expected, rtol=0.0, atol=1e-11)
+    psi_out = law.rebound(PSI, CHI, kappa=KAPPA, steps=count)
+    assert np.allclose(psi_out, expected, rtol=0.0, atol=1e-11)
 
 
 @pytest.mark.parametrize(("law", "code"), OF_SPRINGS, ids=[str(law) for law, _ in OF_SPRINGS])
@@ -110,8 +110,8 @@ def test_steps_of_springs(law, code):
     """A linear contact as deep as Hertz's lasts pi, where Hertz's lasts 2.943."""
     duration = np.sqrt(MASS / steps.K_LINEAR) * 2.94327518432470
     expected = [steps.rebound(code(), psi, 50, duration) for psi in PSI]
-    found = law.rebound(PSI, CHI, kappa=KAPPA, steps=50)
-    assert np.allclose(found, expected, rtol=0.0, atol=1e-11)
+    psi_out = law.rebound(PSI, CHI, kappa=KAPPA, steps=50)
+    assert np.allclose(psi_out, expected, rtol=0.0, atol=1e-11)
 
 
 Walton, K = softening.Walton, KAPPA * softening.K_1
@@ -132,8 +132,8 @@ SOFTENING = [
 )
 def test_law_is_what_the_paper_defines(law, twin, ratio, psi):
     expected = [softening.rebound(twin, each, ratio) for each in psi]
-    found = law.rebound(psi, KAPPA / 2 * ratio, kappa=KAPPA)
-    assert np.allclose(found, expected, rtol=0.0, atol=5e-8)
+    psi_out = law.rebound(psi, KAPPA / 2 * ratio, kappa=KAPPA)
+    assert np.allclose(psi_out, expected, rtol=0.0, atol=5e-8)
 
 
 @pytest.mark.parametrize("restitution", [1.0, 0.7])

@@ -36,26 +36,26 @@ def dropped(restitution, heights=HEIGHTS):
 @pytest.mark.parametrize("time", [1e-9, 1e-7, 2e-6, 3e-5, 3e-4])
 def test_restitution_of_a_loss_time_is_that_of_the_impact(time):
     exact = restitutions(carom.KelvinVoigt(loss_time=time))
-    found = viscous(PAIR, SPEEDS, {"loss_time": np.array([[time]])})[0]
-    np.testing.assert_allclose(found, exact, atol=3e-9)
+    actual = viscous(PAIR, SPEEDS, {"loss_time": np.array([[time]])})[0]
+    np.testing.assert_allclose(actual, exact, atol=3e-9)
 
 
 @pytest.mark.parametrize("velocity", [1e-3, 0.3, 10.0])
 def test_restitution_of_a_yield_velocity_is_that_of_the_impact(velocity):
     exact = restitutions(carom.ElasticPlastic(yield_velocity=velocity))
-    found = plastic(PAIR, SPEEDS, {"yield_velocity": np.array([[velocity]])})[0]
-    np.testing.assert_allclose(found, exact, atol=1e-12)
+    actual = plastic(PAIR, SPEEDS, {"yield_velocity": np.array([[velocity]])})[0]
+    np.testing.assert_allclose(actual, exact, atol=1e-12)
 
 
 def test_heights_give_the_restitution():
     """e = sqrt(h'/h), with errors of de/e = (dh'/h' + dh/h)/2 in squares; friction stays held."""
     data = dropped(0.8) | {"rebound_height_error": np.full(12, 1e-4)}
-    found = carom.fit(data, pair=PAIR)
-    assert found.restitution.value == pytest.approx(0.8, rel=1e-4)
+    result = carom.fit(data, pair=PAIR)
+    assert result.restitution.value == pytest.approx(0.8, rel=1e-4)
     weight = np.sum((SPEEDS * 0.8 * SPEEDS / (GRAVITY * 1e-4)) ** 2)
     half = 1.96 / np.sqrt(weight)
-    assert found.restitution.high - found.restitution.value == pytest.approx(half, rel=0.25)
-    assert str(found.friction) == "0.2, not varied"
+    assert result.restitution.high - result.restitution.value == pytest.approx(half, rel=0.25)
+    assert str(result.friction) == "0.2, not varied"
     uncertain = dropped(0.8) | {"drop_height_error": 0.05 * HEIGHTS}
     wide = carom.fit(uncertain | {"rebound_height_error": 1e-3 * HEIGHTS}, pair=PAIR).restitution
     expected = 1.96 * 0.8 * 0.025 / np.sqrt(12.0)
@@ -71,12 +71,12 @@ def test_the_law_of_losses_is_found_with_its_parameter(law, truth):
     held = 0
     for _ in range(sets):
         noisy = exact + random.normal(0.0, 0.005, exact.size)
-        found = carom.fit(dropped(noisy), pair=PAIR).losses
-        first = found.standings[0]
+        actual = carom.fit(dropped(noisy), pair=PAIR).losses
+        first = actual.standings[0]
         assert first.law == law
         assert first.parameter.value == pytest.approx(value, rel=0.1)
         held += first.parameter.low <= value <= first.parameter.high
-        assert ("the same at all speeds" if law == "constant" else law) in found.verdict
+        assert ("the same at all speeds" if law == "constant" else law) in actual.verdict
     assert held >= least
     np.testing.assert_allclose(restitutions(first.losses), exact, atol=0.01)
 
@@ -85,9 +85,9 @@ def test_the_law_of_losses_is_found_with_its_parameter(law, truth):
 def test_any_restitution_is_found(restitution):
     """Also below 0.3, where no oblique impact is fitted."""
     noisy = restitution + np.random.default_rng(SEED).normal(0.0, 1e-3, 12)
-    found = carom.fit(dropped(noisy), pair=PAIR).restitution
-    assert found.value == pytest.approx(noisy.mean(), abs=2e-4)
-    assert found.low < restitution < found.high
+    actual = carom.fit(dropped(noisy), pair=PAIR).restitution
+    assert actual.value == pytest.approx(noisy.mean(), abs=2e-4)
+    assert actual.low < restitution < actual.high
 
 
 def test_a_ball_on_a_ball_tells_nothing_by_heights():
@@ -100,9 +100,9 @@ def test_one_outlier_does_not_change_the_law():
     noisy = restitutions(TRUTHS["KelvinVoigt"][0])
     noisy += np.random.default_rng(SEED).normal(0.0, 0.005, noisy.size)
     noisy[4] *= 1.2
-    found = carom.fit(dropped(noisy), pair=PAIR).losses
-    assert found.standings[0].law == "KelvinVoigt"
-    assert found.standings[0].parameter.value == pytest.approx(2e-6, rel=0.05)
+    losses = carom.fit(dropped(noisy), pair=PAIR).losses
+    assert losses.standings[0].law == "KelvinVoigt"
+    assert losses.standings[0].parameter.value == pytest.approx(2e-6, rel=0.05)
 
 
 def test_laws_that_cannot_be_told_apart_are_said_so():
@@ -164,15 +164,15 @@ def test_what_air_takes_is_said():
 
 
 def test_drops_are_stored_drawn_and_told(tmp_path):
-    found = carom.fit(dropped(restitutions(TRUTHS["KelvinVoigt"][0])), pair=PAIR)
-    carom.save(found.to_dataset(), tmp_path / "drops.nc")
+    result = carom.fit(dropped(restitutions(TRUTHS["KelvinVoigt"][0])), pair=PAIR)
+    carom.save(result.to_dataset(), tmp_path / "drops.nc")
     stored = carom.read(tmp_path / "drops.nc")
     (axis,) = plot_drops(stored).axes
     assert axis.get_xlabel() == "$V_1$\u00a0(m/s)"
-    assert len(found.plot().axes) == 1
-    told = json.loads(json.dumps(found.to_dict(), allow_nan=False))["losses"]
-    assert told["KelvinVoigt"]["loss_time"]["value"] == pytest.approx(2e-6, rel=1e-3)
-    words = str(found)
+    assert len(result.plot().axes) == 1
+    losses = json.loads(json.dumps(result.to_dict(), allow_nan=False))["losses"]
+    assert losses["KelvinVoigt"]["loss_time"]["value"] == pytest.approx(2e-6, rel=1e-3)
+    words = str(result)
     assert "KelvinVoigt: loss_time" in words
     assert "rigid Coulomb" not in words
 
@@ -210,13 +210,13 @@ def test_heights_without_a_unit_are_asked_for(tmp_path):
         checks.refused(asked, carom.fit, source, pair=PAIR)
     for bare in (metres, {**metres, "drop_height": ["8 cm", *metres["drop_height"][1:]]}):
         checks.refused(asked, carom.fit, written(path, bare), pair=PAIR)
-    told = {name: [f"{cell} cm" for cell in cells] for name, cells in CENTIMETRES.items()}
-    with_gap = {**told, "rebound_height": [*told["rebound_height"][:3], "-"]}
+    by_name = {name: [f"{cell} cm" for cell in cells] for name, cells in CENTIMETRES.items()}
+    with_gap = {**by_name, "rebound_height": [*by_name["rebound_height"][:3], "-"]}
     carom.fit(written(path, with_gap), pair=PAIR)
     named = {f"{name} [cm]": cells for name, cells in CENTIMETRES.items()}
-    for source in (written(path, CENTIMETRES, "{} [cm]"), written(path, told), told, named):
-        found = carom.fit(source, pair=PAIR).restitution.value
-        assert found == pytest.approx(expected, rel=1e-9)
+    for source in (written(path, CENTIMETRES, "{} [cm]"), written(path, by_name), by_name, named):
+        value = carom.fit(source, pair=PAIR).restitution.value
+        assert value == pytest.approx(expected, rel=1e-9)
 
 
 def test_errors_of_heights_have_units_too(tmp_path):

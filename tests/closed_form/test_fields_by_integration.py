@@ -110,8 +110,8 @@ def test_the_integration_gives_gross_slip_of_the_paper():
             unit * nu * 2.0 * x * y,
             length * (b * b - 0.5 * (x2 + y2)),
         ]
-        found = displacements(pair, length, load, load, x, y)
-        assert np.allclose(found, expected, rtol=0.0, atol=1e-14 * length)
+        actual = displacements(pair, length, load, load, x, y)
+        assert np.allclose(actual, expected, rtol=0.0, atol=1e-14 * length)
 
 
 def test_the_integration_agrees_with_plain_quadrature_outside():
@@ -151,10 +151,10 @@ def compare(hit, time):
     f, edges = traction_of(hit.solution.memory(time))
     tangential, normal = Load(f, edges), hertz_load(edges[-1])
     points = places(edges)
-    fields, found = fields_at(hit, time, points)
+    fields, actual = fields_at(hit, time, points)
     length, pair = hit.scales.length, hit.pair
     unit = np.array([MU / pair.kappa, MU / pair.kappa, 1.0]) * length * edges[-1] ** 2
-    for row, (x, y) in zip(found, points, strict=True):
+    for row, (x, y) in zip(actual, points, strict=True):
         expected = displacements(pair, length, tangential, normal, x, y)
         assert np.all(np.abs(row - expected) <= 1e-12 * unit)
     pressure = 2.0 * pair.effective_modulus / math.pi * math.sqrt(length / pair.effective_radius)

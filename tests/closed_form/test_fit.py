@@ -35,37 +35,37 @@ def line(data, sigma):
 def test_friction_of_sliding_impacts_is_the_slope_of_a_line():
     """Known errors: mu = slope/(1 + e), interval 1.96 standard deviations to either side."""
     data = sliding(tangential_speed_out_error=np.full(20, 0.01))
-    found = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
+    result = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
     slope, deviation = line(data, 0.01)
-    assert found.friction.value == pytest.approx(slope / (1.0 + E), rel=1e-6)
+    assert result.friction.value == pytest.approx(slope / (1.0 + E), rel=1e-6)
     reach = norm.ppf(0.975) * deviation / (1.0 + E)
-    assert found.friction.value - found.friction.low == pytest.approx(reach, rel=5e-3)
-    assert found.friction.high - found.friction.value == pytest.approx(reach, rel=5e-3)
+    assert result.friction.value - result.friction.low == pytest.approx(reach, rel=5e-3)
+    assert result.friction.high - result.friction.value == pytest.approx(reach, rel=5e-3)
 
 
 def test_errors_from_the_scatter_give_student_t():
     """Unknown errors: s^2 = sum r^2/(n - 1), and the quantile of t with n - 1 degrees."""
     data = sliding(seed=1)
-    found = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
+    result = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
     slope, per_sigma = line(data, 1.0)
     lost = data["tangential_speed"] - data["tangential_speed_out"]
     residual = lost - slope * data["normal_speed"]
     scatter = np.sqrt((residual**2).sum() / 19)
     reach = t.ppf(0.975, 19) * scatter * per_sigma / (1.0 + E)
-    assert found.friction.high - found.friction.low == pytest.approx(2.0 * reach, rel=1e-2)
+    assert result.friction.high - result.friction.low == pytest.approx(2.0 * reach, rel=1e-2)
 
 
 def test_errors_before_count_as_effective_variance():
     """sigma^2 = sigma_y^2 + (mu (1 + e) sigma_Vn)^2 row by row, in weights and interval."""
     rough = np.linspace(0.01, 0.3, 20)
     data = sliding(2, 0.05, tangential_speed_out_error=np.full(20, 0.05), normal_speed_error=rough)
-    found = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
+    result = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
     slope = MU * (1.0 + E)
     for _ in range(50):
         slope, deviation = line(data, np.hypot(0.05, slope * rough))
-    assert found.friction.value == pytest.approx(slope / (1.0 + E), rel=1e-4)
+    assert result.friction.value == pytest.approx(slope / (1.0 + E), rel=1e-4)
     width = 2.0 * norm.ppf(0.975) * deviation / (1.0 + E)
-    assert found.friction.high - found.friction.low == pytest.approx(width, rel=1e-2)
+    assert result.friction.high - result.friction.low == pytest.approx(width, rel=1e-2)
     plain, _ = line(data, 0.05)
     assert abs(plain - slope) > 1e-3 * slope  # the weights make a difference
 
@@ -78,14 +78,14 @@ def test_outliers_count_less():
         "impulse_ratio": values,
         "impulse_ratio_error": np.full(17, 0.01),
     }
-    found = fit(data, pair=PAIR, fixed={"restitution": 1.0}, vary="friction")
+    result = fit(data, pair=PAIR, fixed={"restitution": 1.0}, vary="friction")
 
     def against(mu, degrees):
         return -t.logpdf(values, degrees, mu, 0.01).sum()
 
     centres = [minimize_scalar(against, (0.14, 0.15, 0.16), args=(degrees,)) for degrees in DEGREES]
     likeliest = min(centres, key=lambda each: each.fun)
-    assert found.friction.value == pytest.approx(likeliest.x, rel=1e-5)
+    assert result.friction.value == pytest.approx(likeliest.x, rel=1e-5)
     plain = fit(data, pair=PAIR, fixed={"restitution": 1.0}, vary="friction", robust=False)
     assert plain.friction.value == pytest.approx(values.mean(), rel=1e-5)
 
@@ -110,8 +110,8 @@ def test_scatter_of_squares_is_chi_squared_by_degrees_of_freedom(used, free):
     """sqrt(sum r^2/(n - k)); of no fewer degrees than n/20 however many parameters there are."""
     residuals = np.random.default_rng(4).normal(0.0, 3.0, (20, 1))
     there = np.ones((20, 1), bool)
-    found = scatter(residuals, there, np.array([used]), RobustLoss(np.inf))
-    assert found == pytest.approx([np.sqrt((residuals**2).mean() / free)], rel=1e-6)
+    actual = scatter(residuals, there, np.array([used]), RobustLoss(np.inf))
+    assert actual == pytest.approx([np.sqrt((residuals**2).mean() / free)], rel=1e-6)
 
 
 def test_scatter_without_outliers_is_that_of_robust_and_squares_alike():
@@ -119,8 +119,8 @@ def test_scatter_without_outliers_is_that_of_robust_and_squares_alike():
     residuals = np.random.default_rng(5).normal(0.0, 3.0, (200_000, 1))
     there, used = np.ones(residuals.shape, bool), np.zeros(1)
     for degrees in (3.0, 30.0, np.inf):
-        found = scatter(residuals, there, used, RobustLoss(degrees))
-        assert found == pytest.approx([3.0], rel=0.01)
+        actual = scatter(residuals, there, used, RobustLoss(degrees))
+        assert actual == pytest.approx([3.0], rel=0.01)
 
 
 def test_restitution_is_the_weighted_mean_of_what_was_measured():
@@ -128,31 +128,31 @@ def test_restitution_is_the_weighted_mean_of_what_was_measured():
     values = np.array([0.82, 0.79, 0.805, 0.75])
     data = {"angle [deg]": np.full(4, 70.0), "normal_restitution": values}
     data["normal_restitution_error"] = errors
-    found = fit(data, pair=PAIR, vary="restitution", robust=False)
+    result = fit(data, pair=PAIR, vary="restitution", robust=False)
     mean = (values / errors**2).sum() / (1.0 / errors**2).sum()
-    assert found.restitution.value == pytest.approx(mean, abs=1e-7)
+    assert result.restitution.value == pytest.approx(mean, abs=1e-7)
     reach = norm.ppf(0.975) * (1.0 / errors**2).sum() ** -0.5
-    assert found.restitution.high - mean == pytest.approx(reach, rel=5e-3)
+    assert result.restitution.high - mean == pytest.approx(reach, rel=5e-3)
 
 
 def test_criterion_of_known_errors_is_that_of_akaike():
     """AICc = -2 log L + 2 k n/(n - k - 1), here with k = 1 and n = 20."""
     data = sliding(tangential_speed_out_error=np.full(20, 0.01))
-    found = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
+    result = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
     slope, _ = line(data, 0.01)
     lost = data["tangential_speed"] - data["tangential_speed_out"]
     residual = lost - slope * data["normal_speed"]
     expected = -2.0 * norm.logpdf(residual, 0.0, 0.01).sum() + 2.0 * 20.0 / 18.0
     for law in ("exact", "rigid Coulomb"):
-        assert found.comparison[law].criterion == pytest.approx(expected, rel=1e-8)
+        assert result.comparison[law].criterion == pytest.approx(expected, rel=1e-8)
 
 
 def test_halving_an_interval_of_a_mean_takes_three_times_as_many():
     """n values of an impulse ratio give sigma/sqrt(n): 3 n more halve it, wherever it slides."""
     data = {"angle [deg]": np.full(7, 70.0), "impulse_ratio": np.full(7, MU)}
     data["impulse_ratio_error"] = np.full(7, 0.01)
-    found = fit(data, pair=PAIR, fixed={"restitution": 1.0}, vary="friction", robust=False)
-    advice = found.advice(21)
+    result = fit(data, pair=PAIR, fixed={"restitution": 1.0}, vary="friction", robust=False)
+    advice = result.advice(21)
     assert advice.best.needed == 21
     assert advice.shorter == pytest.approx(0.5, abs=2e-3)
     assert {place.regime for place in advice.places} == {"gross slip throughout"}

@@ -27,7 +27,7 @@ def data():
 
 
 @pytest.fixture(scope="module")
-def found(data):
+def result(data):
     return fit(data, pair=START, fixed={"restitution": 1.0}, robust=False)
 
 
@@ -48,21 +48,21 @@ def loss_with(data, name, value, guess):
     return 2.0 * least_squares(of, [guess], x_scale=0.1, xtol=1e-12, ftol=1e-12).cost
 
 
-def test_best_fit_is_that_of_scipy(data, found):
+def test_best_fit_is_that_of_scipy(data, result):
     """Trust-region least squares in plain parameters finds the same minimum."""
     best = least_squares(
         lambda x: residuals(data, *x), [0.15, 0.9], x_scale=0.1, xtol=1e-12, ftol=1e-12
     )
-    assert found.friction.value == pytest.approx(best.x[0], rel=2e-4)
-    assert found.kappa.value == pytest.approx(best.x[1], rel=2e-4)
-    assert found.best.sum == pytest.approx(2.0 * best.cost, abs=2e-3)
+    assert result.friction.value == pytest.approx(best.x[0], rel=2e-4)
+    assert result.kappa.value == pytest.approx(best.x[1], rel=2e-4)
+    assert result.best.sum == pytest.approx(2.0 * best.cost, abs=2e-3)
 
 
 @pytest.mark.parametrize("name", ["friction", "kappa"])
-def test_interval_ends_where_chi_squared_has_risen_by_its_quantile(data, found, name):
+def test_interval_ends_where_chi_squared_has_risen_by_its_quantile(data, result, name):
     """chi^2 of the profile, minimised anew by scipy, is 3.8415 above the least at both ends."""
-    estimate = found[name]
-    guess = found.kappa.value if name == "friction" else found.friction.value
+    estimate = result[name]
+    guess = result.kappa.value if name == "friction" else result.friction.value
     least = loss_with(data, name, estimate.value, guess)
 
     def excess(value):
@@ -92,27 +92,27 @@ def test_fits_with_losses_are_those_of_scipy_on_the_solver(chi, e):
     best = least_squares(off, [MU, kappa], x_scale=0.1, xtol=1e-12, ftol=1e-12, diff_step=1e-6)
     data = {"angle": np.arctan(slope), "contact_beta": beta}
     data["contact_beta_error"] = np.full(psi.size, sigma)
-    found = fit(
+    actual = fit(
         data, pair=START, vary=("friction", "kappa"), fixed={"restitution": e}, robust=False
     )
-    assert found.friction.value == pytest.approx(best.x[0], rel=5e-5)
-    assert found.kappa.value == pytest.approx(best.x[1], rel=5e-5)
-    for estimate in (found.friction, found.kappa):
+    assert actual.friction.value == pytest.approx(best.x[0], rel=5e-5)
+    assert actual.kappa.value == pytest.approx(best.x[1], rel=5e-5)
+    for estimate in (actual.friction, actual.kappa):
         assert 1e-3 < (estimate.high - estimate.low) / estimate.value < 0.1
 
 
-def test_interval_of_chi_is_that_of_kappa(found):
+def test_interval_of_chi_is_that_of_kappa(result):
     ratio = 0.5 * PAIR.normal_mass / PAIR.tangential_mass
-    assert found.chi.low == pytest.approx(ratio * found.kappa.low)
-    assert found.chi.high == pytest.approx(ratio * found.kappa.high)
+    assert result.chi.low == pytest.approx(ratio * result.kappa.low)
+    assert result.chi.high == pytest.approx(ratio * result.kappa.high)
 
 
-def test_a_start_far_away_ends_in_the_same_minimum(data, found):
+def test_a_start_far_away_ends_in_the_same_minimum(data, result):
     """psi_2 is not monotone; the scan keeps the fit out of side minima."""
     for friction in (0.01, 2.0):
         pair = carom.Pair(BALL, FLOOR, friction=friction)
         other = fit(data, pair=pair, fixed={"restitution": 1.0}, robust=False)
-        assert other.friction.value == pytest.approx(found.friction.value, rel=1e-6)
+        assert other.friction.value == pytest.approx(result.friction.value, rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -126,13 +126,13 @@ def test_the_table_is_the_solver(chis, error):
     place = rng.uniform(0.0, 3.2, (60, 20))
     place[:, 15:] = [1.0, 1.0 + 1e-6, 2.0, 3.0 - 1e-9, 1e-7]
     psi = psi_at(place, *np.broadcast_arrays(chi[:, np.newaxis], e[:, np.newaxis], place)[:2])
-    found = psi_out(stored(), psi, chi, e)
+    actual = psi_out(stored(), psi, chi, e)
     for one in np.unique(e):
         some, law = e == one, carom.KelvinVoigt(restitution=one)
         exact = carom.rebound(psi[some], chi[some, np.newaxis], losses=law)
-        assert np.abs(found[some] - exact).max() < error
-    np.testing.assert_array_equal(psi_out(stored(), -psi, chi, e), -found)
-    assert np.all(np.abs(found) <= np.abs(psi))
+        assert np.abs(actual[some] - exact).max() < error
+    np.testing.assert_array_equal(psi_out(stored(), -psi, chi, e), -actual)
+    assert np.all(np.abs(actual) <= np.abs(psi))
 
 
 @pytest.mark.parametrize("chi", [0.3, 1.4412])
@@ -140,5 +140,5 @@ def test_curves_hardly_change_across_a_kink(chi):
     """psi_2 is continuous at the borders of the regimes."""
     borders = np.unique(regime_borders(chi))
     psi = np.sort(np.concatenate([borders - 1e-9, borders + 1e-9]))[np.newaxis]
-    found = psi_out(stored(), psi, np.array([chi]), np.array([1.0]))[0]
-    assert np.abs(found[1::2] - found[::2]).max() < 1e-6
+    actual = psi_out(stored(), psi, np.array([chi]), np.array([1.0]))[0]
+    assert np.abs(actual[1::2] - actual[::2]).max() < 1e-6

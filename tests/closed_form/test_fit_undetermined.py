@@ -26,23 +26,23 @@ def impacts(angles, *names, noise=0.01, seed=0):
 def test_stiffness_where_all_rows_slip_throughout():
     """psi_2 = psi_1 - 2 chi (1 + e): V_x' = V_x - mu (1 + e)(m_n/m_t) V_n knows no stiffness."""
     data = impacts(range(48, 76, 3), "contact_restitution", "normal_restitution")
-    found = fit(data, pair=PAIR)
-    assert not found.kappa.determined
-    assert np.isnan(found.kappa.low)
-    assert "slips throughout" in found.kappa.reason
-    assert "slips throughout" in found.chi.reason
-    assert found.friction.low < MU < found.friction.high
-    assert found.regimes["gross slip throughout"] == 10
+    result = fit(data, pair=PAIR)
+    assert not result.kappa.determined
+    assert np.isnan(result.kappa.low)
+    assert "slips throughout" in result.kappa.reason
+    assert "slips throughout" in result.chi.reason
+    assert result.friction.low < MU < result.friction.high
+    assert result.regimes["gross slip throughout"] == 10
 
 
 def test_only_a_product_of_friction_and_restitution():
     """Sliding without a normal speed after: mu (1 + e) alone, and its value is told."""
     data = impacts(range(48, 76, 3), "contact_restitution")
-    found = fit(data, pair=PAIR)
+    result = fit(data, pair=PAIR)
     for name in ("friction", "restitution"):
-        assert not found[name].determined
-        assert "friction (1 + restitution)" in found[name].reason
-    value = float(found.friction.reason.split("that product is ")[1].split(" ")[0])
+        assert not result[name].determined
+        assert "friction (1 + restitution)" in result[name].reason
+    value = float(result.friction.reason.split("that product is ")[1].split(" ")[0])
     assert value == pytest.approx(2.0 * MU, rel=0.02)
     assert fit(data, pair=PAIR, fixed={"restitution": 1.0}).friction.determined
 
@@ -50,30 +50,30 @@ def test_only_a_product_of_friction_and_restitution():
 def test_friction_where_nothing_slips_in_gross():
     """Small psi_1 is a linear problem: psi_2/psi_1 depends on chi alone, so friction is open."""
     data = impacts([0.2, 0.3, 0.4, 0.5, 0.6, 0.7], "contact_restitution", noise=0.02)
-    found = fit(data, pair=PAIR, fixed={"restitution": 1.0})
-    assert found.regimes["stick from the first touch"] == 6
-    assert found.friction.high == np.inf
-    assert not found.friction.determined or "at least" in str(found.friction)
-    assert found.kappa.determined
+    result = fit(data, pair=PAIR, fixed={"restitution": 1.0})
+    assert result.regimes["stick from the first touch"] == 6
+    assert result.friction.high == np.inf
+    assert not result.friction.determined or "at least" in str(result.friction)
+    assert result.kappa.determined
 
 
 def test_an_end_that_is_open_is_said_so():
     """Rows that stick from the first touch bound the friction from below only."""
     data = impacts([1.0, 1.5, 2.0, 2.5, 3.0], "contact_restitution", noise=0.1)
-    found = fit(data, pair=PAIR, fixed={"restitution": 1.0, "kappa": PAIR.kappa})
-    assert found.friction.open
-    assert str(found.friction).endswith(f"at least {found.friction.low:.4g}")
-    assert found.friction.low < MU
-    assert found.to_dict()["parameters"]["friction"]["high"] is None
+    result = fit(data, pair=PAIR, fixed={"restitution": 1.0, "kappa": PAIR.kappa})
+    assert result.friction.open
+    assert str(result.friction).endswith(f"at least {result.friction.low:.4g}")
+    assert result.friction.low < MU
+    assert result.to_dict()["parameters"]["friction"]["high"] is None
 
 
 def test_restitution_where_nothing_depends_on_it():
     """J_t/J_n of rows that slide is mu, whatever e is."""
     data = impacts([50.0, 60.0, 70.0], "tangential_restitution")
     data = {"angle": data["angle"], "impulse_ratio": np.array([0.119, 0.121, 0.12])}
-    found = fit(data, pair=PAIR, vary=["friction", "restitution"])
-    assert "normal_restitution" in found.restitution.reason
-    assert found.friction.value == pytest.approx(0.12, abs=0.002)
+    result = fit(data, pair=PAIR, vary=["friction", "restitution"])
+    assert "normal_restitution" in result.restitution.reason
+    assert result.friction.value == pytest.approx(0.12, abs=0.002)
 
 
 def test_sliding_data_cannot_tell_the_laws_apart():
@@ -91,8 +91,8 @@ def test_sliding_data_cannot_tell_the_laws_apart():
 def test_advice_for_the_stiffness_leads_away_from_sliding():
     """What slides throughout tells nothing of kappa, so none of the incidences lies there."""
     data = impacts(range(48, 76, 3), "contact_restitution")
-    found = fit(data, pair=PAIR, fixed={"restitution": 1.0})
-    advice = found.advice(3, "kappa")
+    result = fit(data, pair=PAIR, fixed={"restitution": 1.0})
+    advice = result.advice(3, "kappa")
     assert all(place.regime != "gross slip throughout" for place in advice.places)
     assert advice.shorter < 0.1
 
@@ -101,5 +101,5 @@ def test_rows_whose_regime_is_not_certain_are_named():
     """psi_1 = 1 within the interval of friction: row 3 may stick from the first touch or not."""
     border = np.degrees(np.arctan(MU / PAIR.kappa))
     data = impacts([2.0, 4.0, border, 25.0, 40.0, 60.0], "contact_restitution", noise=0.02)
-    found = fit(data, pair=PAIR, fixed={"restitution": 1.0})
-    assert any("may differ" in note and "3" in note for note in found.notes)
+    result = fit(data, pair=PAIR, fixed={"restitution": 1.0})
+    assert any("may differ" in note and "3" in note for note in result.notes)

@@ -77,8 +77,8 @@ TWINS = {
 def test_a_law_as_a_function_is_the_law_step_by_step(name, kappa):
     """In SI units and in Python as in dimensionless ones and compiled, to rounding."""
     own, law = TWINS[name]
-    given = own.rebound(PSI, CHI, kappa=kappa, steps=STEPS)
-    np.testing.assert_allclose(given, law.rebound(PSI, CHI, kappa=kappa, steps=STEPS), atol=1e-12)
+    psi_out = own.rebound(PSI, CHI, kappa=kappa, steps=STEPS)
+    np.testing.assert_allclose(psi_out, law.rebound(PSI, CHI, kappa=kappa, steps=STEPS), atol=1e-12)
     for psi in (0.75, -1.5):
         mine = own.history(psi, CHI, kappa=kappa, steps=STEPS)
         theirs = law.history(psi, CHI, kappa=kappa, steps=STEPS)
@@ -197,9 +197,9 @@ FAILING = {
 def test_a_function_that_fails_is_told_by_status_warning_and_refusal(name):
     function, status, words = FAILING[name]
     law = dem.FunctionLaw(function, name=name)
-    psi_out, told = law.rebound([0.5, 2.0], CHI, return_status=True)
+    psi_out, answer = law.rebound([0.5, 2.0], CHI, return_status=True)
     assert np.isnan(psi_out).all()
-    assert set(told) == {status}
+    assert set(answer) == {status}
     with pytest.warns(RuntimeWarning, match=f"2 of 2 impacts give NaN .*{words}"):
         law.rebound([0.5, 2.0], CHI)
     calls = (
@@ -220,14 +220,14 @@ def test_one_bad_impact_leaves_the_others():
     psi_out, status = law.rebound([2.0, 1.0, np.nan, 3.0], CHI, return_status=True)
     np.testing.assert_array_equal(psi_out, [1.0, np.nan, np.nan, 0.5])
     assert status.tolist() == [0, LawStatus.RAISED, LawStatus.PSI_NOT_FINITE, 0]
-    found = carom.verify.error_map(law, [1.0, 2.0], [CHI])
-    assert np.isnan(found.error.values).tolist() == [[True, False]]
+    errors = carom.verify.error_map(law, [1.0, 2.0], [CHI])
+    assert np.isnan(errors.error.values).tolist() == [[True, False]]
 
 
-@pytest.mark.parametrize("given", [None, 3, "mindlin", int, dem.LinearSpring, lambda c: 0.0])
+@pytest.mark.parametrize("inputs", [None, 3, "mindlin", int, dem.LinearSpring, lambda c: 0.0])
 @pytest.mark.parametrize("kind", [dem.FunctionLaw, dem.FunctionRebound])
-def test_what_is_no_such_function_is_refused(kind, given):
-    refused(r"^function: .* must", kind, given)
+def test_what_is_no_such_function_is_refused(kind, inputs):
+    refused(r"^function: .* must", kind, inputs)
 
 
 @pytest.mark.parametrize(
@@ -250,7 +250,7 @@ def test_functions_are_ranked_scored_and_mapped_as_laws_are():
     assert mine.force_error == pytest.approx(theirs.force_error, abs=1e-6)
     assert mine.fine_step.steps == theirs.fine_step.steps
     entry = carom.verify.Entry("my spring", spring, "")
-    assert carom.verify.rank([entry], psi=[1.0]).standings[0].entry.label == "my spring"
+    assert carom.verify.rank([entry], psi_1=[1.0]).standings[0].entry.label == "my spring"
     axes = [[0.5, 1.0, 3.0], [1.2, 1.4]]
     own = carom.verify.error_map(spring, *axes)
     expected = carom.verify.error_map(dem.LammpsMindlin("mindlin"), *axes)

@@ -31,14 +31,14 @@ def test_down_and_up_again(top):
     """Loaded, unloaded to the opposite and loaded anew: the loop closes where it began."""
     down, up = np.linspace(top, -top, 9)[1:], np.linspace(-top, top, 9)[1:]
     _, steps = driven([top, *down, *up])
-    found = np.array([share(step) for step in steps])
+    values = np.array([share(step) for step in steps])
     peak = first(top)
-    assert found[0] == pytest.approx(peak, abs=ERROR)
+    assert values[0] == pytest.approx(peak, abs=ERROR)
     unloading = peak - 2.0 * first((top - down) / 2.0)
-    assert np.abs(found[1:9] - unloading).max() <= 2.0 * ERROR
-    assert found[8] == pytest.approx(-found[0], abs=1e-5)
-    assert np.abs(found[9:] + unloading).max() <= 2.0 * ERROR
-    assert found[16] == pytest.approx(found[0], abs=1e-5)
+    assert np.abs(values[1:9] - unloading).max() <= 2.0 * ERROR
+    assert values[8] == pytest.approx(-values[0], abs=1e-5)
+    assert np.abs(values[9:] + unloading).max() <= 2.0 * ERROR
+    assert values[16] == pytest.approx(values[0], abs=1e-5)
     assert np.abs(steps[16].state.traction - steps[0].state.traction).max() <= 1e-5
 
 

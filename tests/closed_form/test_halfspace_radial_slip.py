@@ -35,9 +35,9 @@ def test_force_under_radial_slip(beta, drift):
     for depth in (*np.linspace(0.0, DEPTH, 8)[1:], DEPTH + LAST):
         moved, length = np.array([shift * depth, 0.0, 0.0]), depth - state.depth
         state = patch.advance(state, depth, moved, length).state
-    found = state.traction.sum(axis=(1, 2)) / state.pressure.sum()
-    assert found[0] == pytest.approx(pull(drift), rel=0.006)
-    assert abs(found[1]) <= 1e-6
+    value = state.traction.sum(axis=(1, 2)) / state.pressure.sum()
+    assert value[0] == pytest.approx(pull(drift), rel=0.006)
+    assert abs(value[1]) <= 1e-6
 
 
 def test_little_drift_meets_a_dashpot():

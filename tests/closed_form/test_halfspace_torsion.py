@@ -114,11 +114,11 @@ def test_disc_that_sticks(nu, most):
 def test_moment_of_a_turn(runs):
     """In partial slip M converges to Lubkin's, about as the square of the spacing, for any nu."""
     exact = np.array([moment_of(c) for c in RADII])
-    found = np.array([[moments(*runs[n, nu]) for nu in NUS] for n in GRIDS])
-    means = np.sqrt(np.mean((found - exact) ** 2, axis=2)).T / GROSS
+    values = np.array([[moments(*runs[n, nu]) for nu in NUS] for n in GRIDS])
+    means = np.sqrt(np.mean((values - exact) ** 2, axis=2)).T / GROSS
     assert np.all(means <= [8e-3, 1.7e-3, 3.5e-4])
     assert np.all(np.abs(np.log2(means[:, :-1] / means[:, 1:]) - 2.3) <= 0.5)
-    apart = np.abs(found[:, 1] - found[:, 0]).max(axis=1) / GROSS
+    apart = np.abs(values[:, 1] - values[:, 0]).max(axis=1) / GROSS
     assert np.all(apart <= [3e-3, 4e-4, 2e-5])
 
 
@@ -161,11 +161,11 @@ def test_unloading_doubles_loading(nu, c):
     top = turn_of(c)
     down = np.linspace(top, -top, 9)[1:]
     patch, steps = turned(24, nu, top, *down, *-down)
-    found, again = moments(patch, steps), moments(*turned(24, nu, *(top - down) / 2.0))
-    assert np.abs(found[1:9] - found[0] + 2.0 * again).max() <= 2e-5
-    assert np.abs(found[9:] + found[1:9]).max() <= 2e-5
+    actual, again = moments(patch, steps), moments(*turned(24, nu, *(top - down) / 2.0))
+    assert np.abs(actual[1:9] - actual[0] + 2.0 * again).max() <= 2e-5
+    assert np.abs(actual[9:] + actual[1:9]).max() <= 2e-5
     exact = moment(top) - 2.0 * np.array([moment((top - turn) / 2.0) for turn in down])
-    assert np.abs(found[1:9] - exact).max() <= 4e-3 * GROSS
+    assert np.abs(actual[1:9] - exact).max() <= 4e-3 * GROSS
     area = 8.0 * quad(moment, 0.0, top)[0] - 4.0 * moment(top) * top
     work = [patch.grid.element * np.sum(step.state.traction * step.moved) for step in steps[1:]]
     assert min(work) > 0.0
@@ -185,9 +185,9 @@ def test_turned_while_pressed(nu, rate):
         line = np.linspace(0.0, 1.0, 3 * elements // 4 + 1)
         path = [(a * a, rate / 2.0 * a * a) for a in (*line[1:], *line[-2:0:-1])]
         patch, steps = driven(elements, nu, path)
-        found, full = moments(patch, steps), steps[len(line) - 2]
-        assert np.abs(found - found[::-1]).max() <= 1e-6
-        errors.append(abs(found.max() / (8.0 / 15.0 * rate) - 1.0))
+        values, full = moments(patch, steps), steps[len(line) - 2]
+        assert np.abs(values - values[::-1]).max() <= 1e-6
+        errors.append(abs(values.max() / (8.0 / 15.0 * rate) - 1.0))
         radii, radial, around = polar(patch, full.state.traction)
         off = np.hypot(around - rate * radii * full.state.pressure, radial)
         means.append(np.sqrt(patch.grid.element * np.sum(off**2) / pi))

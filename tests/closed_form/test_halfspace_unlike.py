@@ -53,13 +53,13 @@ def test_punch_that_sticks(beta, kappa):
     """P is artanh(beta)/beta of that without friction, for any kappa; errors of first order."""
     errors = []
     for elements in (8, 16, 32):
-        found = []
+        entries = []
         for materials in (Materials(kappa), Materials(kappa, beta, ROUGH)):
             patch = Patch.across(elements, materials)
             radii = np.hypot(patch.grid.line[:, None], patch.grid.line)
             patch.grid.apart = np.where(radii < 1.0, 0.0, 99.0)
-            found.append(force(patch, patch.advance(patch.untouched(), 1.0, np.zeros(3))))
-        errors.append(found[1] / found[0] / stiffening(beta) - 1.0)
+            entries.append(force(patch, patch.advance(patch.untouched(), 1.0, np.zeros(3))))
+        errors.append(entries[1] / entries[0] / stiffening(beta) - 1.0)
     assert np.all(np.abs(errors) <= 0.12 * (stiffening(beta) - 1.0) * np.array([1.0, 0.6, 0.35]))
     assert abs(2.0 * errors[2] - errors[1]) <= 0.01 * (stiffening(beta) - 1.0)
 
@@ -81,14 +81,14 @@ def test_stick_radius(ratio):
 
     c/a is 0.20 and 0.90; a mean over the loading, in which it is constant.
     """
-    patch, found = Patch.across(48, Materials(0.8, 0.01 * ratio, 0.01), Mirrors(y=True)), []
+    patch, entries = Patch.across(48, Materials(0.8, 0.01 * ratio, 0.01), Mirrors(y=True)), []
     state = patch.untouched()
     for radius in np.linspace(0.0, 1.0, 49)[1:]:
         step = patch.advance(state, radius**2, np.zeros(3))
         state = step.state
         if radius > 0.6:
-            found.append(patch.grid.element * np.count_nonzero(held(step)) / (pi * radius**2))
-    assert np.sqrt(np.mean(found)) == pytest.approx(stick_radius(ratio), abs=0.006)
+            entries.append(patch.grid.element * np.count_nonzero(held(step)) / (pi * radius**2))
+    assert np.sqrt(np.mean(entries)) == pytest.approx(stick_radius(ratio), abs=0.006)
 
 
 def test_traction_is_radial():

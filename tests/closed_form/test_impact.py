@@ -190,7 +190,7 @@ def test_outside_the_study_no_error_is_told():
     finding = carom.impact(bodies, speed=0.1, angle=0.3).validity.findings[-1]
     assert math.isnan(finding.value)
     assert finding.holds is None
-    assert finding.told == "error of psi_2"
+    assert finding.label == "error of psi_2"
     assert finding.verdict.startswith("not studied: chi of ")
 
 

@@ -318,8 +318,8 @@ def test_a_path_of_two_directions_goes_in_and_out(tmp_path):
     assert bent.displacement.shape == bent.tangential_force.shape == (2, 2)
     kept = read(save(bent, tmp_path / "bent.nc"))
     assert kept["tangential_force"].dims == ("step", "direction")
-    for given in (kept["displacement"], kept["displacement"].T):
-        again = load_path(PAIR, normal_force=kept["normal_force"], displacement=given)
+    for values in (kept["displacement"], kept["displacement"].T):
+        again = load_path(PAIR, normal_force=kept["normal_force"], displacement=values)
         np.testing.assert_array_equal(again.tangential_force, bent.tangential_force)
     longer = load_path(PAIR, normal_force=20.0, displacement=2e-7).then(
         normal_force=20.0, displacement=[[2e-7, 1e-7]]
@@ -336,16 +336,16 @@ def test_controls_come_back_to_the_bit():
         loads = 10.0 ** rng.uniform(-6.0, 4.0, 5)
         limits = MU * np.minimum.accumulate(loads)[:, None]
         forces = 0.9 * limits * rng.uniform(-0.2, 0.2, (5, 2))
-        for given in (forces, forces[:, 0]):
-            pushed = load_path(PAIR, normal_force=loads, tangential_force=given)
+        for values in (forces, forces[:, 0]):
+            pushed = load_path(PAIR, normal_force=loads, tangential_force=values)
             np.testing.assert_array_equal(pushed.normal_force, loads)
-            np.testing.assert_array_equal(pushed.tangential_force, given)
+            np.testing.assert_array_equal(pushed.tangential_force, values)
             again = {"penetration": pushed.penetration, "displacement": pushed.displacement}
             driven = load_path(PAIR, **again)
             np.testing.assert_array_equal(driven.penetration, pushed.penetration)
             np.testing.assert_array_equal(driven.displacement, pushed.displacement)
             size = 1e-9 * MU * loads.max()
-            np.testing.assert_allclose(driven.tangential_force, given, rtol=0.0, atol=size)
+            np.testing.assert_allclose(driven.tangential_force, values, rtol=0.0, atol=size)
             np.testing.assert_allclose(driven.normal_force, loads, rtol=1e-14)
 
 
@@ -366,11 +366,11 @@ def test_what_two_directions_cannot_be():
 
 
 def test_progress_of_a_path_that_turns():
-    told = []
+    entries = []
     load_path(
         PAIR,
         normal_force=20.0,
         displacement=[[2e-7, 0.0], [2e-7, 1e-7]],
-        progress=lambda done, total: told.append((done, total)),
+        progress=lambda done, total: entries.append((done, total)),
     )
-    assert told == [(1, 2), (2, 2)]
+    assert entries == [(1, 2), (2, 2)]

@@ -78,14 +78,14 @@ def test_a_touch_just_before_the_end_of_a_step_is_one_at_its_end(alpha):
 def turned(steps, springs=64):
     """Return the forces, x and y, of a contact pressed as by Hertz while its slip turns round."""
     memory, load = np.zeros(lattice.places(springs)), np.zeros(3)
-    dt, depth, found = DURATION / steps, 0.0, []
+    dt, depth, entries = DURATION / steps, 0.0, []
     for i in range(1, steps):
         middle, now = (i - 0.5) * dt, hertz.penetration_and_speed(i * dt)[0]
         motion = np.array([(now - depth) / dt, 1.2 * np.cos(2 * middle), 1.2 * np.sin(2 * middle)])
         lattice.step(memory, springs, now, motion, dt, 0.0, 0.0, load)
-        found.append(load[1:].copy())
+        entries.append(load[1:].copy())
         depth = now
-    return np.array(found)
+    return np.array(entries)
 
 
 def test_the_order_is_the_second_where_the_direction_turns():

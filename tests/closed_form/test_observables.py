@@ -128,10 +128,10 @@ def test_every_quantity_from_every_other(name):
     start |= {key: truth[key] for key in ("tangential_speed", "normal_restitution")}
     for way in names_of(pair, IMPULSE):
         for wanted in names_of(pair, NAMES):
-            found = convert_observables(pair, known=start | {way: truth[way]}, wanted=wanted)
+            value = convert_observables(pair, known=start | {way: truth[way]}, wanted=wanted)
             scale = np.abs(truth[wanted]).max()
             np.testing.assert_allclose(
-                found, truth[wanted], rtol=1e-9, atol=1e-11 * scale, err_msg=f"{way} to {wanted}"
+                value, truth[wanted], rtol=1e-9, atol=1e-11 * scale, err_msg=f"{way} to {wanted}"
             )
 
 
@@ -147,13 +147,13 @@ def test_every_quantity_from_every_other(name):
 )
 def test_every_way_of_giving_the_motion_before(name, way):
     pair, truth = impacts(name)
-    known = {key: truth[key] for key in (*way, *names_of(pair, ("spin", "spin2")), "spin_out")}
+    basis = {key: truth[key] for key in (*way, *names_of(pair, ("spin", "spin2")), "spin_out")}
     for wanted in names_of(pair, BEFORE):
-        found = convert_observables(pair, known=known, wanted=wanted)
-        np.testing.assert_allclose(found, truth[wanted], rtol=1e-10, atol=1e-12)
-    known["normal_speed_out"] = truth["normal_speed_out"]
-    found = convert_observables(pair, known=known, wanted="contact_rebound_angle")
-    np.testing.assert_allclose(found, truth["contact_rebound_angle"], rtol=1e-9)
+        value = convert_observables(pair, known=basis, wanted=wanted)
+        np.testing.assert_allclose(value, truth[wanted], rtol=1e-10, atol=1e-12)
+    basis["normal_speed_out"] = truth["normal_speed_out"]
+    value = convert_observables(pair, known=basis, wanted="contact_rebound_angle")
+    np.testing.assert_allclose(value, truth["contact_rebound_angle"], rtol=1e-9)
 
 
 @pytest.mark.parametrize("name", PAIRS)
@@ -161,23 +161,23 @@ def test_agrees_with_the_exact_impact(name):
     """What `impact` calls by the same name is the same."""
     pair = PAIRS[name]
     hit = carom.impact(pair, speed=2.0, angle="50 deg", spin=-30.0)
-    known = {"normal_speed": hit.normal_speed, "tangential_speed": hit.tangential_speed}
-    known |= {"spin": hit.spin, "normal_restitution": 1.0, "psi_out": hit.psi_out}
+    basis = {"normal_speed": hit.normal_speed, "tangential_speed": hit.tangential_speed}
+    basis |= {"spin": hit.spin, "normal_restitution": 1.0, "psi_out": hit.psi_out}
     for wanted in OBSERVABLES:
         if hasattr(hit, wanted) and wanted in names_of(pair, OBSERVABLES):
-            found = convert_observables(pair, known=known, wanted=wanted)
-            assert found == pytest.approx(getattr(hit, wanted), rel=1e-11), wanted
-            assert isinstance(found, float)
+            value = convert_observables(pair, known=basis, wanted=wanted)
+            assert value == pytest.approx(getattr(hit, wanted), rel=1e-11), wanted
+            assert isinstance(value, float)
 
 
 def test_ratios_and_angles_need_no_speed():
     """Solid sphere, no spin: 1 + beta = (7/2)(1 - e_t); rigid sliding: e_t = 1 - f (1+e)/tan."""
     pair = PAIRS["sphere on wall"]
-    known = {"angle": ["20 deg", "60 deg"], "tangential_restitution": [0.6, 0.9]}
-    beta = convert_observables(pair, known=known, wanted="contact_beta")
+    basis = {"angle": ["20 deg", "60 deg"], "tangential_restitution": [0.6, 0.9]}
+    beta = convert_observables(pair, known=basis, wanted="contact_beta")
     np.testing.assert_allclose(beta, 3.5 * (1 - np.array([0.6, 0.9])) - 1, rtol=1e-12)
-    known["normal_restitution"] = 0.9
-    ratio = convert_observables(pair, known=known, wanted="impulse_ratio")
+    basis["normal_restitution"] = 0.9
+    ratio = convert_observables(pair, known=basis, wanted="impulse_ratio")
     expected = np.array([0.4, 0.1]) * np.tan(np.radians([20, 60])) / 1.9
     np.testing.assert_allclose(ratio, expected, rtol=1e-12)
 
@@ -187,11 +187,11 @@ def test_speed_and_angle_after_tell_everything(name):
     """Both parts of the motion after, so that not even the normal restitution is needed."""
     pair, truth = impacts(name)
     names = ("normal_speed", "tangential_speed", "spin", "spin2", "rebound_speed", "rebound_angle")
-    known = {key: truth[key] for key in names_of(pair, names)}
+    basis = {key: truth[key] for key in names_of(pair, names)}
     for wanted in names_of(pair, set(NAMES) - {"rebound_angle"}):
-        found = convert_observables(pair, known=known, wanted=wanted)
+        value = convert_observables(pair, known=basis, wanted=wanted)
         scale = np.abs(truth[wanted]).max()
-        np.testing.assert_allclose(found, truth[wanted], rtol=1e-9, atol=1e-11 * scale)
+        np.testing.assert_allclose(value, truth[wanted], rtol=1e-9, atol=1e-11 * scale)
 
 
 @pytest.mark.parametrize("name", PAIRS)
@@ -200,11 +200,11 @@ def test_speed_after_tells_the_rebound_of_an_impact(name, angle):
     """Without spin before the centre goes on: of both signs of v_t' friction allows one."""
     pair = PAIRS[name]
     hit = carom.impact(pair, speed=2.0, angle=angle)
-    known = {"speed": 2.0, "angle": angle, "normal_restitution": 1.0}
-    known["rebound_speed"] = hit.rebound_speed
+    basis = {"speed": 2.0, "angle": angle, "normal_restitution": 1.0}
+    basis["rebound_speed"] = hit.rebound_speed
     for wanted in ("tangential_speed_out", "spin_out", "psi_out", "rebound_angle"):
-        found = convert_observables(pair, known=known, wanted=wanted)
-        assert found == pytest.approx(getattr(hit, wanted), rel=1e-8), wanted
+        value = convert_observables(pair, known=basis, wanted=wanted)
+        assert value == pytest.approx(getattr(hit, wanted), rel=1e-8), wanted
 
 
 def test_speed_after_of_a_centre_that_goes_back():
@@ -212,31 +212,31 @@ def test_speed_after_of_a_centre_that_goes_back():
     pair = PAIRS["sphere on wall"]
     for spin in (-300.0, 300.0):
         hit = carom.impact(pair, speed=1.0, angle=0.0, spin=spin)
-        known = {"speed": 1.0, "angle": 0.0, "spin": spin, "normal_restitution": 1.0}
-        known["rebound_speed"] = hit.rebound_speed
-        found = convert_observables(pair, known=known, wanted="tangential_speed_out")
-        assert found == pytest.approx(hit.tangential_speed_out, rel=1e-9)
-        assert found * spin < 0.0
+        basis = {"speed": 1.0, "angle": 0.0, "spin": spin, "normal_restitution": 1.0}
+        basis["rebound_speed"] = hit.rebound_speed
+        value = convert_observables(pair, known=basis, wanted="tangential_speed_out")
+        assert value == pytest.approx(hit.tangential_speed_out, rel=1e-9)
+        assert value * spin < 0.0
 
 
 def test_speed_after_with_scatter_takes_the_sign_that_is_nearer():
     """A speed that even without friction would be 1 % less: v_t' is that root, not its negative."""
-    known = {"speed": 2.0, "angle": 0.5, "normal_restitution": 1.0, "rebound_speed": 2.02}
-    found = convert_observables(PAIRS["sphere on wall"], known=known, wanted="tangential_speed_out")
-    assert found == pytest.approx(math.sqrt(2.02**2 - (2.0 * math.cos(0.5)) ** 2), rel=1e-12)
+    basis = {"speed": 2.0, "angle": 0.5, "normal_restitution": 1.0, "rebound_speed": 2.02}
+    value = convert_observables(PAIRS["sphere on wall"], known=basis, wanted="tangential_speed_out")
+    assert value == pytest.approx(math.sqrt(2.02**2 - (2.0 * math.cos(0.5)) ** 2), rel=1e-12)
 
 
 def test_what_is_not_known_stays_unknown():
-    pair, known = PAIRS["sphere on wall"], {"speed": 2.0, "angle": 0.5, "spin_out": [1.0, np.nan]}
-    found = convert_observables(pair, known=known, wanted="tangential_restitution")
-    assert np.isnan(found).tolist() == [False, True]
+    pair, basis = PAIRS["sphere on wall"], {"speed": 2.0, "angle": 0.5, "spin_out": [1.0, np.nan]}
+    value = convert_observables(pair, known=basis, wanted="tangential_restitution")
+    assert np.isnan(value).tolist() == [False, True]
 
 
 START = {"speed": 2.0, "angle": 0.5}
 
 
 @pytest.mark.parametrize(
-    ("known", "wanted", "message"),
+    ("basis", "wanted", "message"),
     [
         (START, "spin_out", "the rebound is not determined; give one of tangential_speed_out"),
         ({"speed": 2.0, "spin_out": 1.0}, "psi_out", "tangential motion before is not determined"),
@@ -290,9 +290,9 @@ START = {"speed": 2.0, "angle": 0.5}
         ),
     ],
 )
-def test_what_is_open_or_said_twice_is_refused(known, wanted, message):
+def test_what_is_open_or_said_twice_is_refused(basis, wanted, message):
     with pytest.raises(carom.InputError) as refused:
-        convert_observables(PAIRS["sphere on wall"], known=known, wanted=wanted)
+        convert_observables(PAIRS["sphere on wall"], known=basis, wanted=wanted)
     assert message in str(refused.value)
 
 

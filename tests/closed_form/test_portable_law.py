@@ -101,7 +101,7 @@ def test_refusals(law, psi):
     for function in (law, law.impulse, law.dissipation):
         with pytest.raises(carom.InputError, match="must be a real number, or an array") as error:
             function(psi)
-        assert str(error.value).startswith("psi: ")
+        assert str(error.value).startswith("psi_1: ")
         assert "\n" not in str(error.value)
 
 

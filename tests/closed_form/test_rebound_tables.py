@@ -63,8 +63,8 @@ def test_collisions_take_a_law_over_a_range(law):
     )
     motion = {"velocity1": [[1.0, 0.0, -2.0], [0.2, 0.0, -1.0]], "normal": [0.0, 0.0, -1.0]}
     exact = carom.collide(pair, **motion)
-    for found, wanted in zip(carom.collide(pair, law=law, **motion), exact, strict=True):
-        np.testing.assert_allclose(found, wanted, rtol=1e-6, atol=1e-9)
+    for actual, wanted in zip(carom.collide(pair, law=law, **motion), exact, strict=True):
+        np.testing.assert_allclose(actual, wanted, rtol=1e-6, atol=1e-9)
     refusals = (
         lambda: law(0.5),
         lambda: law.impulse(0.5),
@@ -125,8 +125,8 @@ def test_panels_find_a_kink_and_a_root():
     patches = fitted(bent, [(0.0, 1.0)], [10], tolerance=1e-10, singular=0.0)
     assert np.min(np.abs(sections(patches)[0] - 1.0 / 3.0)) < 1e-11
     x = np.random.default_rng(SEED).uniform(1e-6, 1.0, 3000)
-    found = np.array([value(patches, each) for each in x])
-    assert np.max(np.abs(found - bent(x).values)) < 1e-9
+    values = np.array([value(patches, each) for each in x])
+    assert np.max(np.abs(values - bent(x).values)) < 1e-9
 
 
 def test_panels_do_not_overlook_a_kink_that_no_branch_tells():

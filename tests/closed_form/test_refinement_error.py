@@ -19,9 +19,9 @@ def test_an_error_of_known_order_is_covered(order):
 def test_slow_convergence_is_recognised():
     """Of order 1/2 changes fall by 0.71 only: their geometric series is the error."""
     quarter, half, whole = (1.0 + (0.01 * n) ** 0.5 for n in (4.0, 2.0, 1.0))
-    found = refinement_error(quarter, half, whole)
-    assert found == pytest.approx(whole - 1.0, rel=1e-9)
-    assert found > 2.0 * abs(whole - half)
+    actual = refinement_error(quarter, half, whole)
+    assert actual == pytest.approx(whole - 1.0, rel=1e-9)
+    assert actual > 2.0 * abs(whole - half)
 
 
 def test_no_convergence_is_told():

@@ -14,7 +14,7 @@ PSI, CHI = np.linspace(0.02, 6.02, 61), np.linspace(0.103, 5.003, 50)
 
 
 @pytest.fixture(scope="module")
-def found():
+def regimes():
     return carom.regime_map(PSI, CHI)
 
 
@@ -24,22 +24,22 @@ def coarse():
     return carom.regime_map(np.linspace(0.1, 6.0, 9), np.linspace(0.2, 4.8, 9))
 
 
-def curves(found):
+def curves(regimes):
     """Yield the sequences on both sides of every border, and its points."""
-    points = np.column_stack([found.border_psi, found.border_chi])
-    for number in range(found.sizes["border_curve"]):
-        sides = {str(found[name].values[number]) for name in ("border_left", "border_right")}
-        yield sides, points[found.border_number.values == number]
+    points = np.column_stack([regimes.border_psi, regimes.border_chi])
+    for number in range(regimes.sizes["border_curve"]):
+        sides = {str(regimes[name].values[number]) for name in ("border_left", "border_right")}
+        yield sides, points[regimes.border_number.values == number]
 
 
-def frame_of(found):
+def frame_of(regimes):
     """Return the limits of a map: the least psi_1 and chi, the largest."""
-    return np.transpose([limits(found, name) for name in ("psi_in", "chi")])
+    return np.transpose([limits(regimes, name) for name in ("psi_in", "chi")])
 
 
-def inner(found, line):
+def inner(regimes, line):
     """Return the points of a border but for its ends, where these meet others inside the map."""
-    ends = [np.any(np.isin(point, frame_of(found))) for point in (line[0], line[-1])]
+    ends = [np.any(np.isin(point, frame_of(regimes))) for point in (line[0], line[-1])]
     return line[0 if ends[0] else 1 : len(line) if ends[1] else -1]
 
 
@@ -50,11 +50,11 @@ def sequence(psi, chi, losses=None):
     return ", ".join(f"{phase.kind}{signs[phase.sign]}" for phase in solution.phases)
 
 
-def distances(points, found):
+def distances(points, regimes):
     """Return how far points are from the next border, in shares of the axes."""
-    unit = np.ptp(frame_of(found), axis=0)
+    unit = np.ptp(frame_of(regimes), axis=0)
     nearest = np.full(len(points), np.inf)
-    for _, line in curves(found):
+    for _, line in curves(regimes):
         for start, end in pairwise(line / unit):
             along, out = end - start, points / unit - start
             share = np.clip(out @ along / max(along @ along, 1e-300), 0.0, 1.0)
@@ -74,18 +74,18 @@ BORDERS = {
 
 
 @pytest.mark.parametrize("name", BORDERS)
-def test_borders_are_those_in_closed_form(found, name):
+def test_borders_are_those_in_closed_form(regimes, name):
     """Between the ends of curves, where several borders meet, to the tolerance, and all along."""
     one, other, start, slope = BORDERS[name]
     points = [
-        inner(found, line)
-        for sides, line in curves(found)
+        inner(regimes, line)
+        for sides, line in curves(regimes)
         for a, b in (sorted(sides), sorted(sides, reverse=True))
         if one(a) and other(b)
     ]
     psi, chi = np.concatenate(points).T
     error = np.abs(psi - (start + slope * chi))
-    tolerance = float(found.border_tolerance)
+    tolerance = float(regimes.border_tolerance)
     assert np.all(error <= max(1.0, slope) * tolerance * np.maximum(1.0, psi))
     seen = np.sort(chi)
     last = min(CHI[-1], (PSI[-1] - start) / slope) if slope else CHI[-1]
@@ -95,21 +95,21 @@ def test_borders_are_those_in_closed_form(found, name):
     assert np.diff(seen).max() < 0.2
 
 
-def test_the_rebound_sticks_on_both_sides_of_chi_one_half(found):
+def test_the_rebound_sticks_on_both_sides_of_chi_one_half(regimes):
     """Below psi_1 = 1 the first slip changes its sign at chi = 1/2, where nothing slips."""
     wanted = {"stick, slip +, gross slip +", "stick, slip -, gross slip -"}
-    (line,) = [points for sides, points in curves(found) if sides == wanted]
-    assert np.abs(inner(found, line)[:, 1] - 0.5).max() <= float(found.border_tolerance)
+    (line,) = [points for sides, points in curves(regimes) if sides == wanted]
+    assert np.abs(inner(regimes, line)[:, 1] - 0.5).max() <= float(regimes.border_tolerance)
 
 
-@pytest.mark.parametrize("which", ["found", "coarse"])
+@pytest.mark.parametrize("which", ["regimes", "coarse"])
 def test_sequences_beside_borders_are_those_of_single_impacts(which, request):
     """A step of at most two tolerances, along psi_1 or chi, leads from one side to the other."""
-    given = request.getfixturevalue(which)
-    steps = np.array([-2.0, -1.0, -0.5, 0.5, 1.0, 2.0]) * float(given.border_tolerance)
+    values = request.getfixturevalue(which)
+    steps = np.array([-2.0, -1.0, -0.5, 0.5, 1.0, 2.0]) * float(values.border_tolerance)
     rng, checked = np.random.default_rng(5), 0
-    for sides, line in curves(given):
-        for psi, chi in rng.permutation(inner(given, line))[:4]:
+    for sides, line in curves(values):
+        for psi, chi in rng.permutation(inner(values, line))[:4]:
             beside = {sequence(psi + x, chi) for x in steps * max(1.0, psi)}
             beside |= {sequence(psi, chi + y) for y in steps * max(1.0, chi)}
             assert sides <= beside, (psi, chi)
@@ -117,51 +117,51 @@ def test_sequences_beside_borders_are_those_of_single_impacts(which, request):
     assert checked > 40
 
 
-@pytest.mark.parametrize("which", ["found", "coarse"])
+@pytest.mark.parametrize("which", ["regimes", "coarse"])
 def test_points_have_the_sequence_of_the_region_that_holds_them(which, request):
     """Away from borders; every point is in one region, by the rule of even and odd crossings."""
-    given = request.getfixturevalue(which)
-    points = np.random.default_rng(77).uniform(*frame_of(given), (500, 2))
-    points = points[distances(points, given) > 1e-3]
+    values = request.getfixturevalue(which)
+    points = np.random.default_rng(77).uniform(*frame_of(values), (500, 2))
+    points = points[distances(points, values) > 1e-3]
     assert len(points) > 450
-    shapes = regions(given)
+    shapes = regions(values)
     inside = np.array([region.holds(points) for region in shapes])
     np.testing.assert_array_equal(inside.sum(axis=0), 1)
     for (psi, chi), number in zip(points, inside.argmax(axis=0), strict=True):
         assert sequence(psi, chi) == shapes[number].name, (psi, chi)
 
 
-@pytest.mark.parametrize("which", ["found", "coarse"])
+@pytest.mark.parametrize("which", ["regimes", "coarse"])
 def test_regions_fill_the_map(which, request):
-    given = request.getfixturevalue(which)
-    whole = np.prod(np.ptp(frame_of(given), axis=0))
-    filled = sum(area(ring) for region in regions(given) for ring in region.rings)
+    values = request.getfixturevalue(which)
+    whole = np.prod(np.ptp(frame_of(values), axis=0))
+    filled = sum(area(ring) for region in regions(values) for ring in region.rings)
     assert filled == pytest.approx(whole, rel=1e-12)
 
 
 def test_regimes_between_points_are_found(coarse):
     """Borders know more sequences than the points of the map."""
-    known = set(coarse.sequence_name.values.tolist())
+    values = set(coarse.sequence_name.values.tolist())
     met = {name for sides, _ in curves(coarse) for name in sides}
-    assert len(met - known) > 3
-    assert known <= met
+    assert len(met - values) > 3
+    assert values <= met
 
 
 def test_what_is_too_narrow_for_an_outline_is_met():
     """At chi = 4 the last slip reverses in less than a thousandth of psi_1 beyond 0.4."""
-    given = carom.regime_map(np.linspace(0.05, 18.0, 80), np.linspace(3.0, 5.0, 41))
-    met = set(given.sequence_met.values.tolist())
+    regimes = carom.regime_map(np.linspace(0.05, 18.0, 80), np.linspace(3.0, 5.0, 41))
+    met = set(regimes.sequence_met.values.tolist())
     assert {"stick, slip -, slip +, slip -", "stick, slip -, slip +, slip -, slip +"} <= met
-    assert {name for sides, _ in curves(given) for name in sides} <= met
-    assert set(given.sequence_name.values.tolist()) <= met
+    assert {name for sides, _ in curves(regimes) for name in sides} <= met
+    assert set(regimes.sequence_name.values.tolist()) <= met
     assert sequence(0.4002, 4.0) in met
 
 
-def test_curves_are_the_same_whatever_the_order_of_the_points(found):
+def test_curves_are_the_same_whatever_the_order_of_the_points(regimes):
     again = carom.regime_map(PSI[::-1], CHI[::-1])
     for name in ("border_psi", "border_chi"):
-        np.testing.assert_array_equal(np.sort(again[name]), np.sort(found[name]))
-    assert [r.name for r in regions(again)] == [r.name for r in regions(found)]
+        np.testing.assert_array_equal(np.sort(again[name]), np.sort(regimes[name]))
+    assert [r.name for r in regions(again)] == [r.name for r in regions(regimes)]
 
 
 def test_a_map_without_cells_has_no_borders():
@@ -170,10 +170,10 @@ def test_a_map_without_cells_has_no_borders():
     assert [region.name for region in regions(row)]
 
 
-def test_borders_are_stored_and_read(found, tmp_path):
-    stored = carom.read(carom.save(found, tmp_path / "map.nc"))
-    for name in (name for name in found.variables if name.startswith("border_")):
-        np.testing.assert_array_equal(stored[name], found[name])
+def test_borders_are_stored_and_read(regimes, tmp_path):
+    stored = carom.read(carom.save(regimes, tmp_path / "map.nc"))
+    for name in (name for name in regimes.variables if name.startswith("border_")):
+        np.testing.assert_array_equal(stored[name], regimes[name])
         assert stored[name].attrs["long_name"]
     empty = carom.read(carom.save(carom.regime_map([1.0], [1.0]), tmp_path / "one.nc"))
     assert empty.sizes["border_point"] == 0
@@ -182,14 +182,14 @@ def test_borders_are_stored_and_read(found, tmp_path):
 def test_with_losses_sliding_begins_at_2_chi_1_plus_e_less_e():
     """And stick after gross slip ends at 2 chi; to the coarser tolerance of maps with losses."""
     losses, e = carom.KelvinVoigt(restitution=0.8), 0.8
-    given = carom.regime_map(np.linspace(1.2, 3.4, 6), [0.7, 1.0, 1.4], losses=losses)
-    slides = [inner(given, line) for sides, line in curves(given) if "gross slip +" in sides]
+    regimes = carom.regime_map(np.linspace(1.2, 3.4, 6), [0.7, 1.0, 1.4], losses=losses)
+    slides = [inner(regimes, line) for sides, line in curves(regimes) if "gross slip +" in sides]
     grips = [
-        inner(given, line)
-        for sides, line in curves(given)
+        inner(regimes, line)
+        for sides, line in curves(regimes)
         if {name.split(", ")[1][:5] for name in sides if ", " in name} == {"stick", "slip "}
     ]
-    tolerance = float(given.border_tolerance)
+    tolerance = float(regimes.border_tolerance)
     for lines, start, slope in ((slides, -e, 2.0 * (1.0 + e)), (grips, 0.0, 2.0)):
         psi, chi = np.concatenate(lines).T
         assert len(psi) > 3

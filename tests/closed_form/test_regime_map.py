@@ -11,8 +11,8 @@ def test_regime_map_agrees_with_single_impacts():
     """Codes name the phases of `solve`; the first phase follows from psi_1 < 1 alone."""
     rng = np.random.default_rng(1979)
     chi, psi = np.sort(rng.uniform(0.1, 4.0, 6)), np.sort(rng.uniform(0.05, 9.0, 7))
-    found = regime_map(psi, chi)
-    names = found.sequence_name.values[found.sequence.values]
+    regimes = regime_map(psi, chi)
+    names = regimes.sequence_name.values[regimes.sequence.values]
     for (row, column), name in np.ndenumerate(names):
         phases = carom.solve(psi[column], chi[row]).phases
         assert [word.split(" ")[0] for word in name.split(", ")] == [
@@ -23,10 +23,10 @@ def test_regime_map_agrees_with_single_impacts():
 
 
 def test_the_commonest_sequence_comes_first():
-    found = regime_map(np.linspace(2.0, 9.0, 8), [0.5, 0.7, 3.0])
-    counts = np.bincount(found.sequence.values.ravel())
+    regimes = regime_map(np.linspace(2.0, 9.0, 8), [0.5, 0.7, 3.0])
+    counts = np.bincount(regimes.sequence.values.ravel())
     assert np.all(np.diff(counts) <= 0)
-    assert counts.size == found.sizes["sequence_name"]
+    assert counts.size == regimes.sizes["sequence_name"]
 
 
 def test_progress_counts_the_rows():

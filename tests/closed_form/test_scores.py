@@ -142,8 +142,8 @@ def test_known_errors_are_found_where_they_are():
     np.testing.assert_allclose(result.points.error, added, rtol=0.0, atol=1e-14)
     assert result.points.worst == np.argmax(np.abs(added))
     expected = [np.abs(added).max(), np.sqrt(np.mean(added**2)), added.mean()]
-    found = [result.max_error, result.rms_error, result.mean_error]
-    np.testing.assert_allclose(found, expected, rtol=1e-10)
+    actual = [result.max_error, result.rms_error, result.mean_error]
+    np.testing.assert_allclose(actual, expected, rtol=1e-10)
 
 
 def test_sliding_law_is_exact_where_all_slips():

@@ -29,11 +29,11 @@ def test_sliding_throughout_is_known_in_closed_form():
     e = 0.6
     border = 2.0 * CHI * (1.0 + e) - e
     psi = border + np.array([1e-6, 3.0, 6.0])
-    given = {"psi_1": psi, "psi_2": psi - 2.0 * (1.0 + e) * CHI}
-    result = score(given, chi=CHI, restitution=e)
+    inputs = {"psi_1": psi, "psi_2": psi - 2.0 * (1.0 + e) * CHI}
+    result = score(inputs, chi=CHI, restitution=e)
     assert result.max_error < 1e-12
     assert [group.name for group in result.groups] == [REGIMES[3]]
-    note = score(given, chi=1.1 * CHI, restitution=e).notes[0]
+    note = score(inputs, chi=1.1 * CHI, restitution=e).notes[0]
     assert note == (
         "in gross slip psi_1 - psi_2 is 0.9091 times 3.2 chi: is chi 0.9091 times as large?"
     )
@@ -63,15 +63,15 @@ def test_a_damped_law_has_the_error_of_the_ranking():
 
 
 def test_another_restitution_is_named():
-    given = velocities(PAIR, 0.7)
-    result = score(given, case=PAIR, restitution=0.8)
+    values = velocities(PAIR, 0.7)
+    result = score(values, case=PAIR, restitution=0.8)
     (audit,) = (f for f in result.audit if f.name == "restitution error")
     assert audit.value == pytest.approx(0.1, abs=1e-12)
     assert "e = 0.7, not 0.8" in audit.verdict
     assert "change the damping" in audit.verdict
-    assert "restitution error" in score(given, case=PAIR).failures
-    del given["normal_speed_out"]
-    assert score(given, case=PAIR, restitution=0.7).notes == (
+    assert "restitution error" in score(values, case=PAIR).failures
+    del values["normal_speed_out"]
+    assert score(values, case=PAIR, restitution=0.7).notes == (
         "normal_speed_out is not given; it was taken as 0.7 normal_speed, e = 0.7",
     )
 
@@ -79,8 +79,8 @@ def test_another_restitution_is_named():
 def test_the_case_tells_the_restitution_as_well():
     hit = carom.impact(PAIR, **MOTION, losses=viscous(0.8))
     case = BODIES | MOTION | {"restitution": 0.8}
-    given = forces(hit)
-    for one in (score(given, case=case), score(given, case=BODIES | MOTION, restitution="80 %")):
+    values = forces(hit)
+    for one in (score(values, case=case), score(values, case=BODIES | MOTION, restitution="80 %")):
         assert one.restitution == 0.8
         assert one.max_error <= 1e-8
 
@@ -91,14 +91,14 @@ def test_the_results_tell_the_restitution_as_well(tmp_path):
     rows = zip(*curve(np.array([0.5, 1.5, 3.0, 5.0]), 0.8).values(), strict=True)
     lines = ["psi_1,psi_2", *(f"{float(psi)!r},{float(out)!r}" for psi, out in rows)]
     file.write_text(f"# case: {json.dumps(own)}\n" + "\n".join(lines))
-    for given in ({}, {"chi": PAIR.chi}, {"case": BODIES}, {"case": own}, {"case": PAIR}):
-        assert score(file, **given).restitution == 0.8
+    for inputs in ({}, {"chi": PAIR.chi}, {"case": BODIES}, {"case": own}, {"case": PAIR}):
+        assert score(file, **inputs).restitution == 0.8
     for case in (BODIES | {"restitution": 0.9}, carom.impact(PAIR, **MOTION)):
         refused(r"^restitution: the case and the results have 0\.8 and", score, file, case=case)
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("inputs", "message"),
     [
         ({"case": PAIR, "restitution": 0.0}, "restitution: 0"),
         ({"case": PAIR, "restitution": 1.1}, "restitution: 1.1"),
@@ -112,7 +112,7 @@ def test_the_results_tell_the_restitution_as_well(tmp_path):
         ),
     ],
 )
-def test_what_cannot_be_compared_is_refused(given, message):
+def test_what_cannot_be_compared_is_refused(inputs, message):
     with pytest.raises(carom.InputError) as error:
-        score(velocities(PAIR, 0.9, number=3), **given)
+        score(velocities(PAIR, 0.9, number=3), **inputs)
     assert message in str(error.value)

@@ -42,21 +42,21 @@ def pulse_of(function, highest=40.0):
 @pytest.mark.parametrize("nu", [1.0, 1.5, 2.0])
 def test_powers_of_a_sine_have_the_spectrum_of_the_closed_form(nu):
     cycles = np.linspace(0.0, 40.0, 333)
-    found = pulse_of(lambda t: np.sin(np.pi * t) ** nu).transform(cycles)[0]
+    actual = pulse_of(lambda t: np.sin(np.pi * t) ** nu).transform(cycles)[0]
     expected = sine_power(nu, cycles) * np.exp(-1j * np.pi * cycles)
-    np.testing.assert_allclose(found, expected, atol=2e-14)
+    np.testing.assert_allclose(actual, expected, atol=2e-14)
 
 
 @pytest.mark.parametrize("nu", [1.0, 1.5, 2.0])
 def test_corners_of_powers_of_a_sine(nu):
     pulse = pulse_of(lambda t: np.sin(np.pi * t) ** nu)
-    found = corners(pulse, 0, 1.0, float(widest(pulse, 1.0, 40.0)[0]))
+    actual = corners(pulse, 0, 1.0, float(widest(pulse, 1.0, 40.0)[0]))
     whole = sine_power(nu, 0.0)
-    for share, corner in ((0.5**0.5, found.corner), (0.5, found.half)):
+    for share, corner in ((0.5**0.5, actual.corner), (0.5, actual.half)):
         expected = brentq(lambda f, share=share: sine_power(nu, f) - share * whole, 0.1, 1.2)
         assert corner == pytest.approx(expected, rel=1e-12)
-    assert found.peak == 0.0
-    assert found.notch == pytest.approx(1.0 + 0.5 * nu, rel=1e-9)
+    assert actual.peak == 0.0
+    assert actual.notch == pytest.approx(1.0 + 0.5 * nu, rel=1e-9)
 
 
 def test_kinks_that_nobody_knows_are_found():
@@ -83,23 +83,23 @@ def head_on(pair):
 
 def test_the_normal_force_is_hertz_pulse(head_on):
     cycles = np.linspace(0.0, 10.0, 41)
-    found = head_on.spectrum(cycles / head_on.duration)
-    parts = found.normal_spectrum_real.values + 1j * found.normal_spectrum_imag.values
-    middle = parts * np.exp(1j * np.pi * cycles) / float(found.normal_impulse)
+    data = head_on.spectrum(cycles / head_on.duration)
+    parts = data.normal_spectrum_real.values + 1j * data.normal_spectrum_imag.values
+    middle = parts * np.exp(1j * np.pi * cycles) / float(data.normal_impulse)
     np.testing.assert_allclose(middle, [hertz(each) for each in cycles], atol=1e-11)
 
 
 def test_corners_of_hertz_pulse(head_on):
     """In units of 1/t_c: 0.6696 at -3 dB, 0.9278 at -6 dB, and the first zero at 1.8040."""
-    found = head_on.spectrum(n=2)
-    for share, name, told in (
+    data = head_on.spectrum(n=2)
+    for share, name, answer in (
         (0.5**0.5, "normal_corner_frequency", 0.669616),
         (0.5, "normal_half_frequency", 0.927810),
         (0.0, "normal_notch_frequency", 1.804028),
     ):
         expected = brentq(lambda f, share=share: hertz(f) - share, 0.3, 2.0, xtol=1e-12)
-        assert float(found[name]) * head_on.duration == pytest.approx(expected, rel=1e-9)
-        assert expected == pytest.approx(told, abs=1e-6)
+        assert float(data[name]) * head_on.duration == pytest.approx(expected, rel=1e-9)
+        assert expected == pytest.approx(answer, abs=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -146,24 +146,24 @@ ERRORS = {"elastic": 1e-12, "viscous": 1e-11, "yielding": 1e-5, "relaxing": 3e-6
 def oblique(law="elastic", mirror=1.0, friction=0.2, **motion):
     ball = carom.Sphere(radius="5 mm", material="steel")
     pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=friction)
-    given = {"normal_speed": 1.7, "tangential_speed": 1.0, "spin": 20.0} | motion
-    given |= {name: mirror * given[name] for name in ("tangential_speed", "spin")}
-    return carom.impact(pair, **given, **LAWS[law])
+    inputs = {"normal_speed": 1.7, "tangential_speed": 1.0, "spin": 20.0} | motion
+    inputs |= {name: mirror * inputs[name] for name in ("tangential_speed", "spin")}
+    return carom.impact(pair, **inputs, **LAWS[law])
 
 
 @pytest.mark.parametrize("law", LAWS)
 def test_at_zero_stand_the_impulses(law):
     """Of both forces, m_n V_1 (1 + e) and what changes V_x; of the moment what changes the spin."""
     hit = oblique(law)
-    found, ball = hit.spectrum([0.0]), hit.pair.first
+    actual, ball = hit.spectrum([0.0]), hit.pair.first
     normal = hit.pair.normal_mass * hit.normal_speed * (1.0 + hit.normal_restitution)
     turned = ball.mass * ball.gyration_ratio * ball.radius**2 * (hit.spin - hit.spin_out)
     error = ERRORS[law]
-    assert float(found.normal_impulse) == normal
-    assert found.normal_spectrum_real.values[0] == pytest.approx(normal, rel=error)
-    assert abs(found.tangential_spectrum_real.values[0] - hit.tangential_impulse) < error * normal
-    assert abs(found.moment_spectrum_real.values[0] - turned) < error * normal * ball.radius
-    assert found.normal_spectrum_imag.values[0] == 0.0
+    assert float(actual.normal_impulse) == normal
+    assert actual.normal_spectrum_real.values[0] == pytest.approx(normal, rel=error)
+    assert abs(actual.tangential_spectrum_real.values[0] - hit.tangential_impulse) < error * normal
+    assert abs(actual.moment_spectrum_real.values[0] - turned) < error * normal * ball.radius
+    assert actual.normal_spectrum_imag.values[0] == 0.0
 
 
 def test_impulses_of_random_impacts():
@@ -175,9 +175,9 @@ def test_impulses_of_random_impacts():
         pair = carom.Pair(ball, plate, friction=rng.uniform(0.02, 1.0))
         slip = rng.uniform(-6.0, 6.0) * pair.friction / pair.kappa
         hit = carom.impact(pair, normal_speed=1.0, tangential_speed=slip)
-        found = hit.spectrum([0.0])
-        off = found.tangential_spectrum_real.values[0] - hit.tangential_impulse
-        assert abs(off) < 1e-11 * float(found.normal_impulse)
+        data = hit.spectrum([0.0])
+        off = data.tangential_spectrum_real.values[0] - hit.tangential_impulse
+        assert abs(off) < 1e-11 * float(data.normal_impulse)
 
 
 @cache
@@ -190,14 +190,14 @@ def test_dense_sums_of_the_history_agree(law):
     """The rule of the trapezium on 60,001 times, and nothing of panels or phases."""
     hit, history = oblique(law), dense(law)
     frequencies = np.linspace(0.0, 5.0, 11) / hit.duration
-    found = hit.spectrum(frequencies)
+    data = hit.spectrum(frequencies)
     turn = np.exp(-2j * np.pi * np.outer(frequencies, history.time.values))
     for name in ("normal", "tangential"):
         expected = np.trapezoid(turn * history[f"{name}_force"].values, history.time.values)
-        parts = found[f"{name}_spectrum_real"] + 1j * found[f"{name}_spectrum_imag"]
-        atol = 2e-7 * float(found.normal_impulse)
+        parts = data[f"{name}_spectrum_real"] + 1j * data[f"{name}_spectrum_imag"]
+        atol = 2e-7 * float(data.normal_impulse)
         np.testing.assert_allclose(parts.values, expected, atol=atol)
-        np.testing.assert_allclose(found[f"{name}_spectrum"], np.abs(expected), atol=atol)
+        np.testing.assert_allclose(data[f"{name}_spectrum"], np.abs(expected), atol=atol)
 
 
 @pytest.mark.parametrize("law", ["elastic", "viscous", "yielding"])
@@ -205,10 +205,10 @@ def test_parseval(law):
     """Frequencies k/(2 t_c) are a Fourier series over twice the contact: sums of squares agree."""
     hit = oblique(law)
     step = 0.5 / hit.duration
-    found = hit.spectrum(step * np.arange(1200))
+    data = hit.spectrum(step * np.arange(1200))
     history = dense(law)
     for name in ("normal", "tangential"):
-        power = found[f"{name}_spectrum"].values ** 2
+        power = data[f"{name}_spectrum"].values ** 2
         expected = np.trapezoid(history[f"{name}_force"].values ** 2, history.time.values)
         assert step * (2.0 * power.sum() - power[0]) == pytest.approx(expected, rel=3e-6)
 
@@ -218,11 +218,11 @@ def test_the_inverse_transform_is_the_force():
     hit = oblique()
     count = 4096
     step = 0.5 / hit.duration
-    found = hit.spectrum(step * np.arange(count // 2 + 1)[:1999])
+    data = hit.spectrum(step * np.arange(count // 2 + 1)[:1999])
     history = hit.history(count // 2 + 1)
     for name in ("normal", "tangential"):
         parts = np.zeros(count // 2 + 1, complex)
-        parts[:1999] = (found[f"{name}_spectrum_real"] + 1j * found[f"{name}_spectrum_imag"]).values
+        parts[:1999] = (data[f"{name}_spectrum_real"] + 1j * data[f"{name}_spectrum_imag"]).values
         force = np.fft.irfft(parts, count) * count * step
         expected = history[f"{name}_force"].values
         np.testing.assert_allclose(force[: count // 2 + 1], expected, atol=2e-4 * hit.max_force)
@@ -231,18 +231,18 @@ def test_the_inverse_transform_is_the_force():
 
 def test_frequencies_scale_with_the_duration():
     """The same psi_1 and chi at another size, stiffness and speed: the same numbers times t_c."""
-    told = []
+    items = []
     for radius, speed, young in ((1e-3, 0.1, 1e9), (0.2, 3.0, 2e11)):
         stuff = carom.Material(young=young, poisson=0.3, density=4000.0)
         ball = carom.Sphere(radius=radius, material=stuff)
         pair = carom.Pair(ball, carom.HalfSpace(material=stuff), friction=0.3)
         hit = carom.impact(pair, normal_speed=speed, tangential_speed=0.4 * speed)
-        found = hit.spectrum()
-        corners_ = [float(found[name]) for name in found if str(name).endswith("_frequency")]
-        shape = [found[f"{name}_spectrum"].values[::50] for name in ("normal", "tangential")]
-        scale = float(found.normal_impulse)
-        told.append(np.concatenate([np.multiply(corners_, hit.duration), np.ravel(shape) / scale]))
-    np.testing.assert_allclose(*told, rtol=1e-6, atol=1e-11)
+        data = hit.spectrum()
+        corners_ = [float(data[name]) for name in data if str(name).endswith("_frequency")]
+        shape = [data[f"{name}_spectrum"].values[::50] for name in ("normal", "tangential")]
+        scale = float(data.normal_impulse)
+        items.append(np.concatenate([np.multiply(corners_, hit.duration), np.ravel(shape) / scale]))
+    np.testing.assert_allclose(*items, rtol=1e-6, atol=1e-11)
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -257,22 +257,22 @@ def test_a_mirrored_impact_has_the_mirrored_spectrum(law):
 
 
 def test_without_friction_nothing_is_tangential():
-    found = oblique(friction=0.0).spectrum(n=11)
-    assert not found.tangential_spectrum.values.any()
-    assert not found.moment_spectrum.values.any()
-    assert np.isnan(float(found.tangential_corner_frequency))
-    assert float(found.normal_corner_frequency) > 0.0
+    data = oblique(friction=0.0).spectrum(n=11)
+    assert not data.tangential_spectrum.values.any()
+    assert not data.moment_spectrum.values.any()
+    assert np.isnan(float(data.tangential_corner_frequency))
+    assert float(data.normal_corner_frequency) > 0.0
 
 
 def test_a_force_that_turns_has_its_largest_amplitude_above_zero():
     """Nearly no impulse is left of a swing to and fro: corners are told from the largest value."""
     hit = oblique(tangential_speed=0.15, spin=0.0)
-    found = hit.spectrum(n=2001)
-    amplitude = found.tangential_spectrum.values
+    data = hit.spectrum(n=2001)
+    amplitude = data.tangential_spectrum.values
     assert amplitude[0] < 0.5 * amplitude.max()
-    place = found.frequency.values[amplitude.argmax()]
-    assert float(found.tangential_peak_frequency) == pytest.approx(place, rel=1e-3)
-    at = hit.spectrum([float(found[f"tangential_{each}_frequency"]) for each in ("corner", "half")])
+    place = data.frequency.values[amplitude.argmax()]
+    assert float(data.tangential_peak_frequency) == pytest.approx(place, rel=1e-3)
+    at = hit.spectrum([float(data[f"tangential_{each}_frequency"]) for each in ("corner", "half")])
     shares = at.tangential_spectrum.values / amplitude.max()
     np.testing.assert_allclose(shares, [0.5**0.5, 0.5], rtol=1e-5)
-    assert float(found.tangential_peak_frequency) < at.frequency.values[0] < at.frequency.values[1]
+    assert float(data.tangential_peak_frequency) < at.frequency.values[0] < at.frequency.values[1]

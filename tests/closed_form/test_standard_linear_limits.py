@@ -16,20 +16,20 @@ def impacts():
 def test_little_extra_modulus_is_the_elastic_impact():
     """The loss is linear in g, to the elastic solver's psi_2 within what is promised."""
     psi, chi = impacts()
-    found = [lossy_rebounds(psi, chi, LossNumbers(Loss.RELAXING, 0.7, g)) for g in (2e-6, 1e-6)]
-    limit = 2.0 * found[1].psi_out - found[0].psi_out
+    values = [lossy_rebounds(psi, chi, LossNumbers(Loss.RELAXING, 0.7, g)) for g in (2e-6, 1e-6)]
+    limit = 2.0 * values[1].psi_out - values[0].psi_out
     assert limit == pytest.approx(carom.rebound(psi, chi), abs=2e-6)
-    assert found[1].restitution == pytest.approx(np.ones(12), abs=2e-6)
+    assert values[1].restitution == pytest.approx(np.ones(12), abs=2e-6)
 
 
 @pytest.mark.parametrize("g", [0.5, 3.0])
 def test_no_time_to_relax_is_the_elastic_impact_of_the_modulus_at_once(g):
     """psi_2 does not depend on the modulus; times are shorter by (1 + g)^(2/5)."""
     psi, chi = impacts()
-    found = lossy_rebounds(psi, chi, LossNumbers(Loss.RELAXING, 1e7, g))
-    assert found.psi_out == pytest.approx(carom.rebound(psi, chi), abs=3e-6)
-    assert found.duration == pytest.approx(2.9432751843 * (1.0 + g) ** -0.4, rel=1e-5)
-    assert found.max_force == pytest.approx((1.0 + g) ** 0.4, rel=1e-5)
+    rebounds = lossy_rebounds(psi, chi, LossNumbers(Loss.RELAXING, 1e7, g))
+    assert rebounds.psi_out == pytest.approx(carom.rebound(psi, chi), abs=3e-6)
+    assert rebounds.duration == pytest.approx(2.9432751843 * (1.0 + g) ** -0.4, rel=1e-5)
+    assert rebounds.max_force == pytest.approx((1.0 + g) ** 0.4, rel=1e-5)
 
 
 def test_fast_relaxation_is_kelvin_voigt():

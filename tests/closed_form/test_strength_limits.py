@@ -21,11 +21,11 @@ def on_axis(depth, poisson):
 @pytest.mark.parametrize("poisson", [0.1, 0.2, 0.3, 0.4])
 def test_head_on_the_stress_is_that_on_the_axis(poisson):
     """Without friction von Mises and Tresca agree, at the depth where (3.45) is largest."""
-    known = minimize_scalar(lambda z: on_axis(z, poisson), bounds=(0.2, 1.0), method="bounded")
+    minimum = minimize_scalar(lambda z: on_axis(z, poisson), bounds=(0.2, 1.0), method="bounded")
     mises, shear, _ = peaks(Contacts(carom.solve(0.0, 1.44), 0.0), poisson)
-    assert mises.value == pytest.approx(-known.fun, rel=1e-5)
-    assert shear.value == pytest.approx(-0.5 * known.fun, rel=1e-5)
-    assert mises.z == pytest.approx(known.x, abs=3e-3)
+    assert mises.value == pytest.approx(-minimum.fun, rel=1e-5)
+    assert shear.value == pytest.approx(-0.5 * minimum.fun, rel=1e-5)
+    assert mises.z == pytest.approx(minimum.x, abs=3e-3)
     assert mises.x == mises.y == 0.0
     assert mises.time == pytest.approx(0.5 * carom.solve(0.0, 1.44).duration)
 
@@ -49,9 +49,9 @@ def test_shallow_flaws_feel_the_tension_at_the_edge(friction):
     """K = 1.1215 sigma sqrt(pi c) where the stress hardly falls: c of 1e-10 of the contact."""
     contacts, flaw = Contacts(SLIDING, friction), 1e-10
     tension = peaks(contacts, 0.23)[2].value
-    found = intensity(contacts, 0.23, flaw)
-    assert found.value == pytest.approx(EDGE_CRACK * tension * sqrt(flaw), rel=2e-3)
-    assert found.x == pytest.approx(-1.0, abs=0.01)
+    actual = intensity(contacts, 0.23, flaw)
+    assert actual.value == pytest.approx(EDGE_CRACK * tension * sqrt(flaw), rel=2e-3)
+    assert actual.x == pytest.approx(-1.0, abs=0.01)
 
 
 def test_deep_flaws_obey_auerbachs_law():

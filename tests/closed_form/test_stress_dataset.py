@@ -85,10 +85,10 @@ def test_nothing_is_larger_than_the_largest(psi, chi, friction):
         at[:2000, 2] = 0.0
         at[:1000, 1] = 0.0
 
-        given = {"friction": friction, "poisson": 0.3}
-        stress = stresses(at, profile, **given)
-        worst = peaks.largest(peaks.VON_MISES, profile, **given)
-        pulled = peaks.largest(peaks.TENSION, profile, **given, deepest=0.0)
+        inputs = {"friction": friction, "poisson": 0.3}
+        stress = stresses(at, profile, **inputs)
+        worst = peaks.largest(peaks.VON_MISES, profile, **inputs)
+        pulled = peaks.largest(peaks.TENSION, profile, **inputs, deepest=0.0)
         assert worst.value >= peaks.von_mises(stress).max()
         assert pulled.value >= peaks.principal_stresses(stress[:2000])[:, 0].max()
         assert worst.y == pytest.approx(0.0, abs=1e-6)
@@ -97,21 +97,21 @@ def test_nothing_is_larger_than_the_largest(psi, chi, friction):
 
 def test_maxima_of_a_small_contact():
     """Just after touch a sliding contact has the maxima of any other, scaled."""
-    found = []
+    items = []
     for share in (1e-9, 0.3):
         stress = STEEP.stress(share * STEEP.duration, points=[[0.0, 0.0, 0.0]])
         p_0, b = -float(stress.sigma_zz[0]), float(stress.contact_radius)
         places = [float(stress[f"max_von_mises_{axis}"]) / b for axis in "xz"]
-        found.append([float(stress.max_von_mises) / p_0, float(stress.max_tension) / p_0, *places])
-    assert found[0] == pytest.approx(found[1], rel=1e-6)
+        items.append([float(stress.max_von_mises) / p_0, float(stress.max_tension) / p_0, *places])
+    assert items[0] == pytest.approx(items[1], rel=1e-6)
 
 
 def test_maxima_do_not_depend_on_the_grid():
     """They belong to the body: the same for a grid, another grid, and one point."""
     time = 0.6 * HIT.duration
-    found = [HIT.stress(time), HIT.stress(time, x=[0], z=[1]), HIT.stress(time, points=[[0] * 3])]
+    actual = [HIT.stress(time), HIT.stress(time, x=[0], z=[1]), HIT.stress(time, points=[[0] * 3])]
     for name in ("max_von_mises", "max_von_mises_z", "max_tension", "max_tension_x"):
-        assert len({float(dataset[name]) for dataset in found}) == 1
+        assert len({float(dataset[name]) for dataset in actual}) == 1
 
 
 def test_dataset():

@@ -230,10 +230,10 @@ def test_what_is_no_design_is_refused_in_a_line(make, message):
     refused(message, make)
 
 
-@pytest.mark.parametrize("given", ["glass", np.array("glass"), np.array(["glass"])])
-def test_one_name_is_an_axis_of_one(given):
+@pytest.mark.parametrize("inputs", ["glass", np.array("glass"), np.array(["glass"])])
+def test_one_name_is_an_axis_of_one(inputs):
     """However it is given; its label is a plain text."""
-    (label,) = Grid({"second.material": given}).coords()["second_material"][1]
+    (label,) = Grid({"second.material": inputs}).coords()["second_material"][1]
     assert (type(label), label) == (str, "glass")
 
 

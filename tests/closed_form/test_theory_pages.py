@@ -127,8 +127,8 @@ def test_3_memory_and_traction_determine_each_other():
         return surface.traction(profile, min(sqrt(x * x + w * w), b))
 
     for x in (0.1, 0.6):
-        found = 4 / pi * quad(moment, 0, sqrt(b * b - x * x), args=(x,), epsabs=1e-10)[0]
-        assert found == pytest.approx(float(memory.q(x * x)), abs=1e-8)
+        value = 4 / pi * quad(moment, 0, sqrt(b * b - x * x), args=(x,), epsabs=1e-10)[0]
+        assert value == pytest.approx(float(memory.q(x * x)), abs=1e-8)
     for r in (0.3, 0.9, 2.0):  # (9.4)
         mean = quad(lambda y: surface.displacement(profile, y)[0] * y, 0, r, points=[b], limit=200)
         u_0, u_2 = surface.displacement(profile, r)

@@ -37,7 +37,7 @@ MEASURE = {"max": lambda wrong: np.abs(wrong).max(), "rms": rms}
 @pytest.fixture(scope="module", params=["max", "rms"])
 def tuned(request):
     """Return the measure and the advice for laws with a free parameter, best first."""
-    return request.param, tune(ONE_EACH, chi=CHI, psi=SOME, measure=request.param)
+    return request.param, tune(ONE_EACH, chi=CHI, psi_1=SOME, measure=request.param)
 
 
 def test_linear_spring_against_an_own_scan():
@@ -50,12 +50,12 @@ def test_linear_spring_against_an_own_scan():
     best = fine[worst[1].argmin()]
     assert best == pytest.approx(0.777, abs=2e-3)
     assert worst[1].min() == pytest.approx(0.070, abs=1e-3)
-    (found,) = tune([dem.LinearSpring()], chi=CHI).advice
-    assert found.parameter == "stiffness_ratio"
-    assert found.value == pytest.approx(best, abs=2e-3)
-    assert found.max_error == pytest.approx(worst[1].min(), abs=1e-3)
+    (actual,) = tune([dem.LinearSpring()], chi=CHI).advice
+    assert actual.parameter == "stiffness_ratio"
+    assert actual.value == pytest.approx(best, abs=2e-3)
+    assert actual.max_error == pytest.approx(worst[1].min(), abs=1e-3)
     as_given = np.abs(linear_springs([1.0], PSI, CHI) - exact).max()
-    assert found.before == pytest.approx(as_given, abs=1e-3)
+    assert actual.before == pytest.approx(as_given, abs=1e-3)
 
 
 def test_neighbours_are_worse(tuned):
@@ -68,16 +68,16 @@ def test_neighbours_are_worse(tuned):
         for factor in (0.98, 1.02):
             other = replace(one.law, **{one.parameter: factor * one.value})
             assert cost(error_of(other)) > least, other
-        (given,) = (law for law in ONE_EACH if called(law) == called(one.law))
-        assert one.before == pytest.approx(np.abs(error_of(given)).max(), rel=1e-12)
-        assert cost(error_of(given)) > least
+        (values,) = (law for law in ONE_EACH if called(law) == called(one.law))
+        assert one.before == pytest.approx(np.abs(error_of(values)).max(), rel=1e-12)
+        assert cost(error_of(values)) > least
 
 
 @pytest.mark.parametrize("measure", MEASURE)
 @pytest.mark.parametrize("law", [ONE_EACH[0], ONE_EACH[1], ONE_EACH[5], ONE_EACH[6]], ids=str)
 def test_minima_are_those_of_the_whole_range(law, measure):
     """A finer scan of the whole range, which knows nothing of refinement, finds no better one."""
-    (one,) = tune([law], chi=CHI, psi=FEW, measure=measure).advice
+    (one,) = tune([law], chi=CHI, psi_1=FEW, measure=measure).advice
     _, low, high = FREE[type(law)]
     scan = np.geomspace(low, high, 50) if low > 0.0 else np.linspace(low, high, 50)
     laws = [replace(law, **{one.parameter: value}) for value in scan]
@@ -99,7 +99,7 @@ def test_both_errors_are_told_and_the_best_comes_first(tuned):
 def test_walton_and_braun():
     """Few impacts, as this law is stiff: neighbours are worse, and as given it is, too."""
     psi = np.array([1.0, 2.0, 3.0])
-    (one,) = tune([dem.WaltonBraunLaw()], chi=CHI, psi=psi).advice
+    (one,) = tune([dem.WaltonBraunLaw()], chi=CHI, psi_1=psi).advice
     least = np.abs(error_of(one.law, psi)).max()
     for factor in (0.98, 1.02):
         other = replace(one.law, stiffness_ratio=factor * one.value)
@@ -109,7 +109,7 @@ def test_walton_and_braun():
 
 @pytest.mark.parametrize("law", FIXED, ids=str)
 def test_laws_without_a_parameter_stay_as_they_are(law):
-    (one,) = tune([law], chi=CHI, psi=FEW).advice
+    (one,) = tune([law], chi=CHI, psi_1=FEW).advice
     assert (one.law, one.parameter, one.value) == (law, None, None)
     assert one.before == one.max_error == pytest.approx(np.abs(error_of(law, FEW)).max())
     assert one.rms_error == pytest.approx(rms(error_of(law, FEW)))
@@ -120,7 +120,7 @@ def test_hard_spheres_by_hand():
     psi = np.linspace(0.5, 2.5, 9)
     exact = carom.rebound(psi, CHI)
     beta = -np.sum(psi * exact) / np.sum(psi**2)
-    (one,) = tune([dem.HardSphere()], chi=CHI, psi=psi, measure="rms").advice
+    (one,) = tune([dem.HardSphere()], chi=CHI, psi_1=psi, measure="rms").advice
     assert one.value == pytest.approx(beta, abs=1e-4)
     assert one.before == pytest.approx(np.abs(exact).max(), rel=1e-12)
     assert one.step is None
@@ -129,7 +129,7 @@ def test_hard_spheres_by_hand():
 def test_other_parameters_are_kept():
     """A damping, a variant: only the tuned one moves, and its error is that of the damped law."""
     law = dem.LammpsMindlin("mindlin/force", restitution=0.9, damping="tsuji")
-    (one,) = tune([law], chi=CHI, psi=FEW).advice
+    (one,) = tune([law], chi=CHI, psi_1=FEW).advice
     assert replace(one.law, stiffness=1.0) == law
     assert one.value != 1.0
 
@@ -137,11 +137,12 @@ def test_other_parameters_are_kept():
 def test_kappa_and_chi_reach_the_laws():
     """At twice kappa a spring of the same k_t/k_n is half as stiff for psi: the best is twice."""
     one, two = (
-        tune([dem.LinearSpring()], chi=CHI, kappa=k, psi=FEW).advice[0] for k in (KAPPA, 2 * KAPPA)
+        tune([dem.LinearSpring()], chi=CHI, kappa=k, psi_1=FEW).advice[0]
+        for k in (KAPPA, 2 * KAPPA)
     )
     assert two.value == pytest.approx(2 * one.value, rel=1e-3)
     assert two.max_error == pytest.approx(one.max_error, abs=1e-4)
-    other = tune([dem.LinearSpring()], chi=1.2, psi=FEW)
+    other = tune([dem.LinearSpring()], chi=1.2, psi_1=FEW)
     assert (other.chi, other.kappa) == (1.2, pytest.approx(4.8 / 7))
     advice = other.advice[0]
     assert advice.max_error == pytest.approx(np.abs(error_of(advice.law, FEW, 1.2)).max())
@@ -157,7 +158,7 @@ def test_steps_cost_a_tenth_of_what_is_left(tuned):
 
 
 def test_record_and_table_hold_the_advice():
-    tuning = tune([dem.LinearSpring(), dem.ThorntonLaw()], chi=CHI, psi=FEW)
+    tuning = tune([dem.LinearSpring(), dem.ThorntonLaw()], chi=CHI, psi_1=FEW)
     record = tuning.to_dict()
     assert record["psi_in"] == [FEW.min(), FEW.max()]
     for row, one in zip(record["laws"], tuning.advice, strict=True):
@@ -171,10 +172,10 @@ def test_record_and_table_hold_the_advice():
 
 
 def test_progress_is_told():
-    told = []
+    entries = []
     laws = [dem.HardSphere(), dem.HardSphere(0.2), dem.HardSphere(0.4)]
-    tune(laws, chi=CHI, psi=[1.0], progress=lambda done, whole: told.append((done, whole)))
-    assert told == [(1, 3), (2, 3), (3, 3)]
+    tune(laws, chi=CHI, psi_1=[1.0], progress=lambda done, whole: entries.append((done, whole)))
+    assert entries == [(1, 3), (2, 3), (3, 3)]
 
 
 @pytest.mark.parametrize(
@@ -183,19 +184,19 @@ def test_progress_is_told():
         ({"laws": ["mindlin"]}, "law: 'mindlin' .*must be a contact law"),
         ({"chi": 0.0}, "chi: 0.0 .*positive"),
         ({"kappa": -1.0}, "kappa: -1.0 .*positive"),
-        ({"psi": [1.0, np.nan]}, "psi: .*finite"),
+        ({"psi_1": [1.0, np.nan]}, "psi_1: .*finite"),
         ({"measure": "mean"}, "measure: 'mean' .*must be max or rms"),
     ],
 )
 def test_refused(options, message):
-    given = {"laws": [dem.HardSphere()], "chi": CHI} | options
+    inputs = {"laws": [dem.HardSphere()], "chi": CHI} | options
     with pytest.raises(carom.InputError, match=message):
-        tune(**given)
+        tune(**inputs)
 
 
 @pytest.mark.parametrize("chi", [0.4, 6.0])
 def test_tuning_never_makes_a_law_worse(chi):
     """At any chi: k_t/k_n is sought around that of the bodies, 4 chi/7."""
     laws = [dem.LinearSpring(), dem.StrongeLaw(), dem.HertzLinearHistory(), dem.HardSphere()]
-    for one in tune(laws, chi=chi, psi=np.linspace(0.0, 4.0 * chi, 16)[1:]).advice:
+    for one in tune(laws, chi=chi, psi_1=np.linspace(0.0, 4.0 * chi, 16)[1:]).advice:
         assert one.max_error <= one.before

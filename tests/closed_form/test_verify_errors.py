@@ -33,13 +33,13 @@ def test_error_of_hard_spheres_by_hand(beta, wrong):
     psi_1 = 4 chi - 1 on, where the impact slides throughout. No other law is asked."""
     chi = np.array([[1.2], [1.5]])
     psi = np.array([3.8, 4.6, 5.1, 5.9, 6.5, 8.0])
-    found = error_map(carom.dem.HardSphere(beta), psi, chi.ravel())
+    errors = error_map(carom.dem.HardSphere(beta), psi, chi.ravel())
     law = np.where((1.0 + beta) * psi > 4.0 * chi, psi - 4.0 * chi, -beta * psi)
     slides = psi >= 4.0 * chi - 1.0
     assert slides.sum() == 10
-    assert found.psi_out.values == pytest.approx(law, abs=1e-12)
+    assert errors.psi_out.values == pytest.approx(law, abs=1e-12)
     by_hand = np.where(slides, law - (psi - 4.0 * chi), 0.0)
-    assert np.where(slides, found.error, 0.0) == pytest.approx(by_hand, abs=1e-12)
+    assert np.where(slides, errors.error, 0.0) == pytest.approx(by_hand, abs=1e-12)
     assert (np.abs(by_hand) > 0.05).sum() == wrong
 
 
@@ -77,12 +77,12 @@ def test_a_map_is_stored_and_read_to_the_last_bit(spring_map, tmp_path):
 
 def test_map_by_default_spans_solid_spheres():
     """chi from nu = 1/2 to nu = 0, 2 (1 - nu)/(2 - nu) 7/4, and psi_1 to where all slide."""
-    found = error_map(carom.dem.HardSphere(0.4))
+    errors = error_map(carom.dem.HardSphere(0.4))
     nu = np.array([0.5, 0.0])
     ends = 7 / 4 * 2 * (1 - nu) / (2 - nu)
-    assert found.chi.values[[0, -1]] == pytest.approx(ends)
-    assert (found.psi_in.values[0], found.psi_in.values[-1]) == (0.0, pytest.approx(7.0))
-    assert (found.error.values[:, -1] == 0.0).all()
+    assert errors.chi.values[[0, -1]] == pytest.approx(ends)
+    assert (errors.psi_in.values[0], errors.psi_in.values[-1]) == (0.0, pytest.approx(7.0))
+    assert (errors.error.values[:, -1] == 0.0).all()
 
 
 def test_steps_and_kappa_reach_the_law():
@@ -113,10 +113,10 @@ def test_force_error_of_a_linear_spring(psi):
     other, exact = exact_force(psi, CHI)
     sign = np.sign(force[1]) * np.sign(exact[1])
     wrong = force - sign * np.interp(parts, other, exact)
-    found = force_error(carom.dem.LinearSpring(), psi, CHI)
-    assert found.largest == pytest.approx(np.abs(wrong).max(), abs=2e-3)
-    assert found.rms == pytest.approx(np.sqrt(np.mean(wrong**2)), abs=1e-3)
-    assert found.rms > 0.02
+    actual = force_error(carom.dem.LinearSpring(), psi, CHI)
+    assert actual.largest == pytest.approx(np.abs(wrong).max(), abs=2e-3)
+    assert actual.rms == pytest.approx(np.sqrt(np.mean(wrong**2)), abs=1e-3)
+    assert actual.rms > 0.02
 
 
 def test_force_error_is_that_of_either_direction_and_nothing_for_a_rigid_law():
@@ -182,15 +182,15 @@ def test_no_number_of_steps_where_there_is_none():
         (lambda: error_map("mindlin"), "law: 'mindlin' .*must be a contact law"),
         (lambda: error_map(carom.dem.LinearSpring(), chi=[1.0, 0.0]), "chi: 0.0 .*positive"),
         (lambda: error_map(carom.dem.LinearSpring(), chi=-1.0), "chi: -1.0 .*positive"),
-        (lambda: error_map(carom.dem.LinearSpring(), psi=[np.nan]), "psi: .*finite"),
-        (lambda: error_map(carom.dem.LinearSpring(), psi=[]), "psi: .*finite"),
+        (lambda: error_map(carom.dem.LinearSpring(), psi_1=[np.nan]), "psi_1: .*finite"),
+        (lambda: error_map(carom.dem.LinearSpring(), psi_1=[]), "psi_1: .*finite"),
         (lambda: error_map(carom.dem.LinearSpring(), steps=2), "steps: 2 .*at least 4"),
         (lambda: force_error(None, 1.0, CHI), "law: None"),
         (lambda: step_error(carom.dem.LinearSpring(), 9), "steps: 9 .*at least 10"),
         (lambda: step_error(carom.dem.LinearSpring(), 20.5), "steps: 20.5 .*whole"),
         (lambda: step_error(carom.dem.LinearSpring, 20), "law: .*must be a contact law"),
         (lambda: advised_steps(carom.dem.LinearSpring(), 0.0), "allowed: 0.0 .*positive"),
-        (lambda: advised_steps(carom.dem.LinearSpring(), 0.1, [np.inf]), "psi: .*finite"),
+        (lambda: advised_steps(carom.dem.LinearSpring(), 0.1, [np.inf]), "psi_1: .*finite"),
     ],
 )
 def test_refused(call, message):

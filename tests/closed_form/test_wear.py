@@ -48,10 +48,10 @@ def test_gross_slip_throughout(chi):
     """
     psi = 4.0 * chi + 1.5
     radii = [0.0, 1e-3, 0.3, 0.79, 0.81, 0.95, 0.9999]
-    found = carom.solve(psi, chi).friction_work(radii)
-    known = [4.0 * (psi - 2.0 * chi) * over_the_radius(r) for r in radii]
-    np.testing.assert_allclose(found[:, 0], known, rtol=1e-9)
-    assert not found[:, 1].any()
+    actual = carom.solve(psi, chi).friction_work(radii)
+    names = [4.0 * (psi - 2.0 * chi) * over_the_radius(r) for r in radii]
+    np.testing.assert_allclose(actual[:, 0], names, rtol=1e-9)
+    assert not actual[:, 1].any()
 
 
 def over_the_radius(r):
@@ -105,15 +105,15 @@ def test_single_radii_against_the_states(psi, chi):
     """Also next to where fronts begin, and where one series of the solution takes over."""
     solution = carom.solve(psi, chi)
     radii = np.concatenate([[0.1, 0.6], solution._slip_borders()[5:10] + 2e-5])
-    found = solution.friction_work(radii)[:, 0]
-    known = [at_radius(solution, r) for r in radii]
-    np.testing.assert_allclose(found, known, rtol=0.0, atol=3e-9 * found.max())
+    values = solution.friction_work(radii)[:, 0]
+    names = [at_radius(solution, r) for r in radii]
+    np.testing.assert_allclose(values, names, rtol=0.0, atol=3e-9 * values.max())
 
 
 def test_pressure_over_the_time():
     radii = [0.0, 0.4, 0.9]
-    known = [4.0 * over_the_radius(r) for r in radii]
-    np.testing.assert_allclose(carom.solve(0.5, 1.44).pressed(radii), known, rtol=1e-9)
+    names = [4.0 * over_the_radius(r) for r in radii]
+    np.testing.assert_allclose(carom.solve(0.5, 1.44).pressed(radii), names, rtol=1e-9)
 
 
 @pytest.mark.parametrize("angle", ["10 deg", "-20 deg"])
@@ -121,9 +121,9 @@ def test_fields_through_the_impact_add_up_to_the_map(angle):
     hit = carom.impact(PAIR, speed=2.0, angle=angle, spin="20 rad/s")
     at = POINTS[1:4] * hit.max_radius
     worn = hit.wear(x=np.unique(at[:, 0]), y=np.unique(at[:, 1]))
-    found = [float(worn.friction_work.sel(x=x, y=y)) for x, y in at]
+    values = [float(worn.friction_work.sel(x=x, y=y)) for x, y in at]
     summed = [in_time(hit, point, 15, 16) for point in at]
-    np.testing.assert_allclose(found, summed, rtol=0.0, atol=1e-5 * max(summed))
+    np.testing.assert_allclose(values, summed, rtol=0.0, atol=1e-5 * max(summed))
 
 
 @pytest.mark.slow
@@ -131,9 +131,9 @@ def test_fields_of_viscous_bodies_add_up_to_the_map():
     hit = carom.impact(PAIR, speed=2.0, angle="20 deg", losses=LOSSES)
     at = POINTS[2:3] * hit.max_radius
     worn = hit.wear(x=np.unique(at[:, 0]), y=np.unique(at[:, 1]))
-    found = [float(worn.friction_work.sel(x=x, y=y)) for x, y in at]
+    values = [float(worn.friction_work.sel(x=x, y=y)) for x, y in at]
     summed = [in_time(hit, point, 10, 12) for point in at]
-    np.testing.assert_allclose(found, summed, rtol=0.0, atol=1e-4 * max(summed))
+    np.testing.assert_allclose(values, summed, rtol=0.0, atol=1e-4 * max(summed))
     assert float(worn.work_error) < 1e-5
 
 

@@ -45,8 +45,8 @@ def test_impact_as_json_equals_the_library(run, hit):
     assert (code, err) == (0, "")
     assert record["result"] == hit.scalars()
     assert [phase["kind"] for phase in record["phases"]] == [p.kind for p in hit.phases]
-    told = [(phase["slip_angle_max"], phase["slip_angle_mean"]) for phase in record["phases"]]
-    assert told == list(hit.slip_angles)
+    entries = [(phase["slip_angle_max"], phase["slip_angle_mean"]) for phase in record["phases"]]
+    assert entries == list(hit.slip_angles)
 
 
 def test_case_file_and_flags_that_override_it(run):
@@ -215,10 +215,10 @@ def commands(of=app, path=""):
 
 
 def test_all_commands_are_found():
-    known = "impact curve fit sweep explore materials verify"
+    text = "impact curve fit sweep explore materials verify"
     of_verify = "laws lammps liggghts yade pack score tune"
-    found = {command.split()[-1] for command in commands()}
-    assert found == {*known.split(), *of_verify.split(), "build"}
+    names = {command.split()[-1] for command in commands()}
+    assert names == {*text.split(), *of_verify.split(), "build"}
 
 
 @pytest.mark.parametrize("command", list(commands()))

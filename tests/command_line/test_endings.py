@@ -56,8 +56,8 @@ def there(tmp_path):
 
 def ended(folder, program, arguments):
     """Return exit code, what is printed, and what is told, of a Python that has loaded nothing."""
-    known = {"cwd": folder, "capture_output": True, "text": True, "timeout": 120}
-    done = subprocess.run([sys.executable, "-c", program, *arguments], check=False, **known)
+    values = {"cwd": folder, "capture_output": True, "text": True, "timeout": 120}
+    done = subprocess.run([sys.executable, "-c", program, *arguments], check=False, **values)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -196,8 +196,8 @@ def test_a_signal_at_any_time_ends_in_one_line(arguments, number, there):
             assert len(stored) == (2 if arguments[0] == "impact" else 1), (delay, err)
             break
         assert process.returncode == CODES[number], (delay, err)
-        told = err.splitlines()[len(stored) :]
-        assert len(told) == 1 or (number == "SIGTERM" and not told), (delay, err)
+        answer = err.splitlines()[len(stored) :]
+        assert len(answer) == 1 or (number == "SIGTERM" and not answer), (delay, err)
         assert "Traceback" not in err
         assert not [name for name in left(there) if name.startswith(".carom-")]
         assert not list(there.rglob("*.partial"))
@@ -226,8 +226,8 @@ def test_output_that_cannot_be_written_is_told_in_one_line(what, there, command)
     """A full disk; a reader that has gone, of which nothing is said."""
     reader, gone = os.pipe()
     os.close(reader)
-    told = ["carom: the output cannot be written; No space left on device"]
-    for stream, words in ((os.open("/dev/full", os.O_WRONLY), told), (gone, [])):
+    answer = ["carom: the output cannot be written; No space left on device"]
+    for stream, words in ((os.open("/dev/full", os.O_WRONLY), answer), (gone, [])):
         code, _, err = command(there, *PRINTING[what], stdout=stream)
         os.close(stream)
         assert (code, [line for line in err.splitlines() if line != UNSTORED]) == (1, words)
@@ -247,8 +247,8 @@ def test_streams_that_are_closed_take_no_place_of_a_file(there):
     assert subprocess.run(["bash", "-c", line], cwd=there, timeout=120).returncode == 2
     line = f"{sys.executable} -c '{RUN}' --version >&-"
     done = subprocess.run(["bash", "-c", line], capture_output=True, text=True, timeout=120)
-    told = "carom: the output cannot be written; Bad file descriptor\n"
-    assert (done.returncode, done.stderr) == (1, told)
+    answer = "carom: the output cannot be written; Bad file descriptor\n"
+    assert (done.returncode, done.stderr) == (1, answer)
 
 
 LIMITED = {
@@ -283,8 +283,8 @@ def test_a_file_that_may_not_grow_leaves_nothing_behind(name, there, command):
     for limit in (1, 4, 12) if name == "hit.nc" else (4,):  # kB
         code, _, err = command(there, *LIMITED[name], name, largest=1024 * limit)
         assert code in (1, 2), (limit, err)
-        (told,) = [line for line in err.splitlines() if "The chain is short" not in line]
-        assert re.match(r"carom: .*File too large", told), (limit, err)
+        (text,) = [line for line in err.splitlines() if "The chain is short" not in line]
+        assert re.match(r"carom: .*File too large", text), (limit, err)
         assert left(there) == before
         assert name not in before or (there / name).read_text() == "older"
 

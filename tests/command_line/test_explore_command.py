@@ -23,11 +23,11 @@ COMMAND = [sys.executable, "-c", START, "explore", "--no-open"]
 
 @pytest.fixture(scope="module")
 def page():
-    found = explorer(port=0)
-    serving = threading.Thread(target=found.serve)
+    actual = explorer(port=0)
+    serving = threading.Thread(target=actual.serve)
     serving.start()
-    yield found
-    found.stop()
+    yield actual
+    actual.stop()
     serving.join(timeout=10)
 
 
@@ -77,14 +77,14 @@ def test_only_this_machine_is_answered(page):
 
 def test_an_address_of_ipv6():
     try:
-        found = explorer(host="::1", port=0)
+        actual = explorer(host="::1", port=0)
     except InputError:
         pytest.skip("this machine has no IPv6")
-    serving = threading.Thread(target=found.serve)
+    serving = threading.Thread(target=actual.serve)
     serving.start()
-    with urllib.request.urlopen(found.url, timeout=10) as answer:
+    with urllib.request.urlopen(actual.url, timeout=10) as answer:
         assert answer.status == 200
-    found.stop()
+    actual.stop()
     serving.join(timeout=10)
 
 

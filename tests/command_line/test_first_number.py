@@ -56,7 +56,7 @@ def test_with_the_library_no_compiler_is_loaded():
 @pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 def test_an_elastic_impact_waits_neither_for_scipy_nor_for_pint_in_common_units():
     units = {"0.005": "'5 mm'", "=0.5": "='20 deg'", "2.0": "'2 m/s'"}
-    program = re.sub("|".join(units), lambda found: units[found[0]], BODIES)
+    program = re.sub("|".join(units), lambda actual: units[actual[0]], BODIES)
     assert program.count("'") == 6
     python(f"{program}assert not {{'scipy', 'pint'}} & set(sys.modules)")
 

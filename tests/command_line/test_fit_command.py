@@ -45,8 +45,8 @@ def test_table_of_a_file_with_a_case(run):
 
 
 def test_json_and_advice(run):
-    given = (*GIVEN, "--fix", "restitution=1", "--json")
-    code, out, _ = run(*given, "--advice", "3", "--for", "friction")
+    values = (*GIVEN, "--fix", "restitution=1", "--json")
+    code, out, _ = run(*values, "--advice", "3", "--for", "friction")
     record = json.loads(out)
     assert code == 0
     low, high = (record["parameters"]["friction"][end] for end in ("low", "high"))
@@ -63,14 +63,14 @@ def test_shipped_data(run):
 
 def test_files_are_stored(run, tmp_path):
     files = ("--plot", "fit.png", "--output", "fit.nc", "--posterior", "samples.nc")
-    given = (*GIVEN, "--fix", "restitution=1", "--steps", "100")
-    code, _, err = run(*given, *files)
+    values = (*GIVEN, "--fix", "restitution=1", "--steps", "100")
+    code, _, err = run(*values, *files)
     assert code == 0
     assert {"fit.png", "fit.nc", "samples.nc"} <= {path.name for path in tmp_path.iterdir()}
     assert "The chain is short" in err
     samples = carom.read("samples.nc")
     assert samples.sizes["sample"] == 75 * 16  # steps kept, walkers
-    code, _, _ = run(*given, "--posterior", "corner.png")
+    code, _, _ = run(*values, "--posterior", "corner.png")
     assert code == 0
     assert (tmp_path / "corner.png").exists()
 

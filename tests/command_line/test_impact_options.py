@@ -48,8 +48,8 @@ def test_of_impacts_of_other_kinds(run, more):
     without = BALL[:-2] if "--friction" in more else BALL
     code, _, err = run(*without, *SPEED, *more, "--spectrum", "forces.nc")
     assert (code, err) == (0, "Carom has stored forces.nc.\n")
-    found = carom.read("forces.nc")
-    assert float(found.normal_spectrum[0]) == pytest.approx(float(found.normal_impulse), rel=1e-5)
+    data = carom.read("forces.nc")
+    assert float(data.normal_spectrum[0]) == pytest.approx(float(data.normal_impulse), rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -82,16 +82,16 @@ COARSE = ["--method", "halfspace", "--elements", "10", "--steps", "30"]
 
 def test_json_is_the_impact_of_the_library(run):
     code, out, err = run(*GLASS_BALL, *SPEED, *COARSE, "--json")
-    told = json.loads(out)
+    record = json.loads(out)
     ball = carom.Sphere(radius="5 mm", material="glass")
     pair = carom.Pair(ball, carom.HalfSpace(material="glass"), friction=0.2)
     grid = carom.BoundaryElements(elements=10, steps=30)
     hit = carom.impact(pair, speed=2.0, angle="30 deg", method=grid)
     assert (code, err) == (0, "")
-    assert told["result"]["psi_out"] == hit.psi_out
-    assert told["result"]["psi_out_error"] == hit.psi_out_error
-    assert told["inputs"]["method"] == "halfspace"
-    assert told["phases"][0]["slip_angle_mean"] == hit.slip_angles[0].mean
+    assert record["result"]["psi_out"] == hit.psi_out
+    assert record["result"]["psi_out_error"] == hit.psi_out_error
+    assert record["inputs"]["method"] == "halfspace"
+    assert record["phases"][0]["slip_angle_mean"] == hit.slip_angles[0].mean
 
 
 def test_the_table_tells_the_error_and_files_are_stored(run, tmp_path):
@@ -114,9 +114,9 @@ def test_unlike_materials_show_what_the_normal_motion_loses(run):
 def test_spin_about_the_normal(run):
     """It slows down, and the table says to what."""
     code, out, _ = run(*GLASS_BALL, *SPEED, *COARSE, "--normal-spin", "3000 rpm", "--json")
-    told = json.loads(out)
+    record = json.loads(out)
     assert code == 0
-    before, after = told["inputs"]["normal_spin"], told["result"]["normal_spin_out"]
+    before, after = record["inputs"]["normal_spin"], record["result"]["normal_spin_out"]
     assert before == pytest.approx(100.0 * 3.141592653589793)
     assert 0.9 * before < after < before
     code, out, _ = run(*GLASS_BALL, *SPEED, *COARSE, "--normal-spin", "3000 rpm")
@@ -166,13 +166,13 @@ def test_peaks_are_told_in_words(run):
 
 
 def test_peaks_as_json(run):
-    found = json.loads(run(*HIT, "--peaks", "--json")[1])["peaks"]
+    actual = json.loads(run(*HIT, "--peaks", "--json")[1])["peaks"]
     peaks = same_impact().peaks()
     for body in ("first", "second"):
         for name in ("peak_shear", "peak_tension_time", "yield_ratio", "toughness_ratio"):
-            known = float(peaks[name].sel(body=body))
-            told = found[body][name]
-            assert told is None if known != known else told == pytest.approx(known, rel=1e-12)
+            value = float(peaks[name].sel(body=body))
+            answer = actual[body][name]
+            assert answer is None if value != value else answer == pytest.approx(value, rel=1e-12)
     assert "peaks" not in json.loads(run(*HIT, "--json")[1])
 
 
@@ -186,9 +186,9 @@ def test_quantities_of_a_sweep(run, refusal):
     """They take the place of the outputs of the file."""
     case = ROOT / "examples/sweep.toml"
     small = ["sweep", case, "--json", "--no-progress"]
-    found = json.loads(run(*small, "--quantities", "yield_speed_second,rebound_angle")[1])
-    assert list(found["ranges"]) == ["yield_speed_second", "rebound_angle"]
-    low = found["ranges"]["yield_speed_second"]["min"]
+    record = json.loads(run(*small, "--quantities", "yield_speed_second,rebound_angle")[1])
+    assert list(record["ranges"]) == ["yield_speed_second", "rebound_angle"]
+    low = record["ranges"]["yield_speed_second"]["min"]
     ball = carom.Sphere(radius="5 mm", material="bearing-steel")
     pair = carom.Pair(ball, carom.HalfSpace(material="bearing-steel"), friction=0.3)
     speeds = carom.bearable_speeds(pair, angle=[0.0], friction=[0.05]).yield_speed_second

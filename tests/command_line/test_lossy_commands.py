@@ -62,8 +62,8 @@ def test_the_table_tells_what_was_lost_where_something_was(run):
     _, elastic, _ = run(*BALL, *SPEED)
     assert [meaning in lossy for meaning in meanings] == [True, True, True]
     assert [meaning in elastic for meaning in meanings] == [False, False, False]
-    told = dict(line.strip().rsplit("  ", 1) for line in lossy.splitlines() if "  " in line.strip())
-    values = {key.strip(): value for key, value in told.items()}
+    rows = [line.strip().rsplit("  ", 1) for line in lossy.splitlines() if "  " in line.strip()]
+    values = {key.strip(): value for key, value in rows}
     assert float(values[meanings[0].strip()]) == pytest.approx(0.9, abs=1e-5)
     stuck = next(line for line in lossy.splitlines() if line.startswith("  stick"))
     assert stuck.split()[3:5] == ["-", "-"]
@@ -200,20 +200,20 @@ def test_a_sweep_over_restitutions(run, pair):
     """Each point against the library, one that is out of range counted with its reason."""
     Path("case.toml").write_text(CASE.replace('loss_time = "2 us"', "") + SWEEP)
     code, out, _ = run("sweep", "case.toml", "--json", "--output", "sweep.nc")
-    record, found = json.loads(out), carom.read("sweep.nc")
+    record, data = json.loads(out), carom.read("sweep.nc")
     assert code == 0
     assert record["status"] == {"solved": 6, "input out of range": 2}
-    assert found.sizes == {"restitution": 4, "friction": 2}
-    assert found.restitution.units == "1"
+    assert data.sizes == {"restitution": 4, "friction": 2}
+    assert data.restitution.units == "1"
     for e in (0.6, 0.8, 1.0):
         law = carom.KelvinVoigt(restitution=e)
         for mu in (0.1, 0.3):
             bodies = carom.Pair(pair.first, pair.second, friction=mu)
             hit = carom.impact(bodies, speed=2.0, angle="30 deg", losses=law)
-            point = found.sel(restitution=e, friction=mu)
+            point = data.sel(restitution=e, friction=mu)
             for name in ("normal_restitution", "psi_out", "lost_energy", "max_force"):
                 assert float(point[name]) == pytest.approx(getattr(hit, name), rel=1e-10), name
-    assert np.isnan(found.psi_out.sel(restitution=1.2)).all()
+    assert np.isnan(data.psi_out.sel(restitution=1.2)).all()
     span = record["ranges"]["normal_restitution"]
     assert (span["min"], span["max"]) == pytest.approx((0.6, 1.0), abs=1e-8)
     assert record["ranges"]["lost_energy"]["units"] == "J"
@@ -249,9 +249,9 @@ def test_half_a_standard_linear_solid_is_refused(refusal, flags, message):
 def test_a_flag_replaces_the_standard_linear_solid_of_a_case(run, pair):
     text = CASE.replace('loss_time = "2 us"', 'relaxation_time = "20 us"\nmodulus_ratio = 1.5')
     Path("solid.toml").write_text(text)
-    found = [run("impact", "solid.toml", *more, "--json") for more in ([], ["--restitution", "1"])]
+    ended = [run("impact", "solid.toml", *more, "--json") for more in ([], ["--restitution", "1"])]
     laws = carom.StandardLinearSolid(1.5, "20 us"), None
-    for (code, out, _), law in zip(found, laws, strict=True):
+    for (code, out, _), law in zip(ended, laws, strict=True):
         hit = carom.impact(pair, speed=2.0, angle="30 deg", losses=law)
         assert code == 0
         assert json.loads(out)["result"] == hit.scalars()

@@ -20,7 +20,7 @@ def commands(group, *path):
 COMMANDS = dict(commands(typer.main.get_command(app)))
 
 
-def given(option, name):
+def in_words(option, name):
     return [name] if option.is_flag else [name, "1"]
 
 
@@ -32,7 +32,7 @@ def test_no_option_is_given_twice(words, refusal):
         if option.multiple:
             continue
         last = (option.opts + option.secondary_opts)[-1]
-        line = refusal(*words, *given(option, option.opts[0]), *given(option, last))
+        line = refusal(*words, *in_words(option, option.opts[0]), *in_words(option, last))
         assert f"{option.opts[0]}" in line
         assert "given 2 times; leave all but one out" in line
 

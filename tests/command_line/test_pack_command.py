@@ -193,8 +193,8 @@ def test_from_a_pack_to_a_verdict_on_lammps(copy):
     path = os.pathsep.join([str(program.parent), str(scripts), os.environ["PATH"]])
     environment = os.environ | {"PATH": path, "PYTHON": sys.executable}
     script = copy / "wall" / "lammps" / "run.sh"
-    told = {"capture_output": True, "text": True, "timeout": 120}
-    done = subprocess.run(["sh", script], env=environment, **told)
+    entries = {"capture_output": True, "text": True, "timeout": 120}
+    done = subprocess.run(["sh", script], env=environment, **entries)
     assert done.returncode == 1, done.stderr[-1000:]
     assert "FAIL: max |error in psi_2| = 0.579" in done.stdout
     result = score(script.with_name("results.csv"), case=copy / "wall" / "case.toml")

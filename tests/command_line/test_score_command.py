@@ -48,8 +48,8 @@ def psi_columns(added=0.0):
 def test_exit_code_is_the_verdict(score, added, code, word):
     """0.01 of psi_2, the tolerance by default, lies between; another one turns it."""
     file = table(psi_columns(added))
-    found, out, err = score(file, "--chi", str(CHI))
-    assert (found, err) == (code, "")
+    actual, out, err = score(file, "--chi", str(CHI))
+    assert (actual, err) == (code, "")
     assert out.strip().splitlines()[-1].startswith(f"{word}: max |error in psi_2| = {added}")
     assert score(file, "--chi", str(CHI), "--tolerance", "0.02")[0] == 0
     assert score(file, "--chi", str(CHI), "--tolerance", "0.001")[0] == 1
@@ -60,8 +60,8 @@ def test_damped_results_are_compared_with_what_loses_as_much(score):
     file = table(damped)
     assert score(file, "--chi", str(CHI))[0] == 1
     code, out, _ = score(file, "--chi", str(CHI), "--restitution", "0.8", "--json")
-    told = json.loads(out)
-    assert (code, told["passed"], told["restitution"]) == (0, True, 0.8)
+    record = json.loads(out)
+    assert (code, record["passed"], record["restitution"]) == (0, True, 0.8)
     Path("damped.toml").write_text("restitution = 0.8\n" + CASE)
     code, out, _ = score(file, "--case", "damped.toml", "--json")
     assert json.loads(out)["restitution"] == 0.8
@@ -139,7 +139,7 @@ BAD_WITH_CASE = {
 }
 
 
-def told(refusal, message, *arguments):
+def score_refused(refusal, message, *arguments):
     line = refusal("verify", "score", *arguments)
     assert re.search(message.replace("[", r"\[").replace("(", r"\("), line), line
 
@@ -147,13 +147,13 @@ def told(refusal, message, *arguments):
 @pytest.mark.parametrize("text", BAD)
 def test_bad_results_are_refused_in_one_line(refusal, text):
     Path("bad.csv").write_text(text)
-    told(refusal, BAD[text], "bad.csv")
+    score_refused(refusal, BAD[text], "bad.csv")
 
 
 @pytest.mark.parametrize("text", BAD_WITH_CASE)
 def test_bad_velocities_and_forces_are_refused(refusal, text):
     Path("bad.csv").write_text(text if text.count("\n") > 1 else text + "1,0,0,0\n" * 3)
-    told(refusal, BAD_WITH_CASE[text], "bad.csv", "--case", "ball.toml")
+    score_refused(refusal, BAD_WITH_CASE[text], "bad.csv", "--case", "ball.toml")
 
 
 @pytest.mark.parametrize(
@@ -217,4 +217,4 @@ def test_bodies_in_a_comment(score, refusal, pair):
     words = "bodies differ from those in the results"
     refused(words, carom.verify.score, "results.csv", case=other)
     Path("results.csv").write_text(f"# case: nothing\n{text}")
-    told(refusal, "there is no JSON", "results.csv")
+    score_refused(refusal, "there is no JSON", "results.csv")

@@ -162,8 +162,8 @@ def test_what_is_hardly_meant_is_told_wherever_it_stands(run, design):
     Path("case.toml").write_text(f"speed = 1\nfriction = 0.2\nfirst.radius = 1\n{stuff}{design}")
     code, _, err = run("sweep", "case.toml")
     assert code == 0
-    told = {"carom: a radius of 5 m; write '5 mm'?", "carom: a Young's modulus of 210 Pa"}
-    assert {line.partition("; write '210")[0] for line in err.splitlines()[:2]} == told
+    answer = {"carom: a radius of 5 m; write '5 mm'?", "carom: a Young's modulus of 210 Pa"}
+    assert {line.partition("; write '210")[0] for line in err.splitlines()[:2]} == answer
 
 
 def test_a_single_impact_tells_that_it_leaves_the_sweep_out(run):
@@ -185,7 +185,7 @@ def test_a_single_impact_tells_that_it_leaves_the_sweep_out(run):
     ],
 )
 def test_refuses_flags_in_one_line_and_leaves_nothing(refusal, monkeypatch, arguments, word):
-    monkeypatch.setattr("carom.sweeps.schedulers.ANSWER", 0.5)
+    monkeypatch.setattr("carom.sweeps.schedulers.ANSWER_SECONDS", 0.5)
     assert word in refusal("sweep", "case.toml", *arguments)
     assert [path.name for path in Path().iterdir()] == ["case.toml"]
 

@@ -45,23 +45,23 @@ def test_laws_as_json(verify):
     else on standard output."""
     code, out, err = verify("laws", "--json")
     record = json.loads(out)
-    found = {law["law"]: law["max_error"] for law in record["laws"]}
+    actual = {law["law"]: law["max_error"] for law in record["laws"]}
     assert (code, err) == (0, "")
-    assert found.keys() == {entry.label for entry in CATALOGUE}
-    assert {label: found[label] for label in MEASURED} == pytest.approx(MEASURED, abs=1e-3)
-    assert list(found.values()) == sorted(found.values())
+    assert actual.keys() == {entry.label for entry in CATALOGUE}
+    assert {label: actual[label] for label in MEASURED} == pytest.approx(MEASURED, abs=1e-3)
+    assert list(actual.values()) == sorted(actual.values())
 
 
 def test_laws_of_a_shell(verify):
     """chi, kappa and psi_1 as given; the table holds what the library finds."""
     options = ("--chi", "1.0294", "--kappa", "0.8235", "--psi", "0.5", "--psi", "2")
     code, out, _ = verify("laws", *options)
-    expected = rank(chi=1.0294, kappa=0.8235, psi=(0.5, 2.0))
+    expected = rank(chi=1.0294, kappa=0.8235, psi_1=(0.5, 2.0))
     assert (code, out) == (0, f"{expected}\n")
     assert out.splitlines()[0].endswith(", at 2 incidences, psi_1 from 0.5 to 2")
     record = json.loads(verify("laws", *options, "--json")[1])
     assert record == expected.to_dict()
-    assert record["laws"] != rank(chi=1.0294, psi=(0.5, 2.0)).to_dict()["laws"]
+    assert record["laws"] != rank(chi=1.0294, psi_1=(0.5, 2.0)).to_dict()["laws"]
 
 
 def test_one_law_with_all_that_can_be_stored(verify):
@@ -93,7 +93,7 @@ def test_figure_of_all_laws(verify):
 
 def test_tune_without_bodies(verify, few_laws):
     code, out, err = verify("tune", "--chi", "1.4412", "--from", "0.5", "--to", "4", "--json")
-    expected = few_laws(chi=1.4412, psi=np.linspace(0.5, 4.0, 61)).to_dict()
+    expected = few_laws(chi=1.4412, psi_1=np.linspace(0.5, 4.0, 61)).to_dict()
     record = json.loads(out)
     assert (code, err) == (0, "")
     assert {name: record[name] for name in expected} == expected
@@ -141,10 +141,10 @@ def test_tune_names_the_exact_law(verify, e):
     """Those who cannot change their law should know that some codes can; in LIGGGHTS e is 1."""
     Path("ball.toml").write_text(CASE)
     out = verify("tune", "ball.toml", "--restitution", e)[1]
-    told = json.loads(verify("tune", "ball.toml", "--restitution", e, "--json")[1])["exact_law"]
+    answer = json.loads(verify("tune", "ball.toml", "--restitution", e, "--json")[1])["exact_law"]
     assert "pair_style carom in LAMMPS" in out
-    assert told["LAMMPS"] == "pair_style carom"
-    assert ("tangential carom in LIGGGHTS" in out) == ("LIGGGHTS" in told) == (e == 1.0)
+    assert answer["LAMMPS"] == "pair_style carom"
+    assert ("tangential carom in LIGGGHTS" in out) == ("LIGGGHTS" in answer) == (e == 1.0)
 
 
 @pytest.mark.usefixtures("few_laws")
@@ -164,9 +164,9 @@ def test_lammps_as_json(verify):
     code, out, err = verify("lammps", "--json")
     record = json.loads(out)
     laws = {law["law"]: law for law in record["laws"]}
-    found = {label: laws[label]["max_error"] for label in MEASURED}
+    actual = {label: laws[label]["max_error"] for label in MEASURED}
     assert (code, err, record["engine"]) == (0, "", "LAMMPS")
-    assert found == pytest.approx(MEASURED, abs=1e-3)
+    assert actual == pytest.approx(MEASURED, abs=1e-3)
     assert max(law["law_error"] for label, law in laws.items() if label != EXACT) < 1e-6
     assert laws.get(EXACT, {"law_error": 0.0})["law_error"] < 1e-5  # where the plugin is built
     order = [law["max_error"] for law in record["laws"]]
@@ -223,7 +223,7 @@ BAD = {
     ("laws", "--law", "mindln"): "law: 'mindln' .*did you mean 'mindlin'",
     ("laws", "--law", "qqq"): "law: 'qqq' .*must be one of: linear spring, k_t/k_n = kappa; ",
     ("laws", "--chi", "1e4", *ONE): "chi: 10000.0 .*is not solved: more than 200 phases",
-    ("laws", "--psi", "0"): "psi: .*must not all be zero",
+    ("laws", "--psi", "0"): "psi_1: .*must not all be zero",
     ("laws", *ONE, "--map", "x.nc", "--output", "x.nc"): "map: 'x.nc' .*this file is also that of",
     ("laws", *ONE, "--map", "x.nc", "--kappa", "1"): "map: it shows solid spheres",
     ("laws", "--output", "x.xls"): r"output file: 'x.xls' .*\.nc or \.csv",

@@ -54,8 +54,8 @@ def test_order_in_time():
     """On one grid, against 240 steps: between 1 and 2, for few elements come to touch in a step."""
     several = []
     for psi in (0.8, 2.5):
-        *found, fine = (psi_out(psi, 1.4412, 16, steps) for steps in (30, 60, 120, 240))
-        several.append(np.abs(np.array(found) - fine))
+        *actual, fine = (psi_out(psi, 1.4412, 16, steps) for steps in (30, 60, 120, 240))
+        several.append(np.abs(np.array(actual) - fine))
     means = np.sqrt(np.mean(np.square(several), axis=0))
     assert means[0] > 2.0 * means[1] > 4.0 * means[2], means
     assert np.log2(means[0] / means[2]) / 2.0 >= 1.2

@@ -116,10 +116,10 @@ def test_how_far_mindlin_is_off(nu, excess, across):
     _, plain = shifted(32, like(0.0), *SHIFTS)
     patch, every = shifted(32, like(nu), *fine)
     steps = every[4::5]
-    found = np.array([share(a) / share(b) - 1.0 for a, b in zip(steps, plain, strict=True)])
-    assert np.argmax(found) == 2
-    assert found[2] == pytest.approx(excess, rel=0.03)
-    assert 0.0 < found[0] < 0.35 * found[2]
+    values = np.array([share(a) / share(b) - 1.0 for a, b in zip(steps, plain, strict=True)])
+    assert np.argmax(values) == 2
+    assert values[2] == pytest.approx(excess, rel=0.03)
+    assert 0.0 < values[0] < 0.35 * values[2]
     largest = max(np.abs(step.state.traction[1]).max() for step in steps) / (2.0 / np.pi)
     assert largest == pytest.approx(across, rel=0.03)
     radii = np.hypot(patch.grid.line[:, None], patch.grid.line)
@@ -148,8 +148,8 @@ def test_held_everywhere(nu):
     patch, kappa = Patch.across(32, like(nu)), like(nu).kappa
     radii = np.hypot(patch.grid.line[:, None], patch.grid.line)
     disc = np.where(radii < 1.0, 1.0, 0.0)
-    given = np.stack([disc, np.zeros_like(disc)])
-    held = solve_traction(patch.compliance, given, 1e3 * disc, 0.0 * given).load
+    values = np.stack([disc, np.zeros_like(disc)])
+    held = solve_traction(patch.compliance, values, 1e3 * disc, 0.0 * values).load
     pressed = solve_pressure(patch.compliance, np.where(disc > 0.0, 1.0, -99.0), disc).load
     force, punch = patch.grid.element * held.sum(axis=(1, 2)), patch.grid.element * pressed.sum()
     assert force[0] / punch == pytest.approx(kappa, rel=1e-3)

@@ -31,15 +31,15 @@ def random_impacts(seed: int, count: int) -> tuple[Array, Array]:
 
 def errors(psi: float, chi: float) -> Array:
     exact = carom.rebound(psi, chi)
-    found = [march.marched(psi, Inertia(chi), ELASTIC, n)[PSI_OUT] for n in SPRINGS]
-    return np.abs(np.array(found) - exact)
+    values = [march.marched(psi, Inertia(chi), ELASTIC, n)[PSI_OUT] for n in SPRINGS]
+    return np.abs(np.array(values) - exact)
 
 
 def numbers(psi: float, inertia: Inertia, solid: Solid = ELASTIC) -> Array:
     """Return what an impact comes to."""
-    found = np.empty(9)
-    assert march.run(psi, inertia, solid, march.new_work(), found)[0] == 0
-    return found
+    values = np.empty(9)
+    assert march.run(psi, inertia, solid, march.new_work(), values)[0] == 0
+    return values
 
 
 @pytest.mark.parametrize(("psi", "chi"), CASES)
@@ -52,8 +52,8 @@ def test_error_of_solid_spheres_is_small() -> None:
     rng = np.random.default_rng(1976)
     chi = rng.uniform(1.1, 1.8, 100)
     psi = rng.uniform(0.0, 4.0 * chi - 1.1)  # up to the border of gross slip throughout
-    found = np.array([errors(*impact) for impact in zip(psi, chi, strict=True)])
-    scaled = found * np.square(SPRINGS)
+    values = np.array([errors(*impact) for impact in zip(psi, chi, strict=True)])
+    scaled = values * np.square(SPRINGS)
     assert np.median(scaled) < 0.4
     assert np.max(scaled) < 1.0
 
@@ -61,18 +61,18 @@ def test_error_of_solid_spheres_is_small() -> None:
 def test_two_grids_give_1e_6_and_say_so() -> None:
     psi, chi = random_impacts(38, 200)
     pairs = zip(psi, chi, strict=True)
-    found, told = np.array([march.march_rebound(p, Inertia(c), ELASTIC) for p, c in pairs]).T
-    wrong = np.abs(found - carom.rebound(psi, chi)) / np.maximum(1.0, np.abs(psi))
+    actual, answer = np.array([march.march_rebound(p, Inertia(c), ELASTIC) for p, c in pairs]).T
+    wrong = np.abs(actual - carom.rebound(psi, chi)) / np.maximum(1.0, np.abs(psi))
     assert np.quantile(wrong, 0.97) < 1e-6
     assert np.max(wrong) < 3e-6
     assert np.median(wrong) < 2e-7
-    assert np.max(wrong * np.maximum(1.0, np.abs(psi)) / told) < 2.0
+    assert np.max(wrong * np.maximum(1.0, np.abs(psi)) / answer) < 2.0
 
 
 def test_the_oracle_agrees() -> None:
     for psi, chi in zip(*random_impacts(5, 4), strict=True):
-        found = oracle.extrapolated(psi, chi, springs=500)
-        assert found == pytest.approx(carom.rebound(psi, chi), abs=5e-6)
+        actual = oracle.extrapolated(psi, chi, springs=500)
+        assert actual == pytest.approx(carom.rebound(psi, chi), abs=5e-6)
 
 
 @pytest.mark.parametrize("psi", [4.0, 9.0])
@@ -99,9 +99,9 @@ def test_sequence_of_phases_is_the_exact_one() -> None:
         exact = carom.solve(psi, chi).phases
         if min(p.end - p.start for p in exact) < 0.12:
             continue
-        found = solve_lossy(psi, chi, LossNumbers(Loss.PLATE, 0.0)).phases
-        assert [p[:2] for p in found] == [p[:2] for p in exact], (psi, chi)
-        assert [p.start for p in found] == pytest.approx([p.start for p in exact], abs=0.03)
+        phases = solve_lossy(psi, chi, LossNumbers(Loss.PLATE, 0.0)).phases
+        assert [p[:2] for p in phases] == [p[:2] for p in exact], (psi, chi)
+        assert [p.start for p in phases] == pytest.approx([p.start for p in exact], abs=0.03)
         seen += 1
     assert seen > 15
 
@@ -120,10 +120,10 @@ def test_plates(give: float, e: float, duration: float, psi_out: tuple[float, ..
     solid = Solid(int(Loss.PLATE), give)
     close = 6e-6 if give == 0.1 else 6e-4 if give > 1.0 else 6e-5
     for psi, wanted in zip((0.5, 1.0, 2.0, 3.0, 4.5), psi_out, strict=True):
-        found = numbers(psi, Inertia(1.4412), solid)
-        assert found[PSI_OUT] == pytest.approx(wanted, abs=close)
-        assert found[RESTITUTION] == pytest.approx(e, abs=6e-6)
-        assert found[TIME] == pytest.approx(duration, abs=6e-4)
+        values = numbers(psi, Inertia(1.4412), solid)
+        assert values[PSI_OUT] == pytest.approx(wanted, abs=close)
+        assert values[RESTITUTION] == pytest.approx(e, abs=6e-6)
+        assert values[TIME] == pytest.approx(duration, abs=6e-4)
     little = numbers(1.0, Inertia(1.44), Solid(int(Loss.PLATE), 1e-4))[RESTITUTION]
     assert little == pytest.approx(np.exp(-1.5 * beta(0.6, 1.5) * 1e-4), abs=2e-8)
 
@@ -133,17 +133,17 @@ def test_sliding_throughout_off_the_centre(sign: float) -> None:
     """psi_1 - 2 (2 chi sigma + zeta)/(1 + sigma eps), elastic along the normal."""
     chi, eps, zeta = ROD
     psi = sign * 8.0
-    found = numbers(psi, ROD)
+    values = numbers(psi, ROD)
     slid = psi - 2.0 * (2.0 * chi * sign + zeta) / (1.0 + sign * eps)
-    assert found[PSI_OUT] == pytest.approx(slid, abs=1e-6)
-    assert found[RESTITUTION] == pytest.approx(1.0, abs=1e-6)
+    assert values[PSI_OUT] == pytest.approx(slid, abs=1e-6)
+    assert values[RESTITUTION] == pytest.approx(1.0, abs=1e-6)
 
 
 def test_a_rod_struck_off_its_centre() -> None:
     """Without tangential velocity before; the material loses nothing, and yet e is 0.848."""
-    found = numbers(0.0, ROD)
-    assert found[PSI_OUT] == pytest.approx(-1.0565, abs=2.5e-3)  # of chi, eps, zeta in 3 digits
-    assert found[RESTITUTION] == pytest.approx(0.8482, abs=5e-4)
+    values = numbers(0.0, ROD)
+    assert values[PSI_OUT] == pytest.approx(-1.0565, abs=2.5e-3)  # of chi, eps, zeta in 3 digits
+    assert values[RESTITUTION] == pytest.approx(0.8482, abs=5e-4)
 
 
 @pytest.mark.parametrize(

@@ -43,29 +43,29 @@ def by_elements(depths, moved, elements=24):
     patch = Patch.across(elements, NU_03)
 
     def forces(parts):
-        state, found = patch.untouched(), []
+        state, entries = patch.untouched(), []
         for d, u in zip(*parted(depths, moved, parts), strict=True):
             state = patch.advance(state, float(d), np.append(u, 0.0) / NU_03.kappa).state
-            found.append(state.traction.sum(axis=(1, 2)) / state.pressure.sum())
-        return np.array(found)[parts - 1 :: parts]
+            entries.append(state.traction.sum(axis=(1, 2)) / state.pressure.sum())
+        return np.array(entries)[parts - 1 :: parts]
 
     return 2.0 * forces(2) - forces(1)
 
 
 def follow(depths, moved, by_force=False):
-    given = depths, moved, np.full(depths.size, by_force)
-    found, refused = turning.follow_turning(*given, lambda _: None)
+    values = depths, moved, np.full(depths.size, by_force)
+    actual, refused = turning.follow_turning(*values, lambda _: None)
     assert refused == paths.INSIDE
-    return found
+    return actual
 
 
-def pull(found):
-    return found[:, turning.Q_X : turning.Q_Y + 1]
+def pull(actual):
+    return actual[:, turning.Q_X : turning.Q_Y + 1]
 
 
-def away(found, expected, depths):
+def away(actual, expected, depths):
     """Return the largest difference of forces, over mu P at its largest."""
-    return (np.hypot(*(found - expected).T) / (2 / 3 * depths.max() ** 1.5)).max()
+    return (np.hypot(*(actual - expected).T) / (2 / 3 * depths.max() ** 1.5)).max()
 
 
 @pytest.mark.parametrize(
@@ -101,23 +101,23 @@ def test_on_a_line_springs_find_the_annuli_again():
     depths[rng.uniform(size=25) < 0.2] = -0.1
     e = np.array([np.cos(0.7), np.sin(0.7)])
     exact = paths.follow_path(depths, along, np.zeros(25, bool)).results
-    found = follow(depths, np.outer(along, e))
-    assert away(pull(found), np.outer(exact[:, paths.TRACTION], e), depths) < 2e-4
-    np.testing.assert_allclose(found[:, turning.STICK], exact[:, paths.STICK], atol=0.01)
-    np.testing.assert_allclose(found[:, turning.STORED], exact[:, paths.STORED], atol=1e-4)
+    path = follow(depths, np.outer(along, e))
+    assert away(pull(path), np.outer(exact[:, paths.TRACTION], e), depths) < 2e-4
+    np.testing.assert_allclose(path[:, turning.STICK], exact[:, paths.STICK], atol=0.01)
+    np.testing.assert_allclose(path[:, turning.STORED], exact[:, paths.STORED], atol=1e-4)
     work = exact[:, paths.WORK]
-    np.testing.assert_allclose(found[:, turning.WORK], work, atol=4e-3 * work[-1])
+    np.testing.assert_allclose(path[:, turning.WORK], work, atol=4e-3 * work[-1])
 
 
 def test_what_was_stored_and_lost_is_the_work_of_the_force():
     """int F dU by the trapezoid rule of fine steps: the ledger knows it spring by spring."""
     depths, moved = parted(*spiral(40), 6)
-    found = follow(depths, moved)
-    mean = 0.5 * (pull(found)[1:] + pull(found)[:-1])
-    work = np.sum(mean * np.diff(moved, axis=0)) + 0.5 * pull(found)[0] @ moved[0]
-    books = found[-1, turning.STORED] + found[-1, turning.WORK]
+    path = follow(depths, moved)
+    mean = 0.5 * (pull(path)[1:] + pull(path)[:-1])
+    work = np.sum(mean * np.diff(moved, axis=0)) + 0.5 * pull(path)[0] @ moved[0]
+    books = path[-1, turning.STORED] + path[-1, turning.WORK]
     assert books == pytest.approx(work, rel=3e-3)
-    assert np.all(np.diff(found[:, turning.WORK]) > -1e-4 * work)
+    assert np.all(np.diff(path[:, turning.WORK]) > -1e-4 * work)
 
 
 def test_steps_are_straight_however_they_are_cut():
@@ -139,10 +139,10 @@ def test_the_axes_do_not_matter():
 def test_forces_lead_back_to_their_displacements():
     """The forces of a path by displacements, wanted, move the bodies as before."""
     depths, moved = circle(0.5, 24)
-    found = follow(depths, moved)
-    again = follow(depths, pull(found), by_force=True)
+    path = follow(depths, moved)
+    again = follow(depths, pull(path), by_force=True)
     np.testing.assert_allclose(again[:, :2], moved, atol=1e-5)
-    np.testing.assert_allclose(again[:, turning.WORK], found[:, turning.WORK], atol=1e-5)
+    np.testing.assert_allclose(again[:, turning.WORK], path[:, turning.WORK], atol=1e-5)
     some = CORNERS[:3, 0], 0.4 * CORNERS[:3, 1:]
     again = follow(some[0], pull(follow(*some)), by_force=True)
     np.testing.assert_allclose(again[:, :2], some[1], atol=1e-4)

@@ -20,9 +20,9 @@ from carom.dimensionless.rebounds import lossy_rebounds
 def psi_out(psi, chi, alpha):
     """Return psi_2 of impacts, all of which must be solved."""
     psi, chi, alpha = map(np.atleast_1d, (psi, chi, alpha))
-    found = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
-    assert np.all(found.status == Status.SOLVED)
-    return found.psi_out
+    rebounds = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
+    assert np.all(rebounds.status == Status.SOLVED)
+    return rebounds.psi_out
 
 
 @pytest.mark.slow
@@ -32,10 +32,10 @@ def test_impacts_with_all_losses():
     chi, e = 0.1 * 50.0 ** rng.uniform(0.0, 1.0, 25), rng.uniform(0.2, 1.0, 25)
     psi = rng.uniform(0.01, 2.0, 25) * chi * (1.0 + e)
     alpha = np.array([viscous_loss(each) for each in e])
-    for given, found in zip(
+    for values, actual in zip(
         zip(psi, chi, alpha, strict=True), psi_out(psi, chi, alpha), strict=True
     ):
-        assert found == pytest.approx(extrapolated(*given, springs=1000), abs=1e-6), given
+        assert actual == pytest.approx(extrapolated(*values, springs=1000), abs=1e-6), values
 
 
 @pytest.mark.parametrize(
@@ -43,18 +43,18 @@ def test_impacts_with_all_losses():
 )
 def test_impacts_of_the_law(psi, chi, e):
     """KelvinVoigt(restitution=e) is the impact of the alpha of e; in one fronts come back."""
-    found = carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=e))
-    assert found == pytest.approx(extrapolated(psi, chi, viscous_loss(e)), abs=1e-6)
+    actual = carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=e))
+    assert actual == pytest.approx(extrapolated(psi, chi, viscous_loss(e)), abs=1e-6)
 
 
 @pytest.mark.slow
 def test_march_is_of_second_order():
     """Where in a step a front stops is irregular: in the mean of impacts."""
     rng = np.random.default_rng(1911)
-    given = rng.uniform((0.3, 0.6, 0.05), (3.0, 2.5, 0.4), (12, 3))
-    exact = psi_out(*given.T)
+    values = rng.uniform((0.3, 0.6, 0.05), (3.0, 2.5, 0.4), (12, 3))
+    exact = psi_out(*values.T)
     errors = [
-        np.mean([abs(march(*one, n) - found) for one, found in zip(given, exact, strict=True)])
+        np.mean([abs(march(*one, n) - actual) for one, actual in zip(values, exact, strict=True)])
         for n in (125, 250, 500)
     ]
     assert errors[-1] < 1e-5
@@ -70,9 +70,9 @@ def test_coulombs_law_in_every_ring(e):
     alpha, errors = viscous_loss(e), []
     for psi, chi in ((0.5, 1.44), (1.5, 1.44), (3.0, 1.44), (1.2, 0.8), (2.5, 2.2)):
         exact = psi_out(psi, chi, alpha)[0]
-        found = [rings.march_viscous(psi, chi, alpha, n) for n in (50, 100, 200)]
-        assert rings.richardson(*found) == pytest.approx(exact, abs=1e-4), (psi, chi)
-        errors.append(np.array(found) - exact)
+        values = [rings.march_viscous(psi, chi, alpha, n) for n in (50, 100, 200)]
+        assert rings.richardson(*values) == pytest.approx(exact, abs=1e-4), (psi, chi)
+        errors.append(np.array(values) - exact)
     coarse, middle, fine = np.abs(errors).mean(axis=0)
     assert fine < 4e-3
     assert coarse / middle == pytest.approx(2.0, abs=0.15)

@@ -24,21 +24,21 @@ Array = NDArray[np.float64]
 
 def psi_out(psi: Array, chi: Array, y: Array) -> Array:
     """Return psi_2 of impacts, all of which must be solved."""
-    found = lossy_rebounds(psi, chi, LossNumbers(Loss.PLASTIC, y))
-    assert np.all(found.status == Status.SOLVED)
-    return found.psi_out
+    rebounds = lossy_rebounds(psi, chi, LossNumbers(Loss.PLASTIC, y))
+    assert np.all(rebounds.status == Status.SOLVED)
+    return rebounds.psi_out
 
 
 @pytest.mark.parametrize("y", [0.1, 0.4, 0.95])
 def test_closed_motion_obeys_the_equations(y: float) -> None:
     """The impulse of the load is 1 + e, and d'' = -(5/4) P; time and e are the solver's."""
     time, depth, _, load = thornton(y, 2000)
-    found = lossy_rebounds(np.ones(1), np.ones(1), LossNumbers(Loss.PLASTIC, y))
+    rebounds = lossy_rebounds(np.ones(1), np.ones(1), LossNumbers(Loss.PLASTIC, y))
     speed = 1.0 - np.append(0.0, np.cumsum(0.625 * (load[1:] + load[:-1]) * np.diff(time)))
-    assert -speed[-1] == pytest.approx(found.restitution[0], abs=1e-5)
+    assert -speed[-1] == pytest.approx(rebounds.restitution[0], abs=1e-5)
     travelled = np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time))
     assert travelled == pytest.approx(depth[1:], abs=2e-5)
-    assert time[-1] == pytest.approx(found.duration[0], rel=1e-9)
+    assert time[-1] == pytest.approx(rebounds.duration[0], rel=1e-9)
 
 
 def test_rings_bear_the_load() -> None:
@@ -61,10 +61,10 @@ def test_rings_bear_the_load() -> None:
 def test_rings_of_traction(psi: float, chi: float, ratio: float, close: float) -> None:
     y = ratio**-0.4
     wanted = rings.richardson(*(by_rings(psi, chi, y, count) for count in (20, 40, 80)))
-    found = psi_out(np.array([psi]), np.array([chi]), np.array([y]))[0]
-    assert found == pytest.approx(wanted, abs=close)
+    actual = psi_out(np.array([psi]), np.array([chi]), np.array([y]))[0]
+    assert actual == pytest.approx(wanted, abs=close)
     if close == 0.05:
-        assert abs(found - wanted) > 0.03
+        assert abs(actual - wanted) > 0.03
 
 
 def test_springs_bear_the_transform_of_the_pressure() -> None:
@@ -88,9 +88,9 @@ def test_springs_marched_plainly(
 ) -> None:
     """Springs and times of their own, extrapolated."""
     y = ratio**-0.4
-    found = psi_out(np.array([psi]), np.array([chi]), np.array([y]))[0]
+    actual = psi_out(np.array([psi]), np.array([chi]), np.array([y]))[0]
     wanted = by_fine_springs(psi, chi, y, count)
-    assert found == pytest.approx(wanted, abs=close * max(1.0, psi))
+    assert actual == pytest.approx(wanted, abs=close * max(1.0, psi))
 
 
 def test_error_is_of_second_order_and_what_is_promised() -> None:
@@ -98,12 +98,12 @@ def test_error_is_of_second_order_and_what_is_promised() -> None:
     rng = np.random.default_rng(7)
     chi, y = rng.uniform(0.3, 8, 40), 100.0 ** (-0.4 * rng.random(40))
     psi = rng.random(40) * (4.0 * chi + 0.5)
-    found = np.empty((40, 4))
+    values = np.empty((40, 4))
     for i, (p, c, parameter) in enumerate(zip(psi, chi, y, strict=True)):
         for j, count in enumerate((100, 200, 400, 800)):
             solid = Solid(int(Loss.PLASTIC), parameter)
-            found[i, j] = marched(p, Inertia(c), solid, count)[PSI_OUT]
-    fine = (4.0 * found[:, 3] - found[:, 2]) / 3.0
-    errors = np.abs(found[:, :3] - fine[:, None])
+            values[i, j] = marched(p, Inertia(c), solid, count)[PSI_OUT]
+    fine = (4.0 * values[:, 3] - values[:, 2]) / 3.0
+    errors = np.abs(values[:, :3] - fine[:, None])
     assert np.median(np.log2(errors[:, 0] / errors[:, 2]) / 2.0) == pytest.approx(2.0, abs=0.1)
     assert np.max(np.abs(psi_out(psi, chi, y) - fine) / np.maximum(1.0, psi)) < 3e-5

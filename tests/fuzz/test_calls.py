@@ -108,9 +108,9 @@ def bodies_and_losses(calls):
     calls.add("ElasticPlastic", carom.ElasticPlastic, yield_velocity=0.1)
     solid = {"modulus_ratio": 1.5, "relaxation_time": 1e-5}
     calls.add("StandardLinearSolid", carom.StandardLinearSolid, **solid)
-    known = {"speed": 2.0, "angle": [0.1, 0.5], "contact_beta": 0.3, "spin": 1.0}
-    known |= {"normal_restitution": 0.9, "wanted": "rebound_angle"}
-    calls.add("convert", lambda wanted, **known: convert(PAIR, known=known, wanted=wanted), **known)
+    basis = {"speed": 2.0, "angle": [0.1, 0.5], "contact_beta": 0.3, "spin": 1.0}
+    basis |= {"normal_restitution": 0.9, "wanted": "rebound_angle"}
+    calls.add("convert", lambda wanted, **names: convert(PAIR, known=names, wanted=wanted), **basis)
     calls.add("convert, all", convert, pair=PAIR, known=POLAR, wanted="normal_speed")
     force = {"pair": PAIR, "normal_force": 10.0}
     calls.add("cattaneo_mindlin", classical.cattaneo_mindlin, **force, tangential_force=[1.0])
@@ -132,9 +132,9 @@ def rebounds(calls):
         calls.add(f"{kind}.at", each.at, time=[0.1, 1.0])
         calls.add(f"{kind}.history", each.history, n=5)
     for name in ("memory", "phase_at", "slip_rate"):
-        calls.add(name, getattr(solved, name), time=1.0)
+        calls.add(name, getattr(solved, name), at=1.0)
     for name in ("traction", "slid"):
-        calls.add(name, getattr(solved, name), time=1.0, radii=[0.0, 0.5])
+        calls.add(name, getattr(solved, name), at=1.0, radii=[0.0, 0.5])
     calls.add("slip_angles", solved.slip_angles, lateral_ratio=0.2)
     calls.add("curve", carom.curve, chi=1.44, psi_1=[0.0, 1.0], losses=None)
     calls.add("regime_map", carom.regime_map, psi_1=[0.5, 2.0], chi=1.44, progress=False)
@@ -143,12 +143,12 @@ def rebounds(calls):
 def tabulated(calls):
     law, mixed = carom.laws.ReboundLaw(1.44), carom.laws.ReboundLaw((1.2, 1.3))
     for name, each in (("law", law), ("impulse", law.impulse), ("dissipation", law.dissipation)):
-        calls.add(name, each, psi=[0.5, 2.0])
+        calls.add(name, each, psi_1=[0.5, 2.0])
     from_dict = carom.laws.ReboundLaw.from_dict
     calls.add("from_dict", from_dict, table=law.to_dict())
     calls.add("from_dict, items", lambda **table: from_dict(table), **law.to_dict())
     calls.add("from_dict, one item", _with_one(law), item=law.edges[1])
-    calls.add("mixture", mixed, psi=[0.5, 2.0], chi=1.25, return_status=False)
+    calls.add("mixture", mixed, psi_1=[0.5, 2.0], chi=1.25, return_status=False)
     calls.add("SmoothLaw", carom.laws.SmoothLaw, restitution=0.9)
     calls.add("RoughLaw", carom.laws.RoughLaw, restitution=0.9)
     both = {"restitution": 0.9, "tangential_restitution": 0.4}
@@ -157,12 +157,12 @@ def tabulated(calls):
 
 def contact_laws(calls):
     many, steps = {"psi_1": [0.5, 2.0], **AT_CHI}, {"steps": 50}
-    for kind, given in LAWS.items():
+    for kind, data in LAWS.items():
         name = kind.__name__
-        calls.add(name, kind, **given)
-        calls.add(f"{name}.rebound", kind(**given).rebound, **many, **steps, threads=1)
+        calls.add(name, kind, **data)
+        calls.add(f"{name}.rebound", kind(**data).rebound, **many, **steps, threads=1)
         if kind is not dem.HardSphere:
-            calls.add(f"{name}.history", kind(**given).history, psi_1=0.5, **AT_CHI, **steps)
+            calls.add(f"{name}.history", kind(**data).history, psi_1=0.5, **AT_CHI, **steps)
     own = {"function": OWN.function, "name": "own"}  # a state may be anything
     own |= {"normal": "linear", "restitution": 0.9, "normal_speed": 0.1, "pair": PAIR}
     calls.add("FunctionLaw", dem.FunctionLaw, **own)
@@ -171,22 +171,22 @@ def contact_laws(calls):
     calls.add("FunctionRebound", dem.FunctionRebound, function=RULE.function, name="own")
     calls.add("FunctionRebound.rebound", RULE.rebound, **many, return_status=False)
     spring, speed = dem.LinearSpring(), {"pair": PAIR, "normal_speed": 1.0}
-    calls.add("force_error", verify.force_error, law=spring, psi=0.5, **AT_CHI)
-    calls.add("force_error, own", verify.force_error, law=OWN, psi=0.5, chi=1.44)
-    grid = {"psi": [0.5, 1.0], **AT_CHI}
+    calls.add("force_error", verify.force_error, law=spring, psi_1=0.5, **AT_CHI)
+    calls.add("force_error, own", verify.force_error, law=OWN, psi_1=0.5, chi=1.44)
+    grid = {"psi_1": [0.5, 1.0], **AT_CHI}
     calls.add("error_map", verify.error_map, law=dem.HardSphere(0.4), **grid, **steps)
     calls.add("stiffnesses", verify.stiffnesses, **speed)
     calls.add("poisson_from_kappa", verify.poisson_from_kappa, kappa=0.8)
-    told = {"restitution": 0.9, "convention": "critical"}
-    calls.add("damping", verify.damping_from_restitution, **told)
-    told = {"value": 0.1, "convention": "thornton"}
-    calls.add("restitution", verify.restitution_from_damping, **told)
+    items = {"restitution": 0.9, "convention": "critical"}
+    calls.add("damping", verify.damping_from_restitution, **items)
+    items = {"value": 0.1, "convention": "thornton"}
+    calls.add("restitution", verify.restitution_from_damping, **items)
     tuned = {"spring": spring, "mindlin": dem.LammpsMindlin()}
     calls.add("recipes", verify.recipes, **speed, wanted=0.9, **tuned)
     motion = {"normal_speed": 0.1, "tangential_speed": (0.1, 0.0), "spin": (0.0, 1.0)}
-    given = {"pair": PAIR, "law": dem.LammpsMindlin(), "steps": 99}
-    calls.add("Experiment", verify.Experiment, **given, **motion)
-    calls.add("bench", verify.bench, engine=verify.Lammps("/nowhere"), steps=100, psi=[0.5])
+    data = {"pair": PAIR, "law": dem.LammpsMindlin(), "steps": 99}
+    calls.add("Experiment", verify.Experiment, **data, **motion)
+    calls.add("bench", verify.bench, engine=verify.Lammps("/nowhere"), steps=100, psi_1=[0.5])
     calls.add("Entry", verify.Entry, label="one", law=spring, used_by="")
 
 
@@ -207,16 +207,16 @@ def impacts_and_paths(calls):
     moved = {"pair": PAIR, "penetration": [1e-6, 2e-6]}
     calls.add("load_path", carom.load_path, pair=PAIR, **steps)
     calls.add("load_path, moved", carom.load_path, **moved, displacement=1e-7)
-    given = {"normal_force": 10.0, "displacement": aside, "progress": False}
-    calls.add("load_path, two ways", carom.load_path, pair=PAIR, **given)
+    data = {"normal_force": 10.0, "displacement": aside, "progress": False}
+    calls.add("load_path, two ways", carom.load_path, pair=PAIR, **data)
     calls.add("load_path, pushed", carom.load_path, **moved, tangential_force=pushed)
     calls.add("then", path.then, **steps)
     vectors = {"velocity1": [[1.0, 0.0, 1.0]], "spin1": [0.0, 1.0, 0.0], "velocity2": None}
     vectors["normal"] = [0.0, 0.0, 1.0]
-    given = {"law": None, "inplace": False, "threads": 1}
-    calls.add("collide", carom.collide, pair=PAIR, **vectors, **given)
-    given = {"spin2": [0.0, 0.0, 1.0], "law": laws.RoughLaw()}
-    calls.add("collide, balls", carom.collide, pair=BALLS, **vectors, **given)
+    data = {"law": None, "inplace": False, "threads": 1}
+    calls.add("collide", carom.collide, pair=PAIR, **vectors, **data)
+    data = {"spin2": [0.0, 0.0, 1.0], "law": laws.RoughLaw()}
+    calls.add("collide, balls", carom.collide, pair=BALLS, **vectors, **data)
     calls.add("collide, judged", carom.collide, pair=PAIR, **vectors, judge=True)
     calls.add("BoundaryElements", carom.BoundaryElements, elements=16, steps=50)
 
@@ -256,7 +256,7 @@ def slow_ones(calls):
     calls.add("wear, components", carom.wear_of_many, pair=BALLS, **CARTESIAN, spin2=1.0)
     swept = {"case": CASE, "design": GRID, "outputs": ["psi_out"], "scheduler": None}
     calls.add("sweep", carom.sweep, **swept, **alone, resume=False)
-    at = {"psi": [0.5], **AT_CHI}
+    at = {"psi_1": [0.5], **AT_CHI}
     calls.add("step_error", verify.step_error, law=dem.LinearSpring(), steps=50, **at)
     calls.add("advised_steps", verify.advised_steps, law=dem.LinearSpring(), allowed=0.1, **at)
     calls.add("rank", verify.rank, entries=[dem.LinearSpring()], **at, progress=False)
@@ -264,11 +264,11 @@ def slow_ones(calls):
     measure = {"measure": "max", "progress": False}
     calls.add("tune", verify.tune, laws=[dem.HardSphere()], **at, **measure)
     results = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.0, -1.0]}
-    given = {"case": None, "chi": 1.44, "law": "new", "restitution": 0.9}
+    data = {"case": None, "chi": 1.44, "law": "new", "restitution": 0.9}
     common = {"tolerance": 0.01, "code": "own"}
-    calls.add("score", verify.score, results=results, **given, **common)
-    given = {"results": OWN, "case": PAIR, "chi": None, "restitution": None}
-    calls.add("score, own", verify.score, **given, **common)
+    calls.add("score", verify.score, results=results, **data, **common)
+    data = {"results": OWN, "case": PAIR, "chi": None, "restitution": None}
+    calls.add("score, own", verify.score, **data, **common)
 
 
 @cache
@@ -338,13 +338,13 @@ def is_open(value):
     return False
 
 
-def complaint(name, function, given):
+def complaint(name, function, data):
     """Return what is wrong with how a call ends, or nothing."""
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         try:
             with within(SECONDS):
-                result = function(**given)
+                result = function(**data)
         except TooLong:
             return "takes too long"
         except carom.InputError as error:
@@ -352,9 +352,9 @@ def complaint(name, function, given):
             return "" if LINE.fullmatch(line) and len(line) < 1000 else f"no line: {line!r}"
         except Exception as error:
             return f"{type(error).__name__}: {error}"
-    told = [str(each.message) for each in warned]
-    others = [each for each in told if not any(words in each for words in TOLD)]
-    explained = len(others) < len(told) or name in OPEN or given.get("return_status") is True
+    items = [str(each.message) for each in warned]
+    others = [each for each in items if not any(words in each for words in TOLD)]
+    explained = len(others) < len(items) or name in OPEN or data.get("return_status") is True
     if others:
         return f"warns: {others[0]}"
     return "" if explained or not is_open(result) else f"not finite: {result!r:.200}"
@@ -364,17 +364,17 @@ def hostile_call(chance, table):
     name = chance.choice(sorted(table))
     function, valid = table[name]
     worse = chance.sample(sorted(valid), min(len(valid), chance.choice((1, 1, 2))))
-    given = {**valid, **{key: chance.choice(HOSTILE) for key in worse}}
-    if callable(given.get("progress")):  # what it raises is the caller's
-        given["progress"] = 0.5
-    return name, function, given, worse
+    data = {**valid, **{key: chance.choice(HOSTILE) for key in worse}}
+    if callable(data.get("progress")):  # what it raises is the caller's
+        data["progress"] = 0.5
+    return name, function, data, worse
 
 
 def run(chance, table, count):
     for _ in range(count):
-        name, function, given, worse = hostile_call(chance, table)
-        wrong = complaint(name, function, given)
-        shown = ", ".join(f"{key}={_shown(given[key])}" for key in worse)
+        name, function, data, worse = hostile_call(chance, table)
+        wrong = complaint(name, function, data)
+        shown = ", ".join(f"{key}={_shown(data[key])}" for key in worse)
         assert not wrong, f"{name}({shown}): {wrong}"
 
 
@@ -428,10 +428,10 @@ def with_unit(value):
     return [numbers.view(Lengths), [Length(each) for each in numbers.ravel()]]
 
 
-def refused_or_told(name, function, given):
+def refused_or_told(name, function, data):
     """What is wrong if a call takes numbers with a unit of which nothing is known as bare ones."""
     try:
-        function(**given)
+        function(**data)
     except carom.InputError:
         return ""
     except Exception as error:
@@ -449,9 +449,9 @@ def test_quantities_of_other_libraries_are_never_bare_numbers():
             if argument in ("initial_state", "progress"):  # which may be anything
                 continue
             for strange in with_unit(value):
-                given = {**valid, argument: strange}
-                told = refused_or_told(f"{name}, {argument}={strange!r:.80}", function, given)
-                wrong += [told] if told else []
+                data = {**valid, argument: strange}
+                reply = refused_or_told(f"{name}, {argument}={strange!r:.80}", function, data)
+                wrong += [reply] if reply else []
     assert not wrong, "\n".join(wrong)
 
 

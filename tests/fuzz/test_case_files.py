@@ -31,5 +31,5 @@ def test_case_files(calls, tmp_path, mutated, answered, text):
         assert all(map(isfinite, approach(*(motion.get(name) for name in names))))
 
     assert answered(read, text)
-    told = sum(answered(read, mutated(text)) for _ in range(calls // 4))
-    assert 0 < told < calls // 4
+    total = sum(answered(read, mutated(text)) for _ in range(calls // 4))
+    assert 0 < total < calls // 4

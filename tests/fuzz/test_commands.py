@@ -60,13 +60,13 @@ def test_mutated_lines(calls, folder, rng, mutated, capsys):
     for _ in range(calls // 20):
         words = changed(shlex.split(rng.choice(LINES)), rng, mutated)
         codes.append(main(words))
-        told = capsys.readouterr()
-        text = f"{words}: {told.err}"
+        answer = capsys.readouterr()
+        text = f"{words}: {answer.err}"
         assert codes[-1] in (0, 1, 2), text
-        assert "Traceback" not in told.err, text
-        assert "carom: the command failed" not in told.err, text
+        assert "Traceback" not in answer.err, text
+        assert "carom: the command failed" not in answer.err, text
         if codes[-1] == 2:
-            lines = [line for line in told.err.splitlines() if line.startswith("carom: ")]
+            lines = [line for line in answer.err.splitlines() if line.startswith("carom: ")]
             assert lines, text
-            assert not told.out, text
+            assert not answer.out, text
     assert {0, 2} <= set(codes)

@@ -102,7 +102,7 @@ class Silence:
     def __init__(self, capfd, monkeypatch):
         self.heard = []
         self._capfd = capfd
-        monkeypatch.setattr(sys, "unraisablehook", lambda told: self.heard.append(str(told)))
+        monkeypatch.setattr(sys, "unraisablehook", lambda answer: self.heard.append(str(answer)))
 
     def check(self, what):
         out, err = self._capfd.readouterr()
@@ -130,9 +130,9 @@ def read_or_refused(path):
     try:
         return carom.read(path).load()
     except carom.InputError as error:
-        told = str(error)
-    assert "\n" not in told
-    assert told.startswith(("file: ", "store: "))
+        text = str(error)
+    assert "\n" not in text
+    assert text.startswith(("file: ", "store: "))
     return None
 
 
@@ -148,9 +148,9 @@ def test_a_damaged_file_is_read_as_it_was_or_refused(make, calls, tmp_path, sile
         if damaged == content:  # zeros where there were zeros
             continue
         path.write_bytes(damaged)
-        found = read_or_refused(path)
-        refused += found is None
-        assert found is None or same(found, stored), (number, mutation.__name__)
+        actual = read_or_refused(path)
+        refused += actual is None
+        assert actual is None or same(actual, stored), (number, mutation.__name__)
     gc.collect()
     silence.check(make.__name__)
     assert refused > 0.8 * count
@@ -175,14 +175,14 @@ def test_a_damaged_store_is_read_as_it_was_or_refused(calls, tmp_path, silence):
             os.remove(path / name)
         else:
             (path / name).write_bytes(mutation(content, rng))
-        found = read_or_refused(path)
-        refused += found is None
+        actual = read_or_refused(path)
+        refused += actual is None
         if mutation is None and name.startswith("status/c/"):
-            run = found.status != carom.status.PointStatus.NOT_RUN
+            run = actual.status != carom.status.PointStatus.NOT_RUN
             assert not run.all()
-            assert found.where(run).identical(stored.where(run))
+            assert actual.where(run).identical(stored.where(run))
         else:
-            assert found is None or same(found, stored), (number, name)
+            assert actual is None or same(actual, stored), (number, name)
         (path / name).write_bytes(content)
     gc.collect()
     silence.check("zarr")

@@ -86,10 +86,10 @@ def rebounds(rng, pair, before, names):
     restitution = np.full(rows, rng.choice([0.0, 0.2, 0.6, 0.95, 1.0, 1.02]))
     psi = carom.convert_observables(pair, known=before, wanted="psi_in")
     out = carom.rebound(psi, pair.chi)
-    known = before | {"psi_out": out, "normal_restitution": np.maximum(restitution, 1e-9)}
+    value = before | {"psi_out": out, "normal_restitution": np.maximum(restitution, 1e-9)}
     others = [name for name in names if name != "normal_restitution"]
-    found = dict.fromkeys(names, restitution)
-    return found | {n: carom.convert_observables(pair, known=known, wanted=n) for n in others}
+    actual = dict.fromkeys(names, restitution)
+    return actual | {n: carom.convert_observables(pair, known=value, wanted=n) for n in others}
 
 
 def measured(rng, pair):
@@ -151,35 +151,35 @@ def options(rng, pair):
     """Return the other arguments of `fit`."""
     values = {name: getattr(pair, name) for name in ("friction", "kappa", "chi")}
     values |= {"restitution": 0.98, "spin_offset": 0.0}
-    given = {"robust": bool(rng.random() < 0.7)}
-    given["confidence"] = float(rng.choice([0.5, 0.68, 0.95, 0.999]))
+    inputs = {"robust": bool(rng.random() < 0.7)}
+    inputs["confidence"] = float(rng.choice([0.5, 0.68, 0.95, 0.999]))
     way = rng.random()
     if way < 0.3:
         held = [name for name in ("friction", "kappa", "restitution") if rng.random() < 0.4]
-        given["fixed"] = {name: values[name] for name in held}
+        inputs["fixed"] = {name: values[name] for name in held}
     elif way < 0.5:
-        given["vary"] = [name for name in PARAMETERS if rng.random() < 0.4]
+        inputs["vary"] = [name for name in PARAMETERS if rng.random() < 0.4]
     elif way < 0.7:
-        given["vary"] = str(rng.choice(PARAMETERS))
-        same = {"kappa", "chi"} if given["vary"] in ("kappa", "chi") else {given["vary"]}
+        inputs["vary"] = str(rng.choice(PARAMETERS))
+        same = {"kappa", "chi"} if inputs["vary"] in ("kappa", "chi") else {inputs["vary"]}
         drop = same | ({"chi"} if rng.random() < 0.5 else {"kappa"})
-        given["fixed"] = {n: v for n, v in values.items() if n not in drop}
+        inputs["fixed"] = {n: v for n, v in values.items() if n not in drop}
         if rng.random() < 0.7:
-            given["fixed"].pop("spin_offset", None)
-    return given
+            inputs["fixed"].pop("spin_offset", None)
+    return inputs
 
 
-def explained(found):
+def explained(result):
     """Assert that every number of a fit is finite, or that a word says why not."""
-    for each in found.estimates.values():
+    for each in result.estimates.values():
         assert np.isfinite(each.value), each
         assert each.determined == bool(np.isfinite(each.low) or np.isfinite(each.high)), each
-        assert each.determined or each.reason or each.name not in found.best.model.free, each
+        assert each.determined or each.reason or each.name not in result.best.model.free, each
         if each.determined:
             assert each.low - 1e-9 * abs(each.value) <= each.value, each
             assert each.value <= each.high + 1e-9 * abs(each.value), each
-    for law in found.comparison:
-        assert np.isfinite(law.criterion) or "too few values" in found.comparison.verdict
+    for law in result.comparison:
+        assert np.isfinite(law.criterion) or "too few values" in result.comparison.verdict
         assert all(np.isfinite(value) for value in law.values.values())
 
 
@@ -196,18 +196,18 @@ def whole(dataset):
         assert np.isfinite(dataset[name].values).all(), name
 
 
-def used(found):
+def used(result):
     """Ask a fit for everything that it offers."""
-    explained(found)
-    assert str(found)
-    assert repr(found)
-    json.dumps(found.to_dict(), allow_nan=False)
-    whole(found.to_dataset())
-    assert found.comparison.verdict
-    assert found.cite()
-    assert all(isinstance(note, str) and "nan" not in note for note in found.notes), found.notes
-    for name in (None, *found.best.model.free):
-        advice = found.advice(2, name)
+    explained(result)
+    assert str(result)
+    assert repr(result)
+    json.dumps(result.to_dict(), allow_nan=False)
+    whole(result.to_dataset())
+    assert result.comparison.verdict
+    assert result.cite()
+    assert all(isinstance(note, str) and "nan" not in note for note in result.notes), result.notes
+    for name in (None, *result.best.model.free):
+        advice = result.advice(2, name)
         json.dumps(advice.to_dict(), allow_nan=False)
         assert len(advice.places) == 2
         assert 0.0 <= advice.shorter <= 1.0 + 1e-9, advice
@@ -220,17 +220,17 @@ def attempt(seed, folder, pictures=True):
     pair = bodies(rng)
     table = measured(rng, pair)
     other = carom.Pair(pair.first, pair.second, float(rng.choice([0.0, 0.3, pair.friction])))
-    given = options(rng, pair)
+    inputs = options(rng, pair)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            found = carom.fit(table, pair=other, **given)
+            result = carom.fit(table, pair=other, **inputs)
         except carom.InputError as error:
             return one_line(error)
-        used(found)
+        used(result)
         if pictures:
-            is_stored(found, folder)
-    return found
+            is_stored(result, folder)
+    return result
 
 
 def test_fits_of_what_people_measure_are_whole_or_refused(calls, tmp_path):

@@ -42,8 +42,8 @@ def points(nominal, seed, count):
         yield nominal | {name: nominal[name] * 10.0 ** rng.choice(MAGNITUDES) for name in chosen}
 
 
-def swept(given, kind="half-space"):
-    columns = {name: np.array([point[name] for point in given]) for name in given[0]}
+def swept(inputs, kind="half-space"):
+    columns = {name: np.array([point[name] for point in inputs]) for name in inputs[0]}
     return carom.sweep({"second": {"kind": kind}}, carom.Table(columns), progress=False)
 
 
@@ -62,8 +62,8 @@ def psi_lost(psi, chi):
     if abs(psi) >= max(4 * chi, 1):
         return 4 * chi * mp.sign(psi)
     near = psi if abs(psi) > 1e-6 else mp.mpf(1e-6)
-    found = mp.mpf(float(carom.rebound(float(near), float(chi))))
-    return psi * (1 - found / near)
+    actual = mp.mpf(float(carom.rebound(float(near), float(chi))))
+    return psi * (1 - actual / near)
 
 
 def truth(point, kind):
@@ -89,7 +89,7 @@ def truth(point, kind):
     base = 15 * normal_mass * p["normal_speed"] ** 2 * mp.sqrt(curvature) / (16 * modulus)
     depth = base ** mp.mpf("0.4")
     energy = tangential_mass * unit * lost * (velocity - unit * lost / 2)
-    found = {
+    by_name = {
         "psi_in": (psi, psi),
         "psi_out": (psi - lost, psi),
         "chi": (chi, chi),
@@ -103,29 +103,29 @@ def truth(point, kind):
     }
     for name, spin, (radius, mass, ratio) in zip(("spin", "spin2"), spins, moving, strict=False):
         turned = impulse / (mass * ratio * radius)
-        found[f"{name}_out"] = spin - turned, max(abs(spin), abs(turned))
-    return found
+        by_name[f"{name}_out"] = spin - turned, max(abs(spin), abs(turned))
+    return by_name
 
 
-def is_close(found, expected, size, tolerance):
-    return np.isfinite(found) and abs(found - expected) <= tolerance * abs(size) + TINIEST
+def is_close(actual, expected, size, tolerance):
+    return np.isfinite(actual) and abs(actual - expected) <= tolerance * abs(size) + TINIEST
 
 
 @pytest.mark.parametrize("name", KINDS)
 def test_an_impact_is_right_or_not_solved(calls, name):
     nominal, kind = KINDS[name], name if name in ("cup", "sphere") else "half-space"
-    given = list(points(nominal, 1, calls // 10))
-    found = swept(given, kind)
-    status = found.status.values
+    values = list(points(nominal, 1, calls // 10))
+    dataset = swept(values, kind)
+    status = dataset.status.values
     for place in np.flatnonzero(status == carom.status.PointStatus.SOLVED):
-        point = given[place]
+        point = values[place]
         changed = {key: value for key, value in point.items() if value != nominal[key]}
         with mp.workdps(40):
             for key, (expected, size) in truth(point, kind).items():
-                if key in found:
-                    value = float(found[key].values[place])
+                if key in dataset:
+                    value = float(dataset[key].values[place])
                     assert is_close(value, expected, size, 1e-8), (changed, key, value, expected)
-    assert 60 < (status == carom.status.PointStatus.SOLVED).sum() < len(given)
+    assert 60 < (status == carom.status.PointStatus.SOLVED).sum() < len(values)
 
 
 DIMENSIONS = {  # powers of length, time and mass
@@ -161,28 +161,28 @@ def scaled(name, value, units, sign):
 @pytest.mark.parametrize("loss", LOSSES)
 def test_an_impact_with_losses_is_the_same_in_other_units(calls, loss):
     count = calls // 100 if loss == "relaxation_time" else calls // 20
-    given = [
+    source = [
         point
         for point in points(BALL | LOSSES[loss], 2, count)
         if loss != "relaxation_time" or point["modulus_ratio"] == 1.5
     ]
-    units = [units_of(point) for point in given]
+    units = [units_of(point) for point in source]
     with np.errstate(all="ignore"):
         other = [
             {name: float(scaled(name, value, unit, -1)) for name, value in point.items()}
-            for point, unit in zip(given, units, strict=True)
+            for point, unit in zip(source, units, strict=True)
         ]
-    found, twin = swept(given), swept(other)
-    solved = found.status.values == carom.status.PointStatus.SOLVED
+    actual, twin = swept(source), swept(other)
+    solved = actual.status.values == carom.status.PointStatus.SOLVED
     both = solved & (twin.status.values == carom.status.PointStatus.SOLVED)
     assert both.sum() > 60
-    for name in set(DIMENSIONS) & set(found):
-        values, others = found[name].values, twin[name].values
+    for name in set(DIMENSIONS) & set(actual):
+        values, others = actual[name].values, twin[name].values
         assert np.isfinite(values[solved]).all(), name
         for place in np.flatnonzero(both):
             expected = scaled(name, others[place], units[place], 1)
             close = is_close(values[place], expected, expected, 1e-6)
-            assert close, (name, given[place], values[place], expected)
+            assert close, (name, source[place], values[place], expected)
 
 
 def struck(point):
@@ -199,17 +199,17 @@ def struck(point):
 
 def test_one_impact_is_that_of_the_sweep_or_refused(calls):
     """The same numbers where the sweep solves; elsewhere one line."""
-    given = list(points(BALL, 3, calls // 50))
-    found = swept(given)
-    for place, point in enumerate(given):
-        if found.status.values[place] != carom.status.PointStatus.SOLVED:
+    source = list(points(BALL, 3, calls // 50))
+    dataset = swept(source)
+    for place, point in enumerate(source):
+        if dataset.status.values[place] != carom.status.PointStatus.SOLVED:
             refused("^(speed|pair|radius|material): ", struck, point)
             continue
         hit = struck(point)
         history = hit.history(5)
         turned = hit.tangential_impulse / hit.pair.first.mass / 0.4 / point["first.radius"]
         size = abs(point["spin"]) + abs(turned)
-        for spin in (found.spin_out.values[place], float(history.spin[-1])):
+        for spin in (dataset.spin_out.values[place], float(history.spin[-1])):
             assert abs(spin - hit.spin_out) <= 1e-8 * size, point
         numbers = [item.values for item in history.data_vars.values() if item.dtype.kind == "f"]
         assert all(np.isfinite(values).all() for values in numbers), point
@@ -229,10 +229,10 @@ def test_collisions_scale_with_the_velocities(friction, steel_ball):
         one = carom.collide(pair, velocity1=velocity, spin1=spin, normal=normal, law=law)
         for power in SCALES:
             fast, turning = (np.ldexp(values, power) for values in (velocity, spin))
-            given = {"velocity1": fast, "spin1": turning, "normal": normal, "law": law}
+            inputs = {"velocity1": fast, "spin1": turning, "normal": normal, "law": law}
             with np.errstate(all="ignore"):
                 try:
-                    many = carom.collide(pair, **given)
+                    many = carom.collide(pair, **inputs)
                 except UserWarning:  # that some are left alone
                     assert power > 500
                     continue

@@ -80,21 +80,21 @@ def ask(server, caplog):
         caplog.clear()
         begin = time.process_time()
         with client.open(path, method=method, **sent) as answer:
-            told = answer.get_data()
+            text = answer.get_data()
         took = time.process_time() - begin
         request = f"{method} {path[:300]!r} {str(sent)[:600]}"
-        assert answer.status_code in {200, 204, 206, 304, 416} | REFUSED, f"{request}: {told[:300]}"
+        assert answer.status_code in {200, 204, 206, 304, 416} | REFUSED, f"{request}: {text[:300]}"
         assert took < SOON, request
         for word in (b"Traceback", b"failed, ", b'File "', b"NaN", b"Infinity"):
-            assert word not in told[:2000] + told[-2000:], f"{request}: {told[-500:]} {caplog.text}"
-        refused = answer.status_code in REFUSED or told.startswith(b'{"field":')
+            assert word not in text[:2000] + text[-2000:], f"{request}: {text[-500:]} {caplog.text}"
+        refused = answer.status_code in REFUSED or text.startswith(b'{"field":')
         if refused and method != "HEAD":
             if answer.is_json:
-                assert set(json.loads(told)) == {"field", "message"}, request
+                assert set(json.loads(text)) == {"field", "message"}, request
             else:
-                assert told.startswith(b"carom: "), request
-            assert told.count(b"\n") == (not answer.is_json), request
-            assert len(told) < 1000, request
+                assert text.startswith(b"carom: "), request
+            assert text.count(b"\n") == (not answer.is_json), request
+            assert len(text) < 1000, request
         return not refused
 
     return asked
@@ -129,8 +129,8 @@ def link(rng):
     """Return the query of a link, seldom quite right."""
     names = [*FIELDS, "law", "time", "theme", "other"]
     pairs = [(name, word(rng, name)) for name in rng.choices(names, k=rng.randint(0, 7))]
-    found = urlencode(pairs, errors="replace")
-    return garbled(rng, found) if rng.random() < 0.2 else found
+    query = urlencode(pairs, errors="replace")
+    return garbled(rng, query) if rng.random() < 0.2 else query
 
 
 def test_links_and_files(ask, calls):
@@ -146,9 +146,9 @@ def test_links_and_files(ask, calls):
 
 def test_addresses_methods_and_headers(ask, calls):
     rng = random.Random(1)
-    known = ["/", "/view.py", "/assets/stage.js", "/plotly.min.js", *ANSWERED_IN_JSON]
+    values = ["/", "/view.py", "/assets/stage.js", "/plotly.min.js", *ANSWERED_IN_JSON]
     for _ in range(calls // 4):
-        path = rng.choice(known)
+        path = rng.choice(values)
         if rng.random() < 0.7:
             path = "/" + quote(garbled(rng, path).lstrip("/"), safe="/%", errors="replace")
         headers = [
@@ -212,11 +212,11 @@ def table(rng):
         rows.insert(rng.randrange(len(rows)), [rng.choice(CELLS)] * rng.randint(0, 6))
     separator = rng.choice([",", ",", ";", "\t"])
     text = rng.choice(["\n", "\n", "\r\n"]).join(map(separator.join, rows))
-    found = text.encode("utf-8", "replace")
+    actual = text.encode("utf-8", "replace")
     if rng.random() < 0.3:
-        place = rng.randrange(len(found))
-        found = found[:place] + rng.randbytes(rng.randint(1, 8)) + found[place + 2 :]
-    return found if rng.random() < 0.95 else rng.randbytes(300)
+        place = rng.randrange(len(actual))
+        actual = actual[:place] + rng.randbytes(rng.randint(1, 8)) + actual[place + 2 :]
+    return actual if rng.random() < 0.95 else rng.randbytes(300)
 
 
 def test_uploads(ask, calls):

@@ -59,8 +59,8 @@ def curve(rng):
         table["chi"] = np.full(rows, chi)
     if way == "many":
         table["chi"] = rng.choice([0.3, 0.5, 1.0, 1.4412, 2.0, 4.0, 7.0, -1.0], rows)
-    given = {"chi": {"chi": chi}, "pair": {"case": PAIRS["floor"]}}
-    return table, given.get(way, {})
+    inputs = {"chi": {"chi": chi}, "pair": {"case": PAIRS["floor"]}}
+    return table, inputs.get(way, {})
 
 
 def velocities(rng):
@@ -150,16 +150,16 @@ def used(score):
 def attempt(seed, folder, pictures=True):
     """Make up results and score them; return the score, or the line that refuses them."""
     rng = np.random.default_rng(seed)
-    table, given = (curve, velocities, history)[seed % 3](rng)
+    table, inputs = (curve, velocities, history)[seed % 3](rng)
     table = spoilt(rng, table)
     if rng.random() < 0.2:
-        given["tolerance"] = float(rng.choice([1e-12, 1e-3, 0.5, 1e6, 0.0, np.nan]))
+        inputs["tolerance"] = float(rng.choice([1e-12, 1e-3, 0.5, 1e6, 0.0, np.nan]))
     if rng.random() < 0.2:
-        given["restitution"] = rng.choice([1.0, 0.9, 0.3, 1e-3, 1e-7, 0.0, 2.0, np.nan])
+        inputs["restitution"] = rng.choice([1.0, 0.9, 0.3, 1e-3, 1e-7, 0.0, 2.0, np.nan])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            score = carom.verify.score(table, **given)
+            score = carom.verify.score(table, **inputs)
         except carom.InputError as error:
             return one_line(error)
         used(score)

@@ -37,8 +37,8 @@ def test_measured_rebounds(calls, pair, file, mutated, answered):
         assert np.isfinite(problem.measured).sum() == problem.count > 0
         assert all(np.isfinite(values).all() for values in problem.before.values())
 
-    told = sum(answered(read, mutated(MEASURED)) for _ in range(calls // 2))
-    assert 0 < told < calls // 2
+    total = sum(answered(read, mutated(MEASURED)) for _ in range(calls // 2))
+    assert 0 < total < calls // 2
 
 
 def test_rebound_curves(calls, file, mutated, answered):
@@ -46,8 +46,8 @@ def test_rebound_curves(calls, file, mutated, answered):
         assert np.isfinite(carom.verify.score(file(text)).max_error)
 
     assert answered(read, CURVE)
-    told = sum(answered(read, mutated(CURVE)) for _ in range(calls // 20))
-    assert told < calls // 20
+    total = sum(answered(read, mutated(CURVE)) for _ in range(calls // 20))
+    assert total < calls // 20
 
 
 def test_cases_of_a_sweep(calls, file, mutated, answered):
@@ -55,8 +55,8 @@ def test_cases_of_a_sweep(calls, file, mutated, answered):
         table = carom.Table(file(text))
         assert set(table.names) <= {"angle", "friction", "first.radius", "second.material"}
 
-    told = sum(answered(read, mutated(CASES)) for _ in range(calls // 2))
-    assert 0 < told < calls // 2
+    total = sum(answered(read, mutated(CASES)) for _ in range(calls // 2))
+    assert 0 < total < calls // 2
 
 
 def test_a_cell_that_is_no_number_is_never_read_as_one(calls, rng, mutated):
@@ -66,13 +66,13 @@ def test_a_cell_that_is_no_number_is_never_read_as_one(calls, rng, mutated):
         place, cell = rng.randrange(len(good)), mutated(rng.choice(["30", "-7.5", "1e1", "30 deg"]))
         cells = [*good[:place], cell, *good[place + 1 :]]
         try:
-            given = carom.Table({"angle [deg]": cells}).inputs((slice(0, len(good)),))["angle"]
+            values = carom.Table({"angle [deg]": cells}).inputs((slice(0, len(good)),))["angle"]
         except carom.InputError:  # a unit alone, or a first row of words
             assert not any(letter in "0123456789" for letter in cell)
             continue
         expected = np.radians([float(text) for text in good])
-        expected[place] = given[place]
-        np.testing.assert_allclose(given, expected, rtol=1e-15)
+        expected[place] = values[place]
+        np.testing.assert_allclose(values, expected, rtol=1e-15)
 
 
 def test_the_ends_of_blocks_change_nothing(calls, file, rng, mutated, monkeypatch):
@@ -92,5 +92,5 @@ def test_the_ends_of_blocks_change_nothing(calls, file, rng, mutated, monkeypatc
         path = file("a,b,c\n" + "\n".join([*lines[:-1], mutated(lines[-1])]))
         with monkeypatch.context() as small:
             small.setattr(csv_cells, "BLOCK_ROWS", 2)
-            found = read(path)
-        assert read(path) == found
+            dataset = read(path)
+        assert read(path) == dataset

@@ -21,8 +21,8 @@ def test_rows_of_the_marching_method(row):
     for steps in (100, 1000):
         _, time, edge, limit, _, speed = motion(alpha, steps)
         peak = steps // 2
-        found = -speed[-1], time[-1], edge[peak] ** 2, time[peak]
-        assert found == pytest.approx(truth, rel=1e-11)
+        values = -speed[-1], time[-1], edge[peak] ** 2, time[peak]
+        assert values == pytest.approx(truth, rel=1e-11)
         assert edge[peak] == max(edge)
         assert edge[-1] == limit[-1] == 0.0
 

@@ -21,34 +21,34 @@ TABLE = np.loadtxt(Path(__file__).parent / "kelvin_voigt.csv", delimiter=",")
 
 
 def test_restitution_of_the_normal_motion_alone() -> None:
-    found = [restitution(alpha, WORK) for alpha in TABLE[:, 0]]
-    assert found == pytest.approx(TABLE[:, 1], abs=1e-13)
+    values = [restitution(alpha, WORK) for alpha in TABLE[:, 0]]
+    assert values == pytest.approx(TABLE[:, 1], abs=1e-13)
 
 
 @pytest.mark.parametrize("psi", [0.0, 1e-6, 1e-3, 0.5, 2.0, 4.0, 7.9])
 def test_normal_motion_of_oblique_impacts(psi: float) -> None:
     """The tangential motion leaves the normal one alone, however it cuts it into panels."""
     rows = np.ones(len(TABLE))
-    found = lossy_rebounds(psi * rows, 1.44 * rows, LossNumbers(Loss.VISCOUS, TABLE[:, 0]))
-    assert found.restitution == pytest.approx(TABLE[:, 1], abs=1e-10)
-    assert found.max_radius**2 == pytest.approx(TABLE[:, 3], abs=1e-10)
-    assert found.duration == pytest.approx(TABLE[:, 2], abs=3e-7)
+    rebounds = lossy_rebounds(psi * rows, 1.44 * rows, LossNumbers(Loss.VISCOUS, TABLE[:, 0]))
+    assert rebounds.restitution == pytest.approx(TABLE[:, 1], abs=1e-10)
+    assert rebounds.max_radius**2 == pytest.approx(TABLE[:, 3], abs=1e-10)
+    assert rebounds.duration == pytest.approx(TABLE[:, 2], abs=3e-7)
 
 
 def test_loss_and_restitution_are_inverse() -> None:
     """To 1e-10 over e in [0.001, 1], and alpha -> restitution -> alpha to 1e-9 of it."""
     wanted = np.concatenate([np.logspace(-3.0, 0.0, 60), 1.0 - np.logspace(-11, -1, 40)])
-    found = [restitution(viscous_loss(e), WORK) for e in wanted]
-    assert np.max(np.abs(found - wanted)) < 1e-12
+    values = [restitution(viscous_loss(e), WORK) for e in wanted]
+    assert np.max(np.abs(values - wanted)) < 1e-12
     for alpha, e in TABLE[3:, :2]:
         assert viscous_loss(e) == pytest.approx(alpha, rel=1e-12)
 
 
 def test_restitution_is_monotone() -> None:
     """e falls with alpha, from 1 at 0 to 0.0004 at 100."""
-    found = [restitution(a, WORK) for a in (0.0, *np.logspace(-9, 2, 200))]
-    assert found[0] == pytest.approx(1.0, abs=1e-15)
-    assert np.all(np.diff(found) < 0.0)
+    values = [restitution(a, WORK) for a in (0.0, *np.logspace(-9, 2, 200))]
+    assert values[0] == pytest.approx(1.0, abs=1e-15)
+    assert np.all(np.diff(values) < 0.0)
 
 
 def test_first_loss() -> None:

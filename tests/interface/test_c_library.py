@@ -23,11 +23,11 @@ DOUBLES, CODES = (np.ctypeslib.ndpointer(kind, flags="C") for kind in (np.float6
 
 @pytest.fixture(scope="module")
 def functions():
-    found = ctypes.CDLL(carom.get_library())
-    found.carom_rebound.argtypes = [ctypes.c_size_t, DOUBLES, DOUBLES, DOUBLES, CODES]
-    found.carom_rebound_viscous.argtypes = [ctypes.c_size_t, *[DOUBLES] * 5, CODES]
-    found.carom_status_message.restype = ctypes.c_char_p
-    return found
+    library = ctypes.CDLL(carom.get_library())
+    library.carom_rebound.argtypes = [ctypes.c_size_t, DOUBLES, DOUBLES, DOUBLES, CODES]
+    library.carom_rebound_viscous.argtypes = [ctypes.c_size_t, *[DOUBLES] * 5, CODES]
+    library.carom_status_message.restype = ctypes.c_char_p
+    return library
 
 
 def rebound(functions, psi, chi):
@@ -46,8 +46,8 @@ def impacts(seed, count=500):
 def test_the_same_bits_as_in_python(functions):
     psi, chi = impacts(1)
     expected, codes = carom.rebound(psi, chi, return_status=True)
-    found, status = rebound(functions, psi, chi)
-    assert found.tobytes() == expected.tobytes()
+    actual, status = rebound(functions, psi, chi)
+    assert actual.tobytes() == expected.tobytes()
     assert np.array_equal(status, codes)
 
 
@@ -59,18 +59,18 @@ def test_the_same_bits_with_losses(functions):
         for one, other, e in zip(psi, chi, restitution, strict=True)
     ]
     alpha = np.array([carom.KelvinVoigt(restitution=e).scale_free()[1] for e in restitution])
-    found, e, status = np.zeros(psi.size), np.zeros(psi.size), np.zeros(psi.size, np.int8)
-    assert functions.carom_rebound_viscous(psi.size, psi, chi, alpha, found, e, status) == 0
-    assert found.tolist() == expected
+    actual, e, status = np.zeros(psi.size), np.zeros(psi.size), np.zeros(psi.size, np.int8)
+    assert functions.carom_rebound_viscous(psi.size, psi, chi, alpha, actual, e, status) == 0
+    assert actual.tolist() == expected
     assert not status.any()
     assert e == pytest.approx(restitution, abs=1e-9)
 
 
 def test_from_many_threads_at_once(functions):
-    given = [impacts(seed) for seed in range(8)]
-    alone = [rebound(functions, *each)[0].tobytes() for each in given]
+    values = [impacts(seed) for seed in range(8)]
+    alone = [rebound(functions, *each)[0].tobytes() for each in values]
     with ThreadPoolExecutor(8) as pool:
-        together = list(pool.map(lambda each: rebound(functions, *each)[0].tobytes(), given))
+        together = list(pool.map(lambda each: rebound(functions, *each)[0].tobytes(), values))
     assert together == alone
 
 

@@ -59,8 +59,8 @@ def test_values_of_materials_with_and_without_gaps():
     """A name has all its values, a table those it gives, in SI units."""
     assert material_values("steel")["young"] == carom.material("steel").young
     assert material_values({"young": "1 GPa"}) == {"young": 1e9}
-    given = material_values("poisson=0.25, density=2 g/cm^3")
-    assert given == {"poisson": 0.25, "density": pytest.approx(2000.0)}
+    values = material_values("poisson=0.25, density=2 g/cm^3")
+    assert values == {"poisson": 0.25, "density": pytest.approx(2000.0)}
     assert material_values("rigid") == {"young": math.inf, "poisson": 0.0}
 
 
@@ -98,7 +98,7 @@ def test_all_unknown_keys_are_counted_and_the_first_are_told(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "answer"),
     [
         (" " * 150_000 + "\nfriktion = 0.2\n", "friktion: unknown key in .*, line 2; did you mean"),
         ("\t" * 150_000 + "[first]\nradios = 1\n", "radios: unknown key in .*, line 2; did you"),
@@ -106,24 +106,24 @@ def test_all_unknown_keys_are_counted_and_the_first_are_told(tmp_path):
     ],
     ids=["blanks", "tabs", "key"],
 )
-def test_long_lines_are_read_at_once(text, told, tmp_path):
+def test_long_lines_are_read_at_once(text, answer, tmp_path):
     """In time that grows as they do, with an error that does not."""
     path = tmp_path / "case.toml"
     path.write_text(text)
     begin = time.process_time()
-    assert len(refused(told, carom.read, path)) < 600
+    assert len(refused(answer, carom.read, path)) < 600
     assert time.process_time() - begin < 5.0
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "answer"),
     [
         (",".join(f"{i}=1" for i in range(120_000)), "0: unknown in a material"),
         (f"{'young=1,' * 100_000}young=2", "young: .* it is given twice"),
     ],
     ids=["unknown", "twice"],
 )
-def test_a_long_material_is_read_at_once(text, told):
+def test_a_long_material_is_read_at_once(text, answer):
     begin = time.process_time()
-    refused(told, read_material, text)
+    refused(answer, read_material, text)
     assert time.process_time() - begin < 5.0

@@ -24,8 +24,8 @@ ROWS = 4  # as in BAD: jax compiles anew for every shape
 
 def collided(library=np, rows=ROWS, **more):
     values = np.random.default_rng(2).normal(size=(rows, 3))
-    given = {"velocity1": library.asarray(values), "normal": library.asarray(UP)}
-    return carom.collide(TWO, **given | more)
+    inputs = {"velocity1": library.asarray(values), "normal": library.asarray(UP)}
+    return carom.collide(TWO, **inputs | more)
 
 
 def test_it_unpacks_as_it_always_has():
@@ -43,9 +43,9 @@ def test_it_unpacks_as_it_always_has():
 @pytest.mark.parametrize("library", LIBRARIES)
 def test_it_prints_how_many_and_what_became_of_them(library):
     make = LIBRARIES[library].asarray
-    given = {name: make(np.asarray(values, dtype=np.float32)) for name, values in BAD.items()}
+    inputs = {name: make(np.asarray(values, dtype=np.float32)) for name, values in BAD.items()}
     with np.errstate(invalid="ignore"):  # array-api-strict computes with NumPy
-        after = carom.collide(WALL, **given)
+        after = carom.collide(WALL, **inputs)
     first, *rest = str(after).splitlines()
     assert first.startswith("4 collisions; velocities and spins of shape (4, 3), ")
     assert "float32" in first
@@ -133,13 +133,13 @@ def test_it_warns_once_of_numbers_that_cannot_be_used(library):
     make = LIBRARIES[library].asarray
     with pytest.warns(UserWarning, match="these were left alone") as caught:
         carom.collide(WALL, **{name: make(np.asarray(values)) for name, values in BAD.items()})
-    (told,) = caught
-    assert str(told.message) == (
+    (answer,) = caught
+    assert str(answer.message) == (
         "of 4 pairs these were left alone: "
         "1 whose normal is not of length one (divide it by its length); "
         "1 with a number that is not finite or too large (look for NaN); `status` says which"
     )
-    assert told.filename == __file__
+    assert answer.filename == __file__
 
 
 def test_normals_of_another_length_are_told_with_their_number():

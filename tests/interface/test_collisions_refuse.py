@@ -15,13 +15,13 @@ ONE = {"velocity1": [1.0, 0.0, 1.0], "normal": [0.0, 0.0, 1.0]}
 
 def motion(*shape):
     rng = np.random.default_rng(1)
-    given = {name: rng.normal(size=(*shape, 3)) for name in NAMES}
+    values = {name: rng.normal(size=(*shape, 3)) for name in NAMES}
     normal = rng.normal(size=(*shape, 3))
-    return given | {"normal": normal / np.linalg.norm(normal, axis=-1, keepdims=True)}
+    return values | {"normal": normal / np.linalg.norm(normal, axis=-1, keepdims=True)}
 
 
-def refused(name, pair=PAIR, **given):
-    checks.refused(f"^{name}: ", carom.collide, pair, **(ONE | given))
+def refused(name, pair=PAIR, **keywords):
+    checks.refused(f"^{name}: ", carom.collide, pair, **(ONE | keywords))
 
 
 @pytest.mark.parametrize("name", ["velocity1", "spin1", "velocity2", "spin2", "normal"])
@@ -70,39 +70,39 @@ def test_refuses_bad_threads(threads):
 @pytest.mark.parametrize("name", NAMES)
 def test_takes_any_array_but_writes_only_where_it_can(make, name):
     """The values of a copy out of place; in place a refusal, and nothing is written anywhere."""
-    given = motion(5)
-    given[name] = make(given[name])
-    plain = {key: np.array(np.broadcast_to(each, (5, 3)), float) for key, each in given.items()}
-    after, wanted = carom.collide(PAIR, **given), carom.collide(PAIR, **plain)
+    inputs = motion(5)
+    inputs[name] = make(inputs[name])
+    plain = {key: np.array(np.broadcast_to(each, (5, 3)), float) for key, each in inputs.items()}
+    after, wanted = carom.collide(PAIR, **inputs), carom.collide(PAIR, **plain)
     for key in NAMES:
         assert np.array_equal(getattr(after, key), getattr(wanted, key))
         assert getattr(after, key).dtype == np.float64
     assert np.any(after.status == 0)
-    before = {key: np.array(each) for key, each in given.items()}
-    refused(name, **given, inplace=True)
+    before = {key: np.array(each) for key, each in inputs.items()}
+    refused(name, **inputs, inplace=True)
     for key, values in before.items():
-        assert np.array_equal(values, given[key])
+        assert np.array_equal(values, inputs[key])
 
 
 def test_in_place_refuses_what_may_not_be_written():
     """Read-only arrays, and arrays that lie in one another's memory."""
-    given = motion(5)
-    given["spin1"].setflags(write=False)
-    refused("spin1", **given, inplace=True)
-    given = motion(5)
+    inputs = motion(5)
+    inputs["spin1"].setflags(write=False)
+    refused("spin1", **inputs, inplace=True)
+    inputs = motion(5)
     for one, other in (("velocity1", "spin1"), ("velocity1", "velocity2"), ("spin2", "normal")):
-        refused(r"\w+", **(given | {other: given[one]}), inplace=True)
+        refused(r"\w+", **(inputs | {other: inputs[one]}), inplace=True)
     room = np.zeros((6, 3))
-    refused(r"\w+", **(given | {"velocity1": room[:5], "spin1": room[1:]}), inplace=True)
+    refused(r"\w+", **(inputs | {"velocity1": room[:5], "spin1": room[1:]}), inplace=True)
 
 
 def test_in_place_of_neighbours_in_one_block_of_memory():
     """Arrays that lie side by side in one allocation are written like any others."""
-    given = motion(5)
-    room = np.stack([given[name] for name in NAMES])
-    wanted = carom.collide(PAIR, **given)
+    inputs = motion(5)
+    room = np.stack([inputs[name] for name in NAMES])
+    wanted = carom.collide(PAIR, **inputs)
     views = dict(zip(NAMES, room, strict=True))
-    carom.collide(PAIR, **views, normal=given["normal"], inplace=True)
+    carom.collide(PAIR, **views, normal=inputs["normal"], inplace=True)
     for name, values in views.items():
         assert np.array_equal(values, getattr(wanted, name))
 
@@ -110,11 +110,11 @@ def test_in_place_of_neighbours_in_one_block_of_memory():
 @pytest.mark.parametrize("shape", [(), (1,), (4,), (2, 5), (2, 1, 3), (0,), (3, 0)])
 def test_keeps_the_shape(shape):
     """(3,), (N, 3), (2, 5, 3), empty: results in the same shape, status without the last axis."""
-    given = motion(*shape)
-    after = carom.collide(PAIR, **given)
+    inputs = motion(*shape)
+    after = carom.collide(PAIR, **inputs)
     assert np.shape(after.status) == shape
     assert np.asarray(after.status).dtype == np.int8
-    flat = carom.collide(PAIR, **{name: each.reshape(-1, 3) for name, each in given.items()})
+    flat = carom.collide(PAIR, **{name: each.reshape(-1, 3) for name, each in inputs.items()})
     for name in NAMES:
         assert getattr(after, name).shape == (*shape, 3)
         assert np.array_equal(getattr(after, name).reshape(-1, 3), getattr(flat, name))
@@ -122,9 +122,9 @@ def test_keeps_the_shape(shape):
 
 def test_broadcasts_and_fills_in_zeros():
     """One normal for all, one velocity against many, spins left out: as if written in full."""
-    given = motion(2, 5)
-    few = {"velocity1": given["velocity1"], "velocity2": given["velocity2"][0, 0]}
-    few["normal"] = given["normal"][:, :1]
+    values = motion(2, 5)
+    few = {"velocity1": values["velocity1"], "velocity2": values["velocity2"][0, 0]}
+    few["normal"] = values["normal"][:, :1]
     full = {name: np.array(np.broadcast_to(each, (2, 5, 3))) for name, each in few.items()}
     full |= {"spin1": np.zeros((2, 5, 3)), "spin2": np.zeros((2, 5, 3))}
     after, wanted = carom.collide(PAIR, **few), carom.collide(PAIR, **full)
@@ -136,16 +136,16 @@ def test_broadcasts_and_fills_in_zeros():
 @pytest.mark.parametrize("pair", [PAIR, WALL], ids=["spheres", "wall"])
 def test_out_of_place_touches_nothing(pair):
     """Inputs keep their bits, stay writable, and results are memory of their own."""
-    given = motion(50)
+    inputs = motion(50)
     if pair is WALL:
-        del given["spin2"]
-    before = {name: each.copy() for name, each in given.items()}
-    after = carom.collide(pair, **given)
-    for name, values in given.items():
+        del inputs["spin2"]
+    before = {name: each.copy() for name, each in inputs.items()}
+    after = carom.collide(pair, **inputs)
+    for name, values in inputs.items():
         assert values.tobytes() == before[name].tobytes()
         assert values.flags.writeable
     for name in NAMES:
-        assert not any(np.shares_memory(getattr(after, name), each) for each in given.values())
+        assert not any(np.shares_memory(getattr(after, name), each) for each in inputs.values())
         assert getattr(after, name).flags.writeable
 
 

@@ -54,33 +54,33 @@ def read(source):
 )
 def test_one_table_written_in_many_ways(stored, content):
     """Comma, semicolon, tab; line ends of Windows; a byte order mark; units in head or cell."""
-    given = read(stored(content))
-    np.testing.assert_allclose(given["angle"], RADIANS, rtol=1e-14)
-    np.testing.assert_allclose(given["spin_out"], SPINS, rtol=1e-14)
+    dataset = read(stored(content))
+    np.testing.assert_allclose(dataset["angle"], RADIANS, rtol=1e-14)
+    np.testing.assert_allclose(dataset["spin_out"], SPINS, rtol=1e-14)
 
 
 def test_a_column_without_a_unit_is_si():
-    given = read({"angle": RADIANS, "spin_out": SPINS, "speed [cm/s]": [390, 391]})
-    np.testing.assert_array_equal(given["angle"], RADIANS)
-    np.testing.assert_array_equal(given["spin_out"], SPINS)
-    np.testing.assert_allclose(given["speed"], [3.9, 3.91], rtol=1e-14)
+    dataset = read({"angle": RADIANS, "spin_out": SPINS, "speed [cm/s]": [390, 391]})
+    np.testing.assert_array_equal(dataset["angle"], RADIANS)
+    np.testing.assert_array_equal(dataset["spin_out"], SPINS)
+    np.testing.assert_allclose(dataset["speed"], [3.9, 3.91], rtol=1e-14)
 
 
 def test_a_percentage_is_a_ratio():
-    given = read({"angle": [0.1, 0.2], "tangential_restitution [%]": [70, "700 permille"]})
-    np.testing.assert_allclose(given["tangential_restitution"], [0.7, 0.7], rtol=1e-15)
+    dataset = read({"angle": [0.1, 0.2], "tangential_restitution [%]": [70, "700 permille"]})
+    np.testing.assert_allclose(dataset["tangential_restitution"], [0.7, 0.7], rtol=1e-15)
 
 
 def test_errors_have_the_unit_of_their_head():
-    given = read({"angle [deg]": [10.0], "angle_error [deg]": [1.0], "spin_out": [-1.0]})
-    np.testing.assert_allclose(given["angle_error"], math.pi / 180, rtol=1e-14)
+    dataset = read({"angle [deg]": [10.0], "angle_error [deg]": [1.0], "spin_out": [-1.0]})
+    np.testing.assert_allclose(dataset["angle_error"], math.pi / 180, rtol=1e-14)
 
 
 def test_gaps_are_told_by_a_dash_alone(stored):
     text = "angle [deg],spin_out,tangential_restitution\n10,-,0.7\n20,-500,-\n"
-    given = read(stored(text))
-    np.testing.assert_array_equal(given["spin_out"], [np.nan, -500.0])
-    np.testing.assert_array_equal(given["tangential_restitution"], [0.7, np.nan])
+    dataset = read(stored(text))
+    np.testing.assert_array_equal(dataset["spin_out"], [np.nan, -500.0])
+    np.testing.assert_array_equal(dataset["tangential_restitution"], [0.7, np.nan])
     refused("angle: not a number in line 3", read, stored(text.replace("20", "-")))
 
 
@@ -103,9 +103,9 @@ def test_a_labelled_dataset_is_a_table():
         },
         attrs={"case": '{"friction": 0.3}'},
     )
-    given = read(data)
-    np.testing.assert_allclose(given["angle"], np.radians([10.0, 20.0]), rtol=1e-14)
-    np.testing.assert_array_equal(given["spin_out"], [np.nan, -5.0])
+    dataset = read(data)
+    np.testing.assert_allclose(dataset["angle"], np.radians([10.0, 20.0]), rtol=1e-14)
+    np.testing.assert_array_equal(dataset["spin_out"], [np.nan, -5.0])
     assert read_table(data).case == {"friction": 0.3}
     gap = data.assign(angle=("point", [np.nan, 20.0], {"units": "deg"}))
     refused("angle: not a number in row 1", read, gap)
@@ -136,9 +136,9 @@ def test_one_value_of_a_dataset_is_that_of_every_row():
 
 def test_a_data_frame_and_the_dataset_of_it_are_one_table():
     frame = pd.DataFrame({"angle [deg]": [30.0, 45.0], "spin_out [rpm]": [-60.0, np.nan]})
-    given = read(frame.to_xarray())
-    np.testing.assert_allclose(given["angle"], RADIANS, rtol=1e-14)
-    np.testing.assert_allclose(given["spin_out"], [SPINS[0], np.nan], rtol=1e-14)
+    dataset = read(frame.to_xarray())
+    np.testing.assert_allclose(dataset["angle"], RADIANS, rtol=1e-14)
+    np.testing.assert_allclose(dataset["spin_out"], [SPINS[0], np.nan], rtol=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -187,8 +187,8 @@ def test_columns_tell_their_unit(column):
     np.testing.assert_allclose(read({"spin_out": column, **angle})["spin_out"], SPINS, rtol=1e-14)
     if not isinstance(column, list):
         held = column if isinstance(column, xr.DataArray) else ("row", column)
-        found = read(xr.Dataset({"spin_out": held}))["spin_out"]
-        np.testing.assert_allclose(found, SPINS, rtol=1e-14)
+        spin_out = read(xr.Dataset({"spin_out": held}))["spin_out"]
+        np.testing.assert_allclose(spin_out, SPINS, rtol=1e-14)
 
 
 def test_units_of_pint_that_no_text_has_are_read():
@@ -237,13 +237,13 @@ def test_errors_need_the_unit_that_the_data_tell():
 def test_a_mask_changes_nothing_but_what_it_hides(values):
     """Masked arrays are read as arrays are, NaN where they are masked: a gap in a fit."""
     plain = np.array(values)
-    told = carom.Table({"speed [mm/s]": plain}).inputs((slice(0, 2),))["speed"]
+    answer = carom.Table({"speed [mm/s]": plain}).inputs((slice(0, 2),))["speed"]
     for mask in ([0, 0], [0, 1]):
         column = {"speed [mm/s]": np.ma.array(plain, mask=mask)}
-        found = carom.Table(column).inputs((slice(0, 2),))["speed"]
-        np.testing.assert_array_equal(found, np.where(mask, np.nan, told))
-    given = {"angle": RADIANS, "spin_out": np.ma.array(SPINS, mask=[0, 1])}
-    np.testing.assert_array_equal(read(given)["spin_out"], [SPINS[0], np.nan])
+        speed = carom.Table(column).inputs((slice(0, 2),))["speed"]
+        np.testing.assert_array_equal(speed, np.where(mask, np.nan, answer))
+    inputs = {"angle": RADIANS, "spin_out": np.ma.array(SPINS, mask=[0, 1])}
+    np.testing.assert_array_equal(read(inputs)["spin_out"], [SPINS[0], np.nan])
 
 
 @pytest.mark.parametrize(
@@ -266,12 +266,12 @@ def test_what_is_no_list_of_cells_is_no_column(column):
 )
 def test_a_decimal_comma_is_refused_and_not_dropped(name, text, plate):
     """In a number, a body, a pair, a motion; in a cell beside a point, too."""
-    given = {"radius": "5 mm", "speed": "1 m/s", "friction": 0.2, name: text}
+    inputs = {"radius": "5 mm", "speed": "1 m/s", "friction": 0.2, name: text}
 
     def struck():
-        ball = carom.Sphere(radius=given["radius"], material="steel")
-        pair = carom.Pair(ball, plate, friction=given["friction"])
-        return carom.impact(pair, speed=given["speed"], angle="30 deg")
+        ball = carom.Sphere(radius=inputs["radius"], material="steel")
+        pair = carom.Pair(ball, plate, friction=inputs["friction"])
+        return carom.impact(pair, speed=inputs["speed"], angle="30 deg")
 
     message = f"^{name}: '{text}' cannot be used; numbers need a decimal point, not a comma$"
     refused(message, number, name, text)
@@ -367,6 +367,6 @@ def test_columns_that_mean_nothing_here_are_named():
 
 
 def test_too_few_rows_are_refused():
-    given = read({"angle": [0.1, 0.2], "spin_out": [1.0, 2.0]})
-    given.require_rows(2)
-    refused("too few points: 2, at least 3 are needed", given.require_rows, 3)
+    dataset = read({"angle": [0.1, 0.2], "spin_out": [1.0, 2.0]})
+    dataset.require_rows(2)
+    refused("too few points: 2, at least 3 are needed", dataset.require_rows, 3)

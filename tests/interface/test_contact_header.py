@@ -60,10 +60,10 @@ def folder(tmp_path_factory):
 
 def opened(folder, *options, name="c.so"):
     shared = ("-shared", "-fPIC", *FAST, *options)
-    found = ctypes.CDLL(str(built(folder, INCLUDE / "carom/contact.cpp", *shared, name=name)))
-    found.carom_contact_size.restype = ctypes.c_size_t
-    found.carom_contact_message.restype = ctypes.c_char_p
-    return found
+    library = ctypes.CDLL(str(built(folder, INCLUDE / "carom/contact.cpp", *shared, name=name)))
+    library.carom_contact_size.restype = ctypes.c_size_t
+    library.carom_contact_message.restype = ctypes.c_char_p
+    return library
 
 
 @pytest.fixture(scope="module")
@@ -91,11 +91,11 @@ def run(program, kind, rows):
 def worst(program, kind, steps, e=1.0, chis=CHI):
     """Return the largest |psi_2 - exact| over incidences and phases of the first touch."""
     alpha, losses = (0.0, None) if e == 1.0 else (viscous_loss(e), carom.KelvinVoigt(e))
-    given = product(chis, PSI.tolist(), PHASES)
-    rows = [(steps, psi, chi, phase, alpha, 1) for chi, psi, phase in given]
-    found = run(program, kind, rows).reshape(len(chis), PSI.size, len(PHASES))
+    values = product(chis, PSI.tolist(), PHASES)
+    rows = [(steps, psi, chi, phase, alpha, 1) for chi, psi, phase in values]
+    actual = run(program, kind, rows).reshape(len(chis), PSI.size, len(PHASES))
     exact = np.array([carom.rebound(PSI, chi, losses=losses) for chi in chis])
-    return float(np.abs(found - exact[:, :, np.newaxis]).max())
+    return float(np.abs(actual - exact[:, :, np.newaxis]).max())
 
 
 @pytest.mark.parametrize(
@@ -127,9 +127,9 @@ def test_many_springs_converge_with_the_second_order(program, kind, e):
 
 def test_sliding_throughout_needs_no_springs(program):
     """psi_2 = psi_1 - 2 chi (1 + e), e that of the steps."""
-    (found,) = run(program, "32 viscous", [(400, 9.0, 1.2, 0.3, 0.2, 1)])
+    (actual,) = run(program, "32 viscous", [(400, 9.0, 1.2, 0.3, 0.2, 1)])
     exact = carom.solve(9.0, 1.2, losses=carom.KelvinVoigt(0.71238)).psi_out
-    assert found == pytest.approx(exact, abs=2e-4)
+    assert actual == pytest.approx(exact, abs=2e-4)
 
 
 class Stepped:
@@ -147,8 +147,8 @@ class Stepped:
     def step(self, d, v, slide, aside, dt):
         unit = FRICTION / KAPPA
         motion = Motion(d, v, slide * unit, aside * unit, dt)
-        given = (self.memory, self.springs, self.parts, *map(ctypes.byref, (self.pair, motion)))
-        status = self.functions.carom_contact_advance(*given, ctypes.byref(self.load))
+        values = (self.memory, self.springs, self.parts, *map(ctypes.byref, (self.pair, motion)))
+        status = self.functions.carom_contact_advance(*values, ctypes.byref(self.load))
         assert status == 0
         scale = LARGEST * np.array([1.0, FRICTION, FRICTION])
         return np.array([self.load.normal, self.load.x, self.load.y]) / scale
@@ -156,8 +156,8 @@ class Stepped:
     def twin(self, d, v, slide, aside, dt):
         load = np.empty(3)
         motion = np.array([v, slide, aside])
-        given = d, motion, dt, self.alpha, self.shear_alpha, load
-        lattice.step(self.own, self.springs, *given)
+        values = d, motion, dt, self.alpha, self.shear_alpha, load
+        lattice.step(self.own, self.springs, *values)
         return load
 
 
@@ -178,12 +178,12 @@ def test_single_precision_differs_by_its_rounding(functions, alpha):
 @pytest.mark.parametrize("compiler", ["g++", "clang++"])
 def test_compilers_have_nothing_to_say(folder, compiler):
     """In vectors, and without them; what they say of optimized code, the other tests would hear."""
-    found = shutil.which(compiler)
-    if found is None:
+    actual = shutil.which(compiler)
+    if actual is None:
         pytest.skip(f"no {compiler} on this machine")
     for lanes in ("-UCAROM_ONE_BY_ONE", "-DCAROM_ONE_BY_ONE"):
         options = ("-O1", "-Wconversion", "-Wshadow", lanes)
-        words = [found, "-std=c++17", *STRICT, *options, f"-I{INCLUDE}", "-c"]
+        words = [actual, "-std=c++17", *STRICT, *options, f"-I{INCLUDE}", "-c"]
         words += [INCLUDE / "carom/contact.cpp", "-o", folder / "silent.o"]
         subprocess.run([str(word) for word in words], check=True, capture_output=True)
 
@@ -213,10 +213,10 @@ def test_header_and_twin_agree_on_random_steps(functions, springs, alpha, shear_
         v = abs(v) if d < -0.05 else v
         slide, aside = 0.95 * slide + rng.normal(0.0, 0.7), 0.95 * aside + rng.normal(0.0, 0.7)
         d += v * dt
-        found, expected = both.step(d, v, slide, aside, dt), both.twin(d, v, slide, aside, dt)
-        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-11)
-        assert np.hypot(found[1], found[2]) <= found[0] * (1.0 + 1e-9) + 1e-12
-        apart, touches = apart + (d <= 0.0), touches + (found[0] > 0.0)
+        actual, expected = both.step(d, v, slide, aside, dt), both.twin(d, v, slide, aside, dt)
+        np.testing.assert_allclose(actual, expected, rtol=1e-9, atol=1e-11)
+        assert np.hypot(actual[1], actual[2]) <= actual[0] * (1.0 + 1e-9) + 1e-12
+        apart, touches = apart + (d <= 0.0), touches + (actual[0] > 0.0)
     assert min(apart, touches) > 200
 
 
@@ -298,8 +298,8 @@ def test_a_contact_that_is_loaded_again_meets_what_is_left(functions):
         contact, dt = Stepped(functions, 64, alpha, alpha), times[1]
         speeds = np.diff(depth) / dt, np.diff(moved) / dt
         rows = zip(depth[1:], *speeds, strict=True)
-        found = np.array([contact.step(d, v, slide, 0.0, dt)[:2] for d, v, slide in rows])
-        off = np.abs(found - np.stack([load, 1.5 * force], axis=1))
+        values = np.array([contact.step(d, v, slide, 0.0, dt)[:2] for d, v, slide in rows])
+        off = np.abs(values - np.stack([load, 1.5 * force], axis=1))
         differences.append(np.quantile(off, 0.9, axis=0))
     assert np.all(differences[1] < 2e-3)
     assert np.all((differences[0] / differences[1] > 1.8) & (differences[0] / differences[1] < 2.3))
@@ -348,12 +348,12 @@ def test_bad_input_changes_nothing(functions, status, name, value):
     kept, loaded = bytes(contact.memory), bytes(contact.load)
     wrong = Motion(0.2, 1.0, 0.5, 0.0, 0.1)
     setattr(contact.pair if status == 1 else wrong, name, value)
-    given = (contact.memory, 32, 0, *map(ctypes.byref, (contact.pair, wrong, contact.load)))
-    assert functions.carom_contact_advance(*given) == status
+    source = (contact.memory, 32, 0, *map(ctypes.byref, (contact.pair, wrong, contact.load)))
+    assert functions.carom_contact_advance(*source) == status
     assert (bytes(contact.memory), bytes(contact.load)) == (kept, loaded)
-    told = functions.carom_contact_message(status).decode()
-    assert "must be" in told
-    assert "\n" not in told
+    text = functions.carom_contact_message(status).decode()
+    assert "must be" in text
+    assert "\n" not in text
 
 
 def test_kinds_that_are_not_offered(functions):
@@ -362,8 +362,8 @@ def test_kinds_that_are_not_offered(functions):
     assert functions.carom_contact_size(32, VISCOUS | SINGLE) == 4 * (2 + 3 * 32 + 6)
     assert functions.carom_contact_size(33, 0) == functions.carom_contact_size(32, 9) == 0
     contact = Stepped(functions, 32)
-    given = (contact.memory, 33, 0, *map(ctypes.byref, (contact.pair, Motion(), contact.load)))
-    assert functions.carom_contact_advance(*given) == 3
+    values = (contact.memory, 33, 0, *map(ctypes.byref, (contact.pair, Motion(), contact.load)))
+    assert functions.carom_contact_advance(*values) == 3
     assert b"16, 32 or 64" in functions.carom_contact_message(3)
 
 
@@ -376,11 +376,11 @@ def test_interface_and_twin_have_the_same_friction_at_any_rate(functions, alpha)
             if abs(rate) > d:
                 continue
             contact = Stepped(functions, 32, alpha, alpha)
-            found, twin = (each(d, rate, 1e-6, 0.0, 1e-3) for each in (contact.step, contact.twin))
-            np.testing.assert_allclose(found, twin, rtol=1e-10, atol=1e-18)
+            actual, twin = (each(d, rate, 1e-6, 0.0, 1e-3) for each in (contact.step, contact.twin))
+            np.testing.assert_allclose(actual, twin, rtol=1e-10, atol=1e-18)
             if abs(rate) < 0.1 * d:
                 radius = np.sqrt(min(d, d + alpha * rate))
-                assert found[1] == pytest.approx(1.5e-6 * radius * (1e-3 + alpha), rel=0.03)
+                assert actual[1] == pytest.approx(1.5e-6 * radius * (1e-3 + alpha), rel=0.03)
 
 
 def test_without_friction_there_is_no_shear(functions):
@@ -396,7 +396,7 @@ def exact(pair):
     return carom.impact(pair, speed=0.6, angle="20 deg")
 
 
-def told(program, *words):
+def printed(program, *words):
     text = subprocess.run([program, *words], capture_output=True, text=True, check=True).stdout
     return [float(word) for word in re.findall(r"-?\d+\.\d+", text)]
 
@@ -406,7 +406,7 @@ def test_the_example_in_c_gives_the_impact(folder, functions, exact):
     command = ["cc", "-std=c99", *STRICT, source, law, f"-I{INCLUDE}", "-lm", "-o", target]
     subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True)
     expected = [np.degrees(exact.rebound_angle), exact.spin_out]
-    assert told(target) == pytest.approx(expected, rel=2e-4)
+    assert printed(target) == pytest.approx(expected, rel=2e-4)
 
 
 def test_the_example_in_space_is_as_near_as_promised(folder, exact):
@@ -415,14 +415,14 @@ def test_the_example_in_space_is_as_near_as_promised(folder, exact):
     target = built(folder, ROOT / "examples/cpp/impact.cpp", *FAST, name="impact")
     slow = carom.impact(exact.pair, speed=0.01, angle="20 deg")
     for steps, promised in ((100, 6e-4), (200, 3e-4), (400, 2e-4)):
-        angle, spin, psi = told(target, str(steps))
+        angle, spin, psi = printed(target, str(steps))
         assert psi == pytest.approx(exact.psi_out, abs=promised)
         assert angle == pytest.approx(np.degrees(exact.rebound_angle), abs=2e-3)
         assert spin == pytest.approx(-slow.spin_out, abs=2e-4)
     # and where it matters, the difference is in proportion to it
     speeds = np.array([0.15, 0.3, 0.6])
     off = np.array(
-        [told(target, "400", f"{v}")[2] - told(target, "400", "1e-4")[2] for v in speeds]
+        [printed(target, "400", f"{v}")[2] - printed(target, "400", "1e-4")[2] for v in speeds]
     )
     flat = exact.max_penetration / 5e-3 * (speeds / 0.6) ** 0.8
     assert off / flat == pytest.approx([-2.0, -2.0, -2.0], rel=0.02)
@@ -436,8 +436,8 @@ def test_levers_end_where_hertz_puts_the_contact(folder):
     solids = [(steel, steel), (glass, steel), (steel, glass)]
     solids += [(steel, (inf, 0.3)), ((inf, 0.2), glass)]
     rows = [(*one, *other, 5e-3, size, 2e-5) for one, other in solids for size in (0.0, 8e-3)]
-    found = run(program, "levers", rows).reshape(len(rows), 4)
-    for (e1, nu1, e2, nu2, r1, r2, d), levers in zip(rows, found, strict=True):
+    actual = run(program, "levers", rows).reshape(len(rows), 4)
+    for (e1, nu1, e2, nu2, r1, r2, d), levers in zip(rows, actual, strict=True):
         arm, other_arm, plain, other_plain = levers
         soft, modulus = (1 - nu1**2) / e1, 1 / ((1 - nu1**2) / e1 + (1 - nu2**2) / e2)
         radius = r1 if r2 == 0.0 else r1 * r2 / (r1 + r2)
@@ -479,9 +479,9 @@ def test_no_motion_whatever_leaves_the_law(functions, precision, decades):
         memory = ctypes.create_string_buffer(functions.carom_contact_size(springs, parts))
         radius, speed, step = any_size(-9, 9), any_size(-9, 3, -30, 20), any_size(-12, 1)
         friction = rng.choice([0.0, any_size(-6, 2, -200, 6)])
-        given = any_size(-3, 12), radius, rng.uniform(0.5, 1.0), friction, any_size(-15, 6)
+        values = any_size(-3, 12), radius, rng.uniform(0.5, 1.0), friction, any_size(-15, 6)
         tau = any_size(-12, 3)
-        pair, load, d = BodyPair(*given, tau, int(rng.integers(2))), Load(), 0.0
+        pair, load, d = BodyPair(*values, tau, int(rng.integers(2))), Load(), 0.0
         for _ in range(60):
             v, slide, aside = speed * rng.normal(size=3) * 10.0 ** rng.choice([0, 0, -6, 6], 3)
             jumps = radius * 10.0 ** rng.uniform(-18, 1) * rng.choice([1.0, 1.0, -1.0])
@@ -492,9 +492,9 @@ def test_no_motion_whatever_leaves_the_law(functions, precision, decades):
                 assert d >= radius or d <= -1e30 or (precision and step < 1e-12 * tau)
                 refused, d = refused + 1, 0.0
                 continue
-            told = np.array([load.normal, load.x, load.y, load.friction, load.viscosity])
+            answer = np.array([load.normal, load.x, load.y, load.friction, load.viscosity])
             kept = np.frombuffer(memory.raw, dtype=np.float32 if precision else np.float64)
-            assert np.all(np.isfinite(told))
+            assert np.all(np.isfinite(answer))
             assert np.all(np.isfinite(kept))
             assert np.hypot(load.x, load.y) <= friction * load.normal * (1.0 + 1e-9)
     assert refused > 50

@@ -31,8 +31,8 @@ def test_arrays_along_different_dimensions(pair):
     match = "their dimensions are a and b; give arrays along the same ones"
     refused(f"psi_1, chi: {match}", carom.rebound, one, other)
     refused(match, carom.dem.LinearSpring().rebound, one, other)
-    known = {"speed": one, "angle": other}
-    refused(match, carom.convert_observables, pair, known=known, wanted="psi_in")
+    values = {"speed": one, "angle": other}
+    refused(match, carom.convert_observables, pair, known=values, wanted="psi_in")
     forces = {"normal_force": one, "tangential_force": other}
     refused(match, carom.load_path, pair, **forces)
     assert carom.rebound(one, one).shape == (2,)
@@ -77,8 +77,8 @@ def test_results_with_columns_that_the_scorer_does_not_use(pair):
     for name in ("tangential_speed_out", "spin_out"):
         results[name] = [getattr(hit, name) for hit in hits]
     assert carom.verify.score(results, case=pair).passed
-    told = carom.verify.score({**results, "run": [1, 2, 3, 4], "friction": [0.2] * 4}, case=pair)
-    assert told.notes[-1] == "columns that were not used: run, friction"
+    score = carom.verify.score({**results, "run": [1, 2, 3, 4], "friction": [0.2] * 4}, case=pair)
+    assert score.notes[-1] == "columns that were not used: run, friction"
     results["Spin"] = results.pop("spin")
     refused("Spin: unknown column; did you mean 'spin'", carom.verify.score, results, case=pair)
 

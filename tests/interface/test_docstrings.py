@@ -98,17 +98,17 @@ def members(cls):
 def public():
     """Return all that users call, each once, by its name as they write it after `carom.`."""
     names = [f"{module.__name__}.{name}" for module in MODULES for name in module.__all__]
-    found = {}
+    by_name = {}
     for label in (*(name.removeprefix("carom.") for name in names), *BESIDE):
         value = resolve_name(f"carom.{label}")
-        if inspect.ismodule(value) or not callable(value) or value in found.values():
+        if inspect.ismodule(value) or not callable(value) or value in by_name.values():
             continue
-        found[label] = value
+        by_name[label] = value
         if inspect.isclass(value) and not issubclass(value, Enum):
             for name, member in members(value):  # what is inherited counts once
-                if member not in found.values():
-                    found[f"{label}.{name}"] = member
-    return found
+                if member not in by_name.values():
+                    by_name[f"{label}.{name}"] = member
+    return by_name
 
 
 PUBLIC = public()
@@ -173,9 +173,9 @@ def test_numpydoc_finds_no_fault(label):
 
 @pytest.mark.parametrize("label", PUBLIC)
 def test_attributes_have_a_type_and_errors_are_names(label):
-    found = documented(label)
-    assert all(one.name and one.type for one in found["Attributes"])
-    assert all(re.fullmatch(r"\w+", one.type) for one in found["Raises"])
+    actual = documented(label)
+    assert all(one.name and one.type for one in actual["Attributes"])
+    assert all(re.fullmatch(r"\w+", one.type) for one in actual["Raises"])
 
 
 REFUSING = [name for name in ASKED if {name, short(name)}.isdisjoint(NEVER_REFUSE)]
@@ -235,5 +235,5 @@ def test_a_quantity_tells_its_unit(label):
     """That of the glossary; what is in neither is a pure number."""
     name, text = short(label), inspect.getdoc(PUBLIC[label])
     unit = GLOSSARY[name].unit if name in GLOSSARY else UNITS.get(name, "1")
-    told = re.findall(r"\bin (N s|[A-Za-z1]+(?:/[a-z]+)?)(?=[\s,.;:]|$)", text)
-    assert [one for one in told if one in KNOWN] == ([] if unit == "1" else [unit])
+    matches = re.findall(r"\bin (N s|[A-Za-z1]+(?:/[a-z]+)?)(?=[\s,.;:]|$)", text)
+    assert [one for one in matches if one in KNOWN] == ([] if unit == "1" else [unit])

@@ -130,8 +130,8 @@ RECIPE = (ROOT / "docs/how-to/own-law.md").read_text(encoding="utf-8")
 
 
 def block(language):
-    (found,) = re.findall(rf"^```{language}\n(.*?)^```$", RECIPE, re.MULTILINE | re.DOTALL)
-    return found
+    (actual,) = re.findall(rf"^```{language}\n(.*?)^```$", RECIPE, re.MULTILINE | re.DOTALL)
+    return actual
 
 
 def test_the_workflow_has_the_lines_of_the_shell_in_their_order():

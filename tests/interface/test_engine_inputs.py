@@ -100,11 +100,11 @@ def test_outcomes_are_relative_and_whole(pair):
     first = np.array([[0.0, apart, 0.3, 0.2, -7.0], [0.0, apart, 0.4, 0.2, -8.0]])
     second = np.array([[0.0, 0.0, 0.1, -0.1, 5.0]] * 2)
     states = first if pair is WALL else np.vstack([first, second])
-    found = outcomes_of(wanted, states)
+    actual = outcomes_of(wanted, states)
     still = np.zeros(5) if pair is WALL else second[0]
-    assert found.normal_speed == pytest.approx(first[:, 3] - still[3], rel=1e-15)
-    assert found.tangential_speed == pytest.approx(first[:, 2] - still[2], rel=1e-15)
-    assert found.spin.tolist() == [7.0, 8.0]
+    assert actual.normal_speed == pytest.approx(first[:, 3] - still[3], rel=1e-15)
+    assert actual.tangential_speed == pytest.approx(first[:, 2] - still[2], rel=1e-15)
+    assert actual.spin.tolist() == [7.0, 8.0]
     with pytest.raises(ValueError, match=f"{len(states) - 1} by 5, not {len(states)} by 5"):
         outcomes_of(wanted, states[:-1])
     states[1, 1] = 0.999 * touching(pair)

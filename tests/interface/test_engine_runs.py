@@ -58,15 +58,15 @@ class Shell:
 
 def alive(group):
     """Return the processes of a group that still run."""
-    found = []
+    entries = []
     for status in Path("/proc").glob("[0-9]*/stat"):
         try:
             state, _, own = status.read_text().rpartition(")")[2].split()[:3]
         except OSError:
             continue
         if int(own) == group and state != "Z":
-            found.append(status.parent.name)
-    return found
+            entries.append(status.parent.name)
+    return entries
 
 
 def nothing_left(engine):
@@ -89,10 +89,10 @@ def failure(engine, **options):
 
 def test_results_and_version(tmp_path):
     engine = Shell(f"echo 2.7\n{GOOD}", tmp_path / "note")
-    found = run(engine, experiment())
-    assert found.version == "2.7"
-    assert found.outcomes.spin.tolist() == [1.0, 2.0]
-    assert 0.0 < found.seconds < 30.0
+    outcomes = run(engine, experiment())
+    assert outcomes.version == "2.7"
+    assert outcomes.outcomes.spin.tolist() == [1.0, 2.0]
+    assert 0.0 < outcomes.seconds < 30.0
     assert nothing_left(engine)
 
 

@@ -77,13 +77,13 @@ def test_tractions_are_those_of_the_fields(view):
         at = round(200 * share)
         radius = scene.contact[at] * hit.max_radius
         places = np.linspace(0.0, radius, scene.tractions.shape[1])[:-1]
-        found = hit.fields(share * hit.duration, points=np.column_stack([places, 0 * places]))
-        expected = found.traction_x.values / (view.friction * unit)
+        fields = hit.fields(share * hit.duration, points=np.column_stack([places, 0 * places]))
+        expected = fields.traction_x.values / (view.friction * unit)
         np.testing.assert_allclose(scene.tractions[row][:-1], expected, atol=1e-9)
         # the page's own formula of the pressure
         root = np.sqrt(scene.contact[at] ** 2 - (places / hit.max_radius) ** 2)
         pressed = root + 0.5 * scene.rim[at] / root
-        np.testing.assert_allclose(pressed, found.pressure.values / unit, rtol=1e-9)
+        np.testing.assert_allclose(pressed, fields.pressure.values / unit, rtol=1e-9)
 
 
 def seen_from_second(view, stage):
@@ -183,8 +183,8 @@ def test_the_figure_of_the_curve_holds_laws_and_the_impact():
     for law in law_curves(scene, LAWS[:3]):
         np.testing.assert_array_equal(lines[law.label], np.stack([law.psi_in, law.psi_out], 1))
     np.testing.assert_array_equal(lines["this impact"], [[scene.psi_in, scene.psi_out]])
-    told = [text.get_text() for text in axis.get_legend().get_texts()]
-    assert told[-4:] == [*LAWS[:3], "this impact"]
+    entries = [text.get_text() for text in axis.get_legend().get_texts()]
+    assert entries[-4:] == [*LAWS[:3], "this impact"]
 
 
 def test_laws_without_damping_are_not_laid_over_losses():
@@ -201,13 +201,13 @@ def test_laws_are_drawn_in_units_of_the_impact_with_losses():
     view = View(restitution=0.6, angle=0.0, spin=5.0, friction=0.9)
     scene, hit = scene_of(view), impact_of(view)
     (law,) = law_curves(scene, ["linear spring, k_t/k_n = kappa"])
-    told = carom.dem.LinearSpring(restitution=0.6).history(
+    history = carom.dem.LinearSpring(restitution=0.6).history(
         scene.psi_in, scene.chi, kappa=scene.kappa, steps=400
     )
     scales = hit.pair.scales(hit.normal_speed)
-    seconds = told["time"][::2] * scales.time
+    seconds = history["time"][::2] * scales.time
     np.testing.assert_allclose(law.share * hit.duration, seconds, rtol=1e-12)
-    newtons = told["tangential_force"][::2] * view.friction * scales.force
+    newtons = history["tangential_force"][::2] * view.friction * scales.force
     of_scene = scene.force / hit.history(201).tangential_force.values
     np.testing.assert_allclose(law.force, newtons * np.nanmedian(of_scene), rtol=1e-9)
 
@@ -227,18 +227,18 @@ def test_lines_of_python_give_the_same(view, tmp_path, monkeypatch, capsys):
     scene = scene_of(view)
     exec(script(view, 0.6), {"__name__": "__main__"})
     printed = capsys.readouterr().out
-    told = [float(number) for number in re.findall(r"-?\d+\.\d+", printed)]
+    entries = [float(number) for number in re.findall(r"-?\d+\.\d+", printed)]
     assert any(tmp_path.glob("*.png"))
     if not np.isfinite(scene.psi_out):
         assert printed.startswith("inf inf ")
         return
     for psi in (scene.psi_out, *(law.at for law in law_curves(scene, view.law))):
-        assert psi == pytest.approx(min(told, key=lambda number: abs(number - psi)), abs=1e-9)
+        assert psi == pytest.approx(min(entries, key=lambda number: abs(number - psi)), abs=1e-9)
 
 
 @pytest.mark.parametrize("psi", [4000.0, -4000.0])
 def test_the_curve_of_a_far_impact_has_all_regimes(psi):
-    found, out = exact_curve(scene_of(View(given=NUMBERS, psi=psi, chi=1.44)))
-    assert np.sum(np.abs(found) < 6.0) > 200
-    assert min(found[0], 0.0) <= psi <= found[-1]
-    np.testing.assert_allclose(out, carom.rebound(found, 1.44), atol=1e-9)
+    actual, out = exact_curve(scene_of(View(given=NUMBERS, psi=psi, chi=1.44)))
+    assert np.sum(np.abs(actual) < 6.0) > 200
+    assert min(actual[0], 0.0) <= psi <= actual[-1]
+    np.testing.assert_allclose(out, carom.rebound(actual, 1.44), atol=1e-9)

@@ -118,8 +118,8 @@ def test_refusal_on_the_command_line(tmp_path, refusal):
 @pytest.mark.slow
 def test_command(tmp_path, run):
     code, out, _ = run("explore", "--export", tmp_path / "page", "--json")
-    told = json.loads(out)
+    record = json.loads(out)
     assert code == 0
-    assert set(told) == {"folder", "bytes", "files"}
-    assert told["folder"] == str(tmp_path / "page")
-    assert told["bytes"] < 15e6
+    assert set(record) == {"folder", "bytes", "files"}
+    assert record["folder"] == str(tmp_path / "page")
+    assert record["bytes"] < 15e6

@@ -23,14 +23,14 @@ def impacts(angles, *names, **columns):
     return {"angle [deg]": list(angles), "speed": [2.0] * len(hits), **data, **columns}
 
 
-def whole(found):
+def whole(result):
     """Ask a fit for everything that it offers."""
-    assert str(found)
-    json.dumps(found.to_dict(), allow_nan=False)
-    json.dumps(found.advice(3).to_dict(), allow_nan=False)
-    assert np.isfinite(found.to_dataset().curve_high).all()
-    assert found.plot().axes
-    return found
+    assert str(result)
+    json.dumps(result.to_dict(), allow_nan=False)
+    json.dumps(result.advice(3).to_dict(), allow_nan=False)
+    assert np.isfinite(result.to_dataset().curve_high).all()
+    assert result.plot().axes
+    return result
 
 
 @pytest.mark.parametrize(
@@ -45,11 +45,11 @@ def whole(found):
 def test_all_parameters_but_one_may_be_fixed(vary, fixed):
     """Laws of rigid spheres then have nothing free, and are compared all the same."""
     data = impacts((5, 15, 25, 35, 60), "spin_out", "tangential_speed_out", "normal_speed_out")
-    found = whole(fit(data, pair=START, vary=vary, fixed=fixed))
+    actual = whole(fit(data, pair=START, vary=vary, fixed=fixed))
     truth = {"chi": PAIR.chi, "friction": MU, "restitution": 1.0, "spin_offset": 0.0}
     tolerance = {"rel": 0.02, "abs": 0.5 if vary == "spin_offset" else 1e-3}
-    assert found[vary].value == pytest.approx(truth[vary], **tolerance)
-    assert np.isfinite([law.criterion for law in found.comparison]).all()
+    assert actual[vary].value == pytest.approx(truth[vary], **tolerance)
+    assert np.isfinite([law.criterion for law in actual.comparison]).all()
 
 
 @pytest.mark.parametrize("angle", [3.0, 12.0, 25.0, 60.0])
@@ -59,9 +59,9 @@ def test_five_equal_rows_at_one_angle(name, angle):
     hit = carom.impact(PAIR, speed=2.0, angle=f"{angle} deg")
     value = -hit.contact_restitution if name == "contact_beta" else getattr(hit, name)
     data = {"angle [deg]": [angle] * 5, "speed": [2.0] * 5, name: [value] * 5}
-    found = whole(fit(data, pair=START, fixed=RESTING))
+    actual = whole(fit(data, pair=START, fixed=RESTING))
     words = "one incidence determines friction or kappa"
-    assert any(note.startswith(words) for note in found.notes)
+    assert any(note.startswith(words) for note in actual.notes)
     held = fit(data, pair=START, fixed={"restitution": 1.0, "kappa": PAIR.kappa})
     near = held.friction.value == pytest.approx(MU, rel=0.01)
     assert near or held.friction.open or any("nearly as well" in note for note in held.notes)
@@ -77,9 +77,9 @@ def test_incidences_within_a_tenth_of_a_degree_are_one(apart, one):
 
 def test_one_row_with_errors_tells_one_parameter():
     data = impacts([60], "spin_out", spin_out_error=[1.0])
-    found = whole(fit(data, pair=START, vary="friction"))
-    assert found.friction.low < MU < found.friction.high
-    assert "1 value of spin_out in 1 row;" in str(found)
+    result = whole(fit(data, pair=START, vary="friction"))
+    assert result.friction.low < MU < result.friction.high
+    assert "1 value of spin_out in 1 row;" in str(result)
 
 
 @pytest.mark.parametrize("friction", [0.02, 0.05, 0.1])
@@ -95,13 +95,13 @@ def test_what_is_held_is_held_where_the_fit_found_it(friction):
     values = np.array([hit.contact_restitution for hit in hits]) + noise
     pair = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=friction)
     data = {"angle [deg]": angles, "contact_restitution": values}
-    found = fit(data, pair=pair, fixed=RESTING)
-    assert found.regimes["stick from the first touch"] == 6
-    ratio = carom.rebound(1e-3, found.chi.value) / 1e-3
+    result = fit(data, pair=pair, fixed=RESTING)
+    assert result.regimes["stick from the first touch"] == 6
+    ratio = carom.rebound(1e-3, result.chi.value) / 1e-3
     assert ratio == pytest.approx(carom.rebound(1e-3, PAIR.chi) / 1e-3, abs=0.01)
-    other = [note for note in found.notes if "fit nearly as well" in note]
-    told = [found.kappa.value, *(float(note.split("kappa ")[1]) for note in other)]
-    assert min(abs(value / PAIR.kappa - 1.0) for value in told) < 0.02
+    other = [note for note in result.notes if "fit nearly as well" in note]
+    answer = [result.kappa.value, *(float(note.split("kappa ")[1]) for note in other)]
+    assert min(abs(value / PAIR.kappa - 1.0) for value in answer) < 0.02
 
 
 def test_errors_below_those_of_the_curves_count_as_these():
@@ -110,18 +110,18 @@ def test_errors_below_those_of_the_curves_count_as_these():
     widths = []
     for error in (1e-12, 1e-6):
         errors = {"contact_restitution_error": [error] * 5}
-        found = whole(fit({**data, **errors}, pair=START, fixed=RESTING))
-        assert any("the accuracy of the curves" in note for note in found.notes)
-        widths.append(found.friction.high - found.friction.low)
+        result = whole(fit({**data, **errors}, pair=START, fixed=RESTING))
+        assert any("the accuracy of the curves" in note for note in result.notes)
+        widths.append(result.friction.high - result.friction.low)
     assert widths[0] == pytest.approx(widths[1], rel=1e-6)
     assert widths[0] > 1e-5 * MU
 
 
 def test_a_column_without_a_value_is_told_and_left_out():
     data = impacts((5, 15, 25, 35, 60), "contact_restitution", spin_out=["-"] * 5)
-    found = whole(fit(data, pair=START, fixed=RESTING))
-    assert "columns that were not used: spin_out (no value in it)" in found.notes
-    assert found.friction.value == pytest.approx(MU, rel=1e-3)
+    result = whole(fit(data, pair=START, fixed=RESTING))
+    assert "columns that were not used: spin_out (no value in it)" in result.notes
+    assert result.friction.value == pytest.approx(MU, rel=1e-3)
     none = {**impacts((5, 15)), "spin_out": ["-"] * 2}
     refused("data: there is no value in spin_out", fit, none, pair=START)
 
@@ -129,8 +129,8 @@ def test_a_column_without_a_value_is_told_and_left_out():
 def test_a_parameter_at_the_end_of_its_range_is_named():
     """Normal restitution 0.1 of oblique impacts: curves begin at 0.3."""
     data = {"angle": np.linspace(0.2, 1.0, 5), "normal_restitution": [0.1, 0.11, 0.1, 0.09, 0.1]}
-    found = whole(fit(data, pair=START, vary="restitution"))
-    assert "restitution: the best value is at an end of the range from 0.3 to 1" in found.notes
+    actual = whole(fit(data, pair=START, vary="restitution"))
+    assert "restitution: the best value is at an end of the range from 0.3 to 1" in actual.notes
 
 
 def test_an_outlier_of_a_factor_is_no_reason_for_wider_errors():
@@ -139,10 +139,10 @@ def test_an_outlier_of_a_factor_is_no_reason_for_wider_errors():
     data = impacts(rows, "contact_restitution", contact_restitution_error=[0.01] * 9)
     clean = fit(data, pair=START, fixed=RESTING)
     data["contact_restitution"][4] *= 1000.0
-    found = whole(fit(data, pair=START, fixed=RESTING))
+    result = whole(fit(data, pair=START, fixed=RESTING))
     width = clean.friction.high - clean.friction.low
-    assert abs(found.friction.value - clean.friction.value) < width
-    assert any("outliers: row 5" in note for note in found.notes)
+    assert abs(result.friction.value - clean.friction.value) < width
+    assert any("outliers: row 5" in note for note in result.notes)
 
 
 @pytest.mark.parametrize(
@@ -172,8 +172,8 @@ def test_bodies_beyond_the_curves_are_refused():
 
 
 def test_a_plan_of_measurements_has_an_end():
-    found = fit(impacts((5, 25, 60), "spin_out"), pair=START, fixed=RESTING)
+    result = fit(impacts((5, 25, 60), "spin_out"), pair=START, fixed=RESTING)
     words = "n: 1000000 cannot be used; must be a whole number from 1 to 1000"
-    refused(words, found.advice, 1_000_000)
-    for given in ({"steps": 10**9}, {"seed": -1}, {"seed": 10**30}):
-        refused(next(iter(given)), found.posterior, **{"steps": 100, **given})
+    refused(words, result.advice, 1_000_000)
+    for values in ({"steps": 10**9}, {"seed": -1}, {"seed": 10**30}):
+        refused(next(iter(values)), result.posterior, **{"steps": 100, **values})

@@ -148,20 +148,20 @@ def test_bodies_in_the_file_are_read_as_strictly_as_a_case_file(case, words, tmp
 
 
 def test_what_was_not_used_is_told():
-    found = fit({**GOOD, "humidity": [40.0] * 5}, pair=PAIR, fixed=RESTING)
-    assert "columns that were not used: humidity" in found.notes
+    result = fit({**GOOD, "humidity": [40.0] * 5}, pair=PAIR, fixed=RESTING)
+    assert "columns that were not used: humidity" in result.notes
 
 
 def test_advice_on_what_was_not_fitted_is_refused():
-    found = fit(GOOD, pair=PAIR, fixed=RESTING)
-    refused("'restitution' was not fitted", found.advice, 2, "restitution")
-    refused("at least 1", found.advice, 0)
+    result = fit(GOOD, pair=PAIR, fixed=RESTING)
+    refused("'restitution' was not fitted", result.advice, 2, "restitution")
+    refused("at least 1", result.advice, 0)
 
 
 def test_normal_impacts_tell_restitution_if_nothing_else_is_asked():
     data = {"angle": np.zeros(4), "normal_restitution": [0.9, 0.91, 0.89, 0.9]}
-    found = fit(data, pair=PAIR, vary="restitution")
-    assert found.restitution.value == pytest.approx(0.9, abs=1e-6)
+    result = fit(data, pair=PAIR, vary="restitution")
+    assert result.restitution.value == pytest.approx(0.9, abs=1e-6)
 
 
 BOUNCING = GOOD | {"normal_restitution": [0.8, 0.79, 0.81, 0.8, 0.8]}
@@ -182,8 +182,8 @@ def test_a_restitution_that_was_measured_is_not_held_at_one(vary, by_speeds):
     measured = "normal_speed_out" if by_speeds else "normal_restitution"
     line = refused(f"^restitution: {measured} is in the data", fit, data, pair=PAIR, vary=vary)
     assert "fixed={'restitution': 0.98}" in line
-    for given in ({"vary": vary, "fixed": {"restitution": 0.8}}, {}):
-        held = fit(data, pair=PAIR, **given).restitution.value
+    for inputs in ({"vary": vary, "fixed": {"restitution": 0.8}}, {}):
+        held = fit(data, pair=PAIR, **inputs).restitution.value
         assert held == pytest.approx(0.8, abs=0.01)
 
 
@@ -192,9 +192,9 @@ def test_a_friction_that_nobody_has_given_is_not_held(case, with_bodies):
     """It was a guess of 0.3, which the fit called "not varied"."""
     data, pair = (GOOD, BARE) if case is None else (with_bodies, None)
     for vary, fixed in (("kappa", RESTING), ("restitution", {})):
-        given = {"pair": pair, "vary": vary}
-        refused(r"^friction: the bodies have none, but it is", fit, data, fixed=fixed, **given)
-        held = fit(data, fixed=fixed | {"friction": 0.12}, **given)
+        inputs = {"pair": pair, "vary": vary}
+        refused(r"^friction: the bodies have none, but it is", fit, data, fixed=fixed, **inputs)
+        held = fit(data, fixed=fixed | {"friction": 0.12}, **inputs)
         assert held.friction.value == 0.12
     assert fit(FALLING, pair=BARE).restitution.value == pytest.approx(0.8, abs=0.01)
     assert fit(BOUNCING, pair=PAIR, vary="restitution").friction.value == 0.12

@@ -30,14 +30,14 @@ def data():
 
 
 @pytest.fixture(scope="module")
-def found(data):
+def result(data):
     return fit(data, pair=PAIR, fixed={"restitution": 1.0})
 
 
 def test_posterior_agrees_with_the_profile(data):
     """Squares and many values: quantiles of the samples are the ends of the profile interval."""
-    told = {**data, "spin_out_error": np.full(9, 5.0)}
-    squares = fit(told, pair=PAIR, fixed={"restitution": 1.0}, robust=False)
+    entries = {**data, "spin_out_error": np.full(9, 5.0)}
+    squares = fit(entries, pair=PAIR, fixed={"restitution": 1.0}, robust=False)
     samples = squares.posterior(steps=700, seed=3)
     for name in ("friction", "kappa", "chi"):
         low, high = np.quantile(samples[name].values, [0.025, 0.975])
@@ -53,31 +53,31 @@ def test_posterior_of_a_robust_fit_agrees_with_the_profile():
     ratios = np.append(random.normal(0.15, 0.01, 60), [0.3, 0.35, 0.02])
     data = {"angle [deg]": np.full(63, 75.0), "impulse_ratio": ratios}
     for errors in ({}, {"impulse_ratio_error": np.full(63, 0.01)}):
-        found = fit(data | errors, pair=PAIR, fixed={"restitution": 1.0}, vary="friction")
-        samples = found.posterior(steps=1500, seed=4).friction.values
+        actual = fit(data | errors, pair=PAIR, fixed={"restitution": 1.0}, vary="friction")
+        samples = actual.posterior(steps=1500, seed=4).friction.values
         low, high = np.quantile(samples, [0.025, 0.975])
-        width = found.friction.high - found.friction.low
-        assert low == pytest.approx(found.friction.low, abs=0.04 * width)
-        assert high == pytest.approx(found.friction.high, abs=0.04 * width)
+        width = actual.friction.high - actual.friction.low
+        assert low == pytest.approx(actual.friction.low, abs=0.04 * width)
+        assert high == pytest.approx(actual.friction.high, abs=0.04 * width)
 
 
-def test_posterior_depends_on_its_seed_alone(found):
-    one, same, other = (found.posterior(steps=100, seed=seed) for seed in (5, 5, 6))
+def test_posterior_depends_on_its_seed_alone(result):
+    one, same, other = (result.posterior(steps=100, seed=seed) for seed in (5, 5, 6))
     np.testing.assert_array_equal(one.friction.values, same.friction.values)
     assert not np.array_equal(one.friction.values, other.friction.values)
-    refused("at least 100", found.posterior, steps=20)
+    refused("at least 100", result.posterior, steps=20)
 
 
-def test_a_stored_fit_is_drawn_without_fitting(found, tmp_path):
-    stored = carom.read(carom.save(found, tmp_path / "fit.nc"))
-    assert stored.value.sel(parameter="friction").item() == found.friction.value
-    np.testing.assert_array_equal(stored.measured, found.to_dataset().measured)
+def test_a_stored_fit_is_drawn_without_fitting(result, tmp_path):
+    stored = carom.read(carom.save(result, tmp_path / "fit.nc"))
+    assert stored.value.sel(parameter="friction").item() == result.friction.value
+    np.testing.assert_array_equal(stored.measured, result.to_dataset().measured)
     figure = plot_fit(stored)
     assert len(figure.axes) == 4  # curves and residuals of two responses
 
 
-def test_dataset_holds_data_curves_and_residuals(found, data):
-    stored = found.to_dataset()
+def test_dataset_holds_data_curves_and_residuals(result, data):
+    stored = result.to_dataset()
     beta = stored.sel(response="contact_beta")
     np.testing.assert_allclose(beta.measured - beta.expected, beta.residual)
     np.testing.assert_allclose(np.degrees(stored.incidence), DEGREES)
@@ -86,46 +86,46 @@ def test_dataset_holds_data_curves_and_residuals(found, data):
     np.testing.assert_allclose(at_data, beta.expected, atol=2e-3)
     assert np.all(beta.curve_low < curve)
     assert np.all(curve < beta.curve_high)
-    border = np.arctan(found.friction.value / found.kappa.value)
+    border = np.arctan(result.friction.value / result.kappa.value)
     assert stored.border.values[0] == pytest.approx(border)
 
 
-def test_rival_curves_are_their_laws(found):
+def test_rival_curves_are_their_laws(result):
     """Rigid Coulomb: beta = 0 in stick, else mu (1 + e)(m_n/m_t) V_n/V_x - 1."""
-    stored = found.to_dataset().sel(response="contact_beta")
-    mu = found.comparison["rigid Coulomb"].values["friction"]
+    stored = result.to_dataset().sel(response="contact_beta")
+    mu = result.comparison["rigid Coulomb"].values["friction"]
     slides = 2.0 * mu * 3.5 / np.tan(stored.curve_incidence.values)
     expected = np.minimum(slides, 1.0) - 1.0
     np.testing.assert_allclose(stored.curve_expected.sel(law="rigid Coulomb"), expected, atol=1e-12)
 
 
-def test_json_is_json(found):
-    record = json.loads(json.dumps(found.to_dict(), allow_nan=False))
+def test_json_is_json(result):
+    record = json.loads(json.dumps(result.to_dict(), allow_nan=False))
     assert record["parameters"]["friction"]["determined"]
     assert record["comparison"]["Walton"]["aicc"] > record["comparison"]["exact"]["aicc"]
-    advice = json.loads(json.dumps(found.advice(2).to_dict(), allow_nan=False))
+    advice = json.loads(json.dumps(result.advice(2).to_dict(), allow_nan=False))
     assert len(advice["places"]) == 2
 
 
-def test_text_names_value_and_ends(found):
-    text = str(found)
+def test_text_names_value_and_ends(result):
+    text = str(result)
     shown = re.search(r"friction +(\S+) \((\S+) to (\S+)\)", text)
-    numbers = (found.friction.value, found.friction.low, found.friction.high)
+    numbers = (result.friction.value, result.friction.low, result.friction.high)
     assert [float(each) for each in shown.groups()] == pytest.approx(numbers, abs=1e-4)
     assert "spin_out: the scatter gives a standard deviation" in text
     assert "the data rule out Walton" in text
 
 
-def test_pair_of_the_fit_can_be_used_on(found):
-    hit = carom.impact(found.pair, speed=2.0, angle="60 deg")
-    impulse = 2.0 * found.pair.normal_mass * hit.normal_speed
-    assert hit.tangential_impulse == pytest.approx(found.friction.value * impulse)
+def test_pair_of_the_fit_can_be_used_on(result):
+    hit = carom.impact(result.pair, speed=2.0, angle="60 deg")
+    impulse = 2.0 * result.pair.normal_mass * hit.normal_speed
+    assert hit.tangential_impulse == pytest.approx(result.friction.value * impulse)
 
 
-def test_figures_are_stored(found, tmp_path):
-    found.plot(tmp_path / "fit.png")
+def test_figures_are_stored(result, tmp_path):
+    result.plot(tmp_path / "fit.png")
     assert (tmp_path / "fit.png").stat().st_size > 10_000
-    assert len(plot_corner(found.posterior(steps=200, seed=1)).axes) == 4
+    assert len(plot_corner(result.posterior(steps=200, seed=1)).axes) == 4
     refused(r"carom\.fit", plot_fit, carom.curve(1.44, [0.5, 1.0]))
 
 

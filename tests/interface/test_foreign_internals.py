@@ -59,8 +59,8 @@ def private_names(tree):
 
 @pytest.mark.parametrize("name", FILES)
 def test_only_named_internals_are_read(name):
-    found = set(private_names(ast.parse((PACKAGE / name).read_text(encoding="utf-8"))))
-    assert found - PUBLIC == OWN.get(name, set()) | NUMBA.get(name, set())
+    names = set(private_names(ast.parse((PACKAGE / name).read_text(encoding="utf-8"))))
+    assert names - PUBLIC == OWN.get(name, set()) | NUMBA.get(name, set())
 
 
 def test_the_internals_of_numba_exist():

@@ -69,9 +69,9 @@ UNTOUCHED = [
 @pytest.mark.parametrize("text", INLINE)
 def test_a_formula_is_one_role_and_a_sentence_around_it_stays(text):
     assert formulas.convert([text]) == [f":math:`{INLINE[text]}`"]
-    given = f"It is the ratio, {text}, and nothing else (Barber 1979)."
+    values = f"It is the ratio, {text}, and nothing else (Barber 1979)."
     want = f"It is the ratio, :math:`{INLINE[text]}`, and nothing else (Barber 1979)."
-    assert formulas.convert([given]) == [want]
+    assert formulas.convert([values]) == [want]
 
 
 @pytest.mark.parametrize("text", SENTENCES)
@@ -112,5 +112,5 @@ def test_indented_equations_are_displayed():
 
 
 def test_examples_of_the_extension_hold():
-    found = doctest.testmod(formulas)
-    assert (found.failed, found.attempted > 0) == (0, True)
+    outcome = doctest.testmod(formulas)
+    assert (outcome.failed, outcome.attempted > 0) == (0, True)

@@ -61,8 +61,8 @@ def test_index_names_every_script_and_its_pictures():
 
 def test_index_leads_from_every_equation_to_a_script():
     """The paper's equations are (1) to (37); the table has a row or a range for each."""
-    found = set()
+    names = set()
     for row in re.findall(r"^\| (\([^|]*\)) \|.*\.py", INDEX, re.MULTILINE):
         for first, last in re.findall(r"\((\d+)\)(?:-\((\d+)\))?", row):
-            found |= set(range(int(first), int(last or first) + 1))
-    assert found == set(range(1, 38))
+            names |= set(range(int(first), int(last or first) + 1))
+    assert names == set(range(1, 38))

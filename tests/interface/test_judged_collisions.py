@@ -14,21 +14,21 @@ UP = [0.0, 0.0, 1.0]
 RANDOM = np.random.default_rng(20261124)
 
 
-def judged(pair, **given):
-    return carom.collide(pair, **given, judge=True)
+def judged(pair, **keywords):
+    return carom.collide(pair, **keywords, judge=True)
 
 
 @pytest.mark.parametrize("pair", [LIKE, UNLIKE])
 def test_a_judged_collision_is_the_same_collision(pair):
     velocity, spin = RANDOM.normal(size=(2, 50, 3))
     motion = {"velocity1": velocity + np.array(UP), "spin1": 50.0 * spin, "normal": UP}
-    found, plain = judged(pair, **motion), carom.collide(pair, **motion)
+    actual, plain = judged(pair, **motion), carom.collide(pair, **motion)
     for name in plain._fields:
-        assert np.array_equal(getattr(found, name), getattr(plain, name)), name
+        assert np.array_equal(getattr(actual, name), getattr(plain, name)), name
     collided = plain.status == 0
     assert 5 < collided.sum() < 50
-    assert np.all((found.judgement == 2) == ~collided)
-    assert np.all(np.isnan(found.psi_out_error) == (found.judgement != 0))
+    assert np.all((actual.judgement == 2) == ~collided)
+    assert np.all(np.isnan(actual.psi_out_error) == (actual.judgement != 0))
 
 
 def test_the_error_is_that_of_the_impact():
@@ -36,10 +36,10 @@ def test_the_error_is_that_of_the_impact():
     for pair in (LIKE, UNLIKE):
         spins = {"spin": 20.0, "normal_spin": 300.0}
         hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.4, **spins)
-        found = judged(pair, velocity1=[0.4, 0.0, 1.0], spin1=[0.0, 20.0, 300.0], normal=UP)
+        collisions = judged(pair, velocity1=[0.4, 0.0, 1.0], spin1=[0.0, 20.0, 300.0], normal=UP)
         parts = [f.value for f in hit.validity.findings if f.name.startswith("error of psi_2")]
         assert len(parts) == 2
-        assert float(found.psi_out_error) == pytest.approx(sum(parts), rel=1e-12)
+        assert float(collisions.psi_out_error) == pytest.approx(sum(parts), rel=1e-12)
         assert min(parts) > 0.0
 
 
@@ -57,10 +57,10 @@ def test_direction_does_not_matter():
 def test_spins_that_roll_on_each_other_do_not_count():
     """Two spheres that spin alike about the normal: nothing turns between them."""
     both = {"spin1": [0.0, 0.0, 300.0], "spin2": [0.0, 0.0, 300.0]}
-    found = judged(LIKE, velocity1=[0.4, 0.0, 1.0], **both, normal=UP)
+    collisions = judged(LIKE, velocity1=[0.4, 0.0, 1.0], **both, normal=UP)
     still = judged(LIKE, velocity1=[0.4, 0.0, 1.0], normal=UP)
     apart = judged(LIKE, velocity1=[0.4, 0.0, 1.0], spin1=both["spin1"], normal=UP)
-    assert float(found.psi_out_error) == float(still.psi_out_error)
+    assert float(collisions.psi_out_error) == float(still.psi_out_error)
     assert float(apart.psi_out_error) > 5.0 * float(still.psi_out_error)
 
 
@@ -87,10 +87,10 @@ def test_written_in_place_it_is_judged_as_it_was():
 
 
 def test_what_cannot_be_judged_is_refused():
-    given = {"velocity1": UP, "normal": UP}
+    inputs = {"velocity1": UP, "normal": UP}
     words = r"^law: .*judge=True judges the exact law"
-    refused(words, carom.collide, LIKE, **given, judge=True, law=carom.laws.SmoothLaw())
-    refused("^judge: ", carom.collide, LIKE, **given, judge="yes")
+    refused(words, carom.collide, LIKE, **inputs, judge=True, law=carom.laws.SmoothLaw())
+    refused("^judge: ", carom.collide, LIKE, **inputs, judge="yes")
 
 
 def test_errors_take_arrays():
@@ -107,8 +107,8 @@ def test_errors_take_arrays():
 def test_contacts_too_large_for_hertz_are_not_judged():
     rubber = carom.Sphere(radius="10 mm", material="rubber")
     bodies = carom.Pair(rubber, carom.HalfSpace(material="rubber"), friction=0.5)
-    found = judged(bodies, velocity1=[[0.1, 0.0, v] for v in (0.01, 30.0)], normal=UP)
-    assert found.judgement.tolist() == [0, 1]
+    collisions = judged(bodies, velocity1=[[0.1, 0.0, v] for v in (0.01, 30.0)], normal=UP)
+    assert collisions.judgement.tolist() == [0, 1]
 
 
 def test_it_is_printed_and_compared_as_collisions_are():

@@ -252,8 +252,8 @@ def read_only(tmp_path):
 
     def python(program, **more):
         command = [*locked, sys.executable, "-c", program]
-        told = {"env": environment | more, "capture_output": True, "text": True}
-        return subprocess.run(command, **told)
+        entries = {"env": environment | more, "capture_output": True, "text": True}
+        return subprocess.run(command, **entries)
 
     yield python
     assert sorted(package.rglob("*")) == before

@@ -68,17 +68,17 @@ def test_weaker_body_yields_first() -> None:
         ball, wall = Sphere(radius=0.01, material=first), HalfSpace(material=second)
         return float(yield_velocity(Pair(ball, wall, friction=0.2)))
 
-    found = [speed(*bodies) for bodies in ((soft, soft), (hard, hard), (hard, soft))]
-    assert found[1] / found[0] == pytest.approx(9.0**2.5, rel=1e-12)
-    assert found[2] == pytest.approx(found[0], rel=1e-12)
+    values = [speed(*bodies) for bodies in ((soft, soft), (hard, hard), (hard, soft))]
+    assert values[1] / values[0] == pytest.approx(9.0**2.5, rel=1e-12)
+    assert values[2] == pytest.approx(values[0], rel=1e-12)
 
 
 @pytest.mark.parametrize("e", [0.001, 0.02, 0.3, 0.7, 0.95, 0.9999, 1.0])
 @pytest.mark.parametrize("speed", [0.01, 3.0])
 def test_wanted_restitution_is_what_comes_out(e: float, speed: float) -> None:
     """At any speed, to 1e-10."""
-    found = hit(carom.KelvinVoigt(restitution=e), speed).normal_restitution
-    assert found == pytest.approx(e, abs=1e-10)
+    actual = hit(carom.KelvinVoigt(restitution=e), speed).normal_restitution
+    assert actual == pytest.approx(e, abs=1e-10)
 
 
 def test_restitution_on_arrays_is_that_of_each() -> None:
@@ -115,12 +115,12 @@ def test_viscous_loss_grows_with_the_fifth_root_of_the_speed() -> None:
 
 def test_plastic_restitution_falls_with_the_fourth_root_of_the_speed() -> None:
     law = carom.ElasticPlastic(yield_velocity="1 mm/s")
-    found = [hit(law, v).normal_restitution for v in (1.0, 4.0)]
-    assert found[0] / found[1] == pytest.approx(4.0**0.25, rel=1e-3)
+    values = [hit(law, v).normal_restitution for v in (1.0, 4.0)]
+    assert values[0] / values[1] == pytest.approx(4.0**0.25, rel=1e-3)
 
 
 @pytest.mark.parametrize(
-    ("given", "words"),
+    ("inputs", "words"),
     [
         *(({}, "restitution"), ({"restitution": 0.9, "loss_time": "1 us"}, "restitution")),
         *(({"restitution": 1.01}, "restitution.*1.01"), ({"restitution": 0.0}, "restitution.*0")),
@@ -134,9 +134,9 @@ def test_plastic_restitution_falls_with_the_fourth_root_of_the_speed() -> None:
         *(({"loss_time": np.nan}, "loss_time.*nan"), ({"loss_time": True}, "loss_time.*True")),
     ],
 )
-def test_viscous_law_refuses(given: dict[str, object], words: str) -> None:
+def test_viscous_law_refuses(inputs: dict[str, object], words: str) -> None:
     """Every refusal names the argument and what was given."""
-    refused(words, carom.KelvinVoigt, **given)
+    refused(words, carom.KelvinVoigt, **inputs)
 
 
 @pytest.mark.parametrize("value", ["0.1 s", 0.0, -0.1, np.nan, np.inf, "fast"])
@@ -176,15 +176,15 @@ def test_standard_linear_solid_is_in_units_of_the_elastic_impact() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("inputs", "message"),
     [
         ({"modulus_ratio": 0.9, "relaxation_time": 1.0}, r"modulus_ratio: 0\.9 .* from 1 to 1000"),
         ({"modulus_ratio": 2.0, "relaxation_time": "2 mm"}, r"relaxation_time: '2 mm' .* in s"),
         ({"modulus_ratio": 2.0, "relaxation_time": -1.0}, r"relaxation_time: -1\.0 .* zero or"),
     ],
 )
-def test_what_is_no_standard_linear_solid_is_refused(given: dict[str, Any], message: str) -> None:
-    refused(message, carom.StandardLinearSolid, **given)
+def test_what_is_no_standard_linear_solid_is_refused(inputs: dict[str, Any], message: str) -> None:
+    refused(message, carom.StandardLinearSolid, **inputs)
 
 
 @pytest.mark.parametrize(
@@ -207,18 +207,18 @@ def test_the_old_name_of_losses_is_refused_with_the_new(call: Callable[..., floa
 
 def test_validity_says_what_is_assumed_of_losses() -> None:
     """The solid and what another may change; of yielded spheres by how much psi_2 may be off."""
-    told = {f.name: f for f in hit(carom.KelvinVoigt(restitution=0.8)).validity.findings}
-    assert told["e"].value == pytest.approx(0.8)
-    assert "as viscous in shear as in compression" in told["e"].verdict
-    assert "by up to 0.35" in told["e"].verdict  # 0.2 (2.4 chi - 1.7), chi = 1.441
-    told = {f.name: f for f in hit(carom.KelvinVoigt(restitution=0.4)).validity.findings}
-    assert "not studied" in told["e"].verdict
+    by_name = {f.name: f for f in hit(carom.KelvinVoigt(restitution=0.8)).validity.findings}
+    assert by_name["e"].value == pytest.approx(0.8)
+    assert "as viscous in shear as in compression" in by_name["e"].verdict
+    assert "by up to 0.35" in by_name["e"].verdict  # 0.2 (2.4 chi - 1.7), chi = 1.441
+    by_name = {f.name: f for f in hit(carom.KelvinVoigt(restitution=0.4)).validity.findings}
+    assert "not studied" in by_name["e"].verdict
     for ratio, words in ((2.0, "by up to 0.05"), (10.0, "by up to 0.05"), (11.0, "not studied")):
         law = carom.ElasticPlastic(yield_velocity=1.0 / ratio)
-        told = {f.name: f for f in hit(law).validity.findings}
-        assert told["V_1/V_y"].value == pytest.approx(ratio)
-        assert words in told["V_1/V_y"].verdict
-        assert told["V_1/V_y"].holds is None
+        by_name = {f.name: f for f in hit(law).validity.findings}
+        assert by_name["V_1/V_y"].value == pytest.approx(ratio)
+        assert words in by_name["V_1/V_y"].verdict
+        assert by_name["V_1/V_y"].holds is None
     assert "e" not in {f.name for f in hit(None).validity.findings}
 
 
@@ -234,8 +234,8 @@ def test_other_solids_of_one_restitution_are_as_near_as_validity_says(chi: float
     yielding = LossNumbers(Loss.PLASTIC, brentq(of, 0.05, 0.9999))
     viscous = carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=e))
     off = float(np.abs(lossy_rebounds(psi, many, yielding).psi_out - viscous).max())
-    told = judge_losses(LossNumbers(Loss.VISCOUS, 0.1), e, chi).verdict
-    most = float(told.rpartition(" ")[2])
+    verdict = judge_losses(LossNumbers(Loss.VISCOUS, 0.1), e, chi).verdict
+    most = float(verdict.rpartition(" ")[2])
     assert 0.5 * most < off <= most
 
 
@@ -251,32 +251,32 @@ NOT_TITLES = ("elastic, normal", "elastic, tangential")  # energies that are sto
 
 def texts(figure: Any) -> list[str]:
     """Return all that is written in a figure, names of energies apart."""
-    found = [text.get_text() for text in figure.findobj(Text)]
-    return [text for text in found if text not in NOT_TITLES]
+    values = [text.get_text() for text in figure.findobj(Text)]
+    return [text for text in values if text not in NOT_TITLES]
 
 
 @pytest.mark.parametrize("law", LOSSES.values(), ids=LOSSES.keys())
 def test_titles_call_bodies_elastic_only_if_they_are(law: LossLaw | None) -> None:
     """All datasets of an impact, those in a sweep and in curves, and all figures of them."""
-    found, loss = hit(law), {} if law is None else law.describe()
+    actual, loss = hit(law), {} if law is None else law.describe()
     case = {"friction": 0.2, "speed": 2.0, "first": {"radius": "5 mm", "material": "steel"}, **loss}
-    datasets = [found.history(5), carom.sweep(case, carom.Grid({"angle": [0.1, 0.2]}))]
+    datasets = [actual.history(5), carom.sweep(case, carom.Grid({"angle": [0.1, 0.2]}))]
     titles = [str(dataset.attrs["title"]) for dataset in datasets]
     assert all(("elastic" in title) == (law is None) for title in titles), titles
     assert all(("with losses" in title) == (law is not None) for title in titles), titles
-    others, drawn = [found.spectrum(n=3)], [carom.plots.plot_spectrum(found.spectrum(n=9))]
-    drawn += [draw(found) for draw in (carom.plots.plot_forces, carom.plots.plot_radii)]
-    drawn.append(carom.plots.plot_impact(found))
+    others, drawn = [actual.spectrum(n=3)], [carom.plots.plot_spectrum(actual.spectrum(n=9))]
+    drawn += [draw(actual) for draw in (carom.plots.plot_forces, carom.plots.plot_radii)]
+    drawn.append(carom.plots.plot_impact(actual))
     if isinstance(law, carom.KelvinVoigt) or law is None:  # fields are known
-        time, first = 0.3 * found.duration, found.wear()
-        others += [found.fields(time), found.radial(time), found.stress(time), first]
-        drawn += [carom.plots.plot_patch(found.fields(time)), carom.plots.plot_wear(first)]
-        drawn += [carom.plots.plot_contact(found), carom.plots.plot_profiles(found.radial(time))]
+        time, first = 0.3 * actual.duration, actual.wear()
+        others += [actual.fields(time), actual.radial(time), actual.stress(time), first]
+        drawn += [carom.plots.plot_patch(actual.fields(time)), carom.plots.plot_wear(first)]
+        drawn += [carom.plots.plot_contact(actual), carom.plots.plot_profiles(actual.radial(time))]
     if isinstance(law, carom.KelvinVoigt) and law.restitution:
         others.append(carom.curve(1.44, [0.5, 1.0], losses=law))
-    told = [str(dataset.attrs["title"]) for dataset in others]
-    told += [text for figure in drawn for text in texts(figure)]
-    assert not [text for text in told if "elastic" in text]
+    entries = [str(dataset.attrs["title"]) for dataset in others]
+    entries += [text for figure in drawn for text in texts(figure)]
+    assert not [text for text in entries if "elastic" in text]
 
 
 @pytest.mark.parametrize("restitution", [0.8, 1.0])

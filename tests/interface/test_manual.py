@@ -22,7 +22,7 @@ APART = {"explore", "lammps", "liggghts", "yade", "build"}  # they serve, or run
 
 def listed():
     """Return every name in the tables of the reference, with the module that it is taken from."""
-    found = []
+    entries = []
     for page in DOCS.glob("reference/*.rst"):
         module, table = "", False
         for line in page.read_text(encoding="utf-8").splitlines():
@@ -30,8 +30,8 @@ def listed():
                 module = line.split()[-1]
             table = line.startswith(".. autosummary::") or (table and line[:1] in ("", " "))
             if table and re.fullmatch(r"   \w+", line):
-                found.append(f"{module}.{line.strip()}")
-    return found
+                entries.append(f"{module}.{line.strip()}")
+    return entries
 
 
 def test_reference_has_every_public_name_once():
@@ -75,8 +75,8 @@ def test_every_page_is_in_a_section():
 def test_examples_in_the_extensions_hold(extension):
     if extension in ("contents", "names"):
         pytest.importorskip("sphinx", reason="with the extra [docs]")
-    found = doctest.testmod(import_module(extension))
-    assert (found.failed, found.attempted > 0) == (0, True)
+    outcome = doctest.testmod(import_module(extension))
+    assert (outcome.failed, outcome.attempted > 0) == (0, True)
 
 
 def test_page_of_json_has_every_command_that_prints_it():

@@ -77,8 +77,8 @@ def test_any_name_can_be_drawn(name, tmp_path):
     result = score(one(), chi=CHI, code=name, law=name)
     carom.plots.save_figure(result.plot(), tmp_path / "score.svg")
     assert any("off by 0.58" in label for label in labels(result))
-    found = carom.verify.error_map(named(name), [0.5, 1.0], [1.2, 1.4], steps=20)
-    carom.plots.save_figure(carom.plots.plot_error_map(found), tmp_path / "map.svg")
+    errors = carom.verify.error_map(named(name), [0.5, 1.0], [1.2, 1.4], steps=20)
+    carom.plots.save_figure(carom.plots.plot_error_map(errors), tmp_path / "map.svg")
 
 
 def named(name):
@@ -86,7 +86,7 @@ def named(name):
 
 
 def test_a_ranking_of_any_names_can_be_drawn(tmp_path):
-    ranking = carom.verify.rank([named(name) for name in NAMES], psi=[0.5])
+    ranking = carom.verify.rank([named(name) for name in NAMES], psi_1=[0.5])
     carom.plots.save_figure(ranking.plot(), tmp_path / "rank.svg")
 
 
@@ -152,10 +152,10 @@ def test_a_name_that_is_none_is_refused(name):
 
 def test_the_command_names_them_too(run, tmp_path):
     written(tmp_path / "own.csv", one())
-    given = ["verify", "score", "own.csv", "--chi", CHI, "--code", "own", "--law", "new"]
-    code, out, _ = run(*given, "--json")
+    values = ["verify", "score", "own.csv", "--chi", CHI, "--code", "own", "--law", "new"]
+    code, out, _ = run(*values, "--json")
     assert code == 1
     assert [(law["code"], law["law"]) for law in json.loads(out)["laws"]] == [("own", "new")]
-    code, out, _ = run(*given, "--tolerance", "0.6")
+    code, out, _ = run(*values, "--tolerance", "0.6")
     assert code == 0
     assert "with own, new in line" in out

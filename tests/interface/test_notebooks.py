@@ -55,8 +55,8 @@ def picture(html):
 def test_impacts_are_a_table_and_a_picture(pair, how):
     hit = carom.impact(pair, **MOTION, **how)
     html = hit._repr_html_()
-    told = Balanced(html)
-    rows = dict(zip(told.cells[::2], told.cells[1::2], strict=True))
+    answer = Balanced(html)
+    rows = dict(zip(answer.cells[::2], answer.cells[1::2], strict=True))
     assert 8 <= len(rows) <= 12
     after = float(rows["dimensionless velocity of the contact point after"])
     assert after == pytest.approx(hit.psi_out, rel=1e-5)
@@ -72,12 +72,12 @@ def test_impacts_are_a_table_and_a_picture(pair, how):
 
 def test_fits_are_a_table_and_a_picture():
     fit = carom.fit(carom.datasets.load("kharaz2001"))
-    told = Balanced(fit._repr_html_())
-    assert "friction" in told.cells
-    assert told.tags.count("img") == 1
+    answer = Balanced(fit._repr_html_())
+    assert "friction" in answer.cells
+    assert answer.tags.count("img") == 1
 
 
-def told(result):
+def table_and_html(result):
     """Return the table of a result, and its HTML."""
     html = result._repr_html_()
     cells = Balanced(html).cells
@@ -86,7 +86,7 @@ def told(result):
 
 def test_load_paths_are_a_table_and_a_picture(pair):
     path = carom.load_path(pair, normal_force=[1.0, 10.0], tangential_force=[0.0, 1.5])
-    rows, html = told(path)
+    rows, html = table_and_html(path)
     assert rows["normal force"] == "1 to 10 N"
     assert rows["tangential force, positive against V_x"] == "0 to 1.5 N"
     assert picture(html).std() > 10.0
@@ -96,8 +96,8 @@ def test_load_paths_are_a_table_and_a_picture(pair):
 
 def test_rankings_are_a_table_and_a_picture():
     laws = [carom.dem.LinearSpring(), carom.dem.HardSphere()]
-    ranking = carom.verify.rank(laws, psi=[1.0, 2.0])
-    rows, html = told(ranking)
+    ranking = carom.verify.rank(laws, psi_1=[1.0, 2.0])
+    rows, html = table_and_html(ranking)
     worst = {one.entry.label: one.max_error for one in ranking.standings}
     shown = {name: float(text.split()[0]) for name, text in rows.items()}
     assert shown == pytest.approx(worst, abs=5e-4)
@@ -106,7 +106,7 @@ def test_rankings_are_a_table_and_a_picture():
 
 def test_tunings_are_a_table():
     laws = [carom.dem.HardSphere(), carom.dem.ThorntonLaw()]
-    rows, html = told(carom.verify.tune(laws, chi=1.44))
+    rows, html = table_and_html(carom.verify.tune(laws, chi=1.44))
     assert next(iter(rows)) == "Thornton, incremental"
     assert "tangential_restitution 0.36" in rows["hard sphere"]
     assert "<img" not in html
@@ -116,7 +116,7 @@ def test_tunings_are_a_table():
 def test_scores_are_a_verdict_a_table_and_a_picture(error, verdict):
     psi = np.array([0.5, 1.0, 2.0])
     results = {"psi_1": psi, "psi_2": carom.rebound(psi, 1.44) - error}
-    rows, html = told(carom.verify.score(results, chi=1.44))
+    rows, html = table_and_html(carom.verify.score(results, chi=1.44))
     assert f"<strong>{verdict}: max |error in psi_2| = {error:.4g} " in html
     assert float(rows["all"]) == pytest.approx(error)
     assert picture(html).std() > 10.0
@@ -126,7 +126,7 @@ def test_collisions_are_counted(pair):
     velocity = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, 2.0], [0.0, 0.0, np.nan]]
     with pytest.warns(UserWarning, match="1 with a number that is not finite"):
         after = carom.collide(pair, velocity1=velocity, normal=[0.0, 0.0, 1.0])
-    rows, html = told(after)
+    rows, html = table_and_html(after)
     assert rows["collided"] == "2"
     assert rows["left alone: the bodies do not approach"] == "1"
     assert "4 collisions" in html

@@ -101,14 +101,14 @@ def test_numbers_that_stand_together_have_one_unit(unit, values):
     largest = max(map(abs, values))
     numbers, name = shared(values, unit)
     for value, number in zip(values, numbers, strict=True):
-        found = read_text(number + ("" if name == "1" else f" {name}"), unit)
-        assert found == pytest.approx(value, rel=0.5e-5, abs=5e-324)
+        actual = read_text(number + ("" if name == "1" else f" {name}"), unit)
+        assert actual == pytest.approx(value, rel=0.5e-5, abs=5e-324)
     cells, head = column(values, unit)
     assert head == name
     assert len({len(cell.partition(".")[2].split("e")[0]) for cell in cells}) == 1
     for value, cell in zip(values, cells, strict=True):
-        found = read_text(cell + ("" if head == "1" else f" {head}"), unit)
-        assert found == pytest.approx(value, rel=0.0, abs=1e-5 * largest + 5e-324)
+        actual = read_text(cell + ("" if head == "1" else f" {head}"), unit)
+        assert actual == pytest.approx(value, rel=0.0, abs=1e-5 * largest + 5e-324)
     if unit not in ("1", "rad"):
         assert text(math.copysign(largest, -1.0), unit).endswith(f" {name}")
 
@@ -150,13 +150,13 @@ def rows_of(printed):
 
 
 def test_an_impact_reads_the_same_in_command_notebook_and_page(run, pair):
-    told = rows_of(run(*COMMAND)[1])
+    answer = rows_of(run(*COMMAND)[1])
     hit = carom.impact(pair, speed=0.6, angle="30 deg")
-    assert rows_of(str(hit)) == told
+    assert rows_of(str(hit)) == answer
     in_notebook = dict(re.findall(r"<th[^>]*>(.*?)</th><td[^>]*>(.*?)</td>", hit._repr_html_()))
-    both = {name for name in in_notebook if name in told}
+    both = {name for name in in_notebook if name in answer}
     assert len(both) >= 8
-    assert {name: in_notebook[name] for name in both} == {name: told[name] for name in both}
+    assert {name: in_notebook[name] for name in both} == {name: answer[name] for name in both}
     pytest.importorskip("flask")
     from carom.explorer.scenes import scene_of
     from carom.explorer.views import View
@@ -165,9 +165,9 @@ def test_an_impact_reads_the_same_in_command_notebook_and_page(run, pair):
     on_page = {
         row["meaning"]: f"{row['value']} {row['unit']}".strip() for row in scene_of(view).results
     }
-    both = {name for name in on_page if name in told}
+    both = {name for name in on_page if name in answer}
     assert len(both) >= 10
-    plain = {name: told[name].split(" (")[0] for name in both}  # angles in degrees alone
+    plain = {name: answer[name].split(" (")[0] for name in both}  # angles in degrees alone
     assert {name: on_page[name] for name in both} == plain
 
 
@@ -209,9 +209,9 @@ def test_the_largest_stresses_are_read_as_they_are(run, steel_ball):
             at = zip(re.findall(r"= ([^,]*)", place), axes, strict=True)
             pairs = [(value, name), *at]
             for words, column_name in pairs:
-                known = float(peaks[column_name].sel(body=body))
+                values = float(peaks[column_name].sel(body=body))
                 read = read_text(words, GLOSSARY[column_name].unit)
-                assert read == pytest.approx(known, rel=5e-4, abs=1e-10)
+                assert read == pytest.approx(values, rel=5e-4, abs=1e-10)
             if name != "stress_intensity":
                 units.add(value.partition(" ")[2])
             assert len({words.partition(" ")[2] for words, _ in pairs[1:4]}) == 1
@@ -226,14 +226,14 @@ def test_ranges_of_a_sweep_are_read_as_they_are(run):
     printed, ranges = run(*words)[1], json.loads(run(*words, "--json")[1])["ranges"]
     rows = dict(re.split(r"\s{2,}", line.strip(), maxsplit=1) for line in printed.splitlines()[3:])
     assert len(rows) == len(ranges)
-    for name, known in ranges.items():
-        ends = [known["min"], known["max"]]
+    for name, values in ranges.items():
+        ends = [values["min"], values["max"]]
         low, high, *unit = rows[GLOSSARY[name].meaning].split()
         words = [[low, high, unit[0] if unit else ""]]
-        if known["units"] == "rad":
+        if values["units"] == "rad":
             words.append(re.search(r"\((.*) to (.*) (rad)\)", " ".join(unit)).groups())
         for first, last, shown in words:
-            read = [read_text(f"{number} {shown}", known["units"]) for number in (first, last)]
+            read = [read_text(f"{number} {shown}", values["units"]) for number in (first, last)]
             assert read == pytest.approx(ends, rel=1e-5, abs=1e-12)
 
 

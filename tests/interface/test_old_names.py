@@ -10,6 +10,7 @@ import pytest
 import carom
 from carom.old_names import NEW_CALLS, NEW_NAMES
 
+SPRING = carom.dem.LinearSpring()
 PUBLIC = """
 BoundaryElements CollisionStatus Collisions Cup EdemHertzMindlin ElasticPlastic Fit FunctionLaw
 FunctionRebound Grid HalfSpace HalfspaceImpact HardSphere HertzLinearHistory Impact InputError
@@ -72,10 +73,19 @@ def test_a_name_that_never_was_is_no_attribute():
 
 def test_the_old_name_of_psi_1_works():
     calls = (
-        lambda **given: carom.rebound(chi=1.44, **given),
-        lambda **given: carom.solve(chi=1.44, **given).psi_out,
-        lambda **given: carom.dem.LinearSpring().rebound(chi=1.44, **given),
-        lambda **given: carom.curve(1.44, **given).psi_out.item(),
+        lambda **psi: carom.rebound(chi=1.44, **psi),
+        lambda **psi: carom.solve(chi=1.44, **psi).psi_out,
+        lambda **psi: carom.dem.LinearSpring().rebound(chi=1.44, **psi),
+        lambda **psi: carom.curve(1.44, **psi).psi_out.item(),
+        carom.laws.ReboundLaw(1.44),
+        carom.laws.ReboundLaw(1.44).impulse,
+        carom.laws.ReboundLaw(1.44).dissipation,
+        lambda **psi: carom.verify.force_error(SPRING, chi=1.44, **psi),
+        lambda **psi: carom.verify.error_map(SPRING, chi=1.44, **psi).error.item(),
+        lambda **psi: carom.verify.step_error(SPRING, 100, **psi),
+        lambda **psi: carom.verify.advised_steps(SPRING, 0.01, **psi),
+        lambda **psi: carom.verify.rank(SPRING, **psi).standings[0].max_error,
+        lambda **psi: carom.verify.tune(SPRING, chi=1.44, **psi).advice[0].value,
     )
     for call in calls:
         with pytest.warns(DeprecationWarning, match=r"^psi=, a keyword of \w+, is now psi_1=; "):
@@ -89,6 +99,18 @@ def test_the_old_name_of_psi_1_works():
         carom.rebound(psi=3.0, psi_1=1.0, chi=1.44)
 
 
+def test_old_fields_work(hit):
+    ranking = carom.verify.rank(SPRING, psi_1=[0.5, 1.0])
+    with pytest.warns(DeprecationWarning, match=r"^Ranking\.psi is now psi_in; "):
+        assert ranking.psi == ranking.psi_in == (0.5, 1.0)
+    assert "psi" not in dir(ranking)
+    finding = hit.validity.findings[0]
+    with pytest.warns(DeprecationWarning, match=r"^Finding\.told is now label; "):
+        assert finding.told == finding.label
+    with pytest.raises(AttributeError, match="Ranking has no attribute 'psi_3'"):
+        ranking.psi_3  # noqa: B018
+
+
 def test_the_old_names_of_the_instant_work(pair, hit):
     path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.0])
     for result, old, at in ((hit, "time", 0.5 * hit.duration), (path, "step", 0)):
@@ -96,5 +118,10 @@ def test_the_old_names_of_the_instant_work(pair, hit):
             with pytest.warns(
                 DeprecationWarning, match=rf"^{old}=, a keyword of {name}, is now at="
             ):
-                told = getattr(result, name)(**{old: at})
-            assert type(told) is type(getattr(result, name)(at))
+                answer = getattr(result, name)(**{old: at})
+            assert type(answer) is type(getattr(result, name)(at))
+    solution = carom.solve(0.5, 1.44)
+    for name in ("memory", "phase_at", "slip_rate", "traction", "slid"):
+        where = {"radii": [0.5]} if name in ("traction", "slid") else {}
+        with pytest.warns(DeprecationWarning, match=rf"^time=, a keyword of {name}, is now at="):
+            getattr(solution, name)(time=1.0, **where)

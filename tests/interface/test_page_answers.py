@@ -38,30 +38,30 @@ class Told:
 
 @pytest.fixture(scope="module")
 def client():
-    found = Warming()
-    found.start()
+    actual = Warming()
+    actual.start()
     end = time.monotonic() + 5 * PATIENCE  # it may compile
     while time.monotonic() < end:
         try:
-            found.check(View(law=LAWS, restitution=0.8), laws=True)
+            actual.check(View(law=LAWS, restitution=0.8), laws=True)
             break
         except Preparing:
             continue
-    return new_app(Told(), found, ["localhost"]).test_client()
+    return new_app(Told(), actual, ["localhost"]).test_client()
 
 
 def test_the_page_asks_only_what_is_here(client):
     html = client.get("/")
     assert html.status_code == 200
-    told = html.get_data(as_text=True)
-    for part in told.split('src="')[1:] + told.split('href="')[1:]:
+    text = html.get_data(as_text=True)
+    for part in text.split('src="')[1:] + text.split('href="')[1:]:
         address = part.partition('"')[0]
         if not address.startswith("data:"):
-            with client.get(address) as found:
-                assert found.status_code == 200, address
+            with client.get(address) as response:
+                assert response.status_code == 200, address
     policy = html.headers["Content-Security-Policy"]
     assert "script-src 'self' 'unsafe-eval';" in policy  # nor scripts within the page
-    config = json.loads(told.partition('id="config">')[2].partition("</script>")[0])
+    config = json.loads(text.partition('id="config">')[2].partition("</script>")[0])
     assert config["static"] is False
 
 
@@ -96,13 +96,13 @@ def test_an_answer_and_its_laws(client):
     ],
 )
 def test_refusals_name_the_field(client, path, field, message):
-    found = client.get(f"/{path}")
-    assert found.status_code == 200  # a browser would log others as faults of the page
-    told = found.get_json()
-    assert set(told) == {"field", "message"}
-    assert told["field"] == field
-    assert told["message"].startswith(message)
-    assert "\n" not in told["message"]
+    response = client.get(f"/{path}")
+    assert response.status_code == 200  # a browser would log others as faults of the page
+    answer = response.get_json()
+    assert set(answer) == {"field", "message"}
+    assert answer["field"] == field
+    assert answer["message"].startswith(message)
+    assert "\n" not in answer["message"]
 
 
 def test_files_are_refused_in_a_line_of_text(client, caplog):
@@ -161,9 +161,9 @@ def test_a_failure_is_a_line(client, monkeypatch, caplog):
 
     caplog.set_level(logging.ERROR)
     monkeypatch.setattr(answers, "answer", fail)
-    found = client.get("/answer")
-    assert found.status_code == 500
-    assert found.get_json() == {"field": "", "message": "failed, ZeroDivisionError"}
+    response = client.get("/answer")
+    assert response.status_code == 500
+    assert response.get_json() == {"field": "", "message": "failed, ZeroDivisionError"}
     assert "Traceback" not in caplog.text
 
 
@@ -176,11 +176,11 @@ def test_what_is_compiled_is_told_with_how_far_it_is(monkeypatch):
     busy = Warming()
     client = new_app(Told(), busy, ["localhost"]).test_client()
     busy.start()
-    found = client.get("/answer")
-    assert found.status_code == 200
-    told = found.get_json()
-    assert (told["percent"], told["again"]) == (33, 1)  # one step of three
-    assert "33 % of what this answer needs" in told["message"]
+    response = client.get("/answer")
+    assert response.status_code == 200
+    answer = response.get_json()
+    assert (answer["percent"], answer["again"]) == (33, 1)  # one step of three
+    assert "33 % of what this answer needs" in answer["message"]
     go.set()
     monkeypatch.setattr(warming, "PATIENCE_SECONDS", PATIENCE)
     for query in ("angle=3", "restitution=0.9"):

@@ -53,10 +53,10 @@ def test_pictures_of_odd_states(view, tmp_path):
 @pytest.mark.parametrize("name", ["numbers", "numbers with losses"])
 def test_figures_of_numbers_are_those_of_bodies_in_units_of_the_theory(name):
     """The same psi_1, chi and e as of bodies: the lines differ by a factor each."""
-    given = STATES[name]
-    shown = {"friction": 0.2, "angle": 41.5, "restitution": given.restitution}
+    values = STATES[name]
+    shown = {"friction": 0.2, "angle": 41.5, "restitution": values.restitution}
     hit = impact_of(View(**shown))
-    numbers = NumbersImpact(replace(given, psi=hit.psi_in, chi=hit.pair.chi))
+    numbers = NumbersImpact(replace(values, psi=hit.psi_in, chi=hit.pair.chi))
     history, theirs, scales = numbers.history(201), hit.history(201), hit.scales
     units = {
         "time": scales.time,
@@ -106,10 +106,10 @@ def test_histories_are_those_of_the_library(name, tmp_path):
     stored = carom.read(files.write("history.nc", view, 0.5, tmp_path))
     table = pd.read_csv(files.write("history.csv", view, 0.5, tmp_path))
     table.columns = [head.partition(" [")[0] for head in table.columns]
-    for found in (stored, table):
+    for actual in (stored, table):
         for column, values in expected.items():
             bound = 1e-9 * np.ptp(values) + 1e-300
-            np.testing.assert_allclose(np.asarray(found[column]), values, atol=bound)
+            np.testing.assert_allclose(np.asarray(actual[column]), values, atol=bound)
 
 
 def test_the_template_is_that_of_the_command_line(tmp_path):

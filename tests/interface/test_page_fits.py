@@ -51,14 +51,14 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("name", carom.datasets.names())
 def test_a_fit_is_the_librarys(name):
-    told, found = answer({"data": name}), carom.fit(carom.datasets.path(name))
-    assert told == json.loads(json.dumps(told, allow_nan=False))
-    assert told["words"] == str(found)
-    assert told["bodies"]["from"] == "file"
-    values = {row["name"]: row["value"] for row in told["parameters"]}
-    assert float(values["friction"]) == pytest.approx(found.friction.value, rel=0.01)
-    dataset = found.to_dataset()
-    for chart, response in zip(told["charts"], dataset["response"].values, strict=True):
+    reply, result = answer({"data": name}), carom.fit(carom.datasets.path(name))
+    assert reply == json.loads(json.dumps(reply, allow_nan=False))
+    assert reply["words"] == str(result)
+    assert reply["bodies"]["from"] == "file"
+    values = {row["name"]: row["value"] for row in reply["parameters"]}
+    assert float(values["friction"]) == pytest.approx(result.friction.value, rel=0.01)
+    dataset = result.to_dataset()
+    for chart, response in zip(reply["charts"], dataset["response"].values, strict=True):
         one = dataset.sel(response=response)
         ours = {name: np.array(chart[name], float) for name in ("measured", "residual", "error")}
         scale = np.nanmax(np.abs(one["measured"])) / np.nanmax(np.abs(ours["measured"]))
@@ -74,14 +74,14 @@ def test_a_fit_is_the_librarys(name):
 
 def test_bodies_are_asked_for_where_the_file_does_not_tell_them():
     for bodies in ("", "given=numbers&psi=2"):
-        told = asked(measured(), bodies)
-        assert told["asks"] == "bodies"
-        assert told["message"].startswith("me.csv does not say which bodies")
-        assert [row["head"] for row in told["columns"]] == ["angle [deg]", "contact_beta", "run"]
-    told = asked(measured(), "given=bodies&radius=5")
-    assert told["bodies"]["from"] == "page"
-    assert "ball of 5 mm radius, bearing-steel" in told["bodies"]["text"]
-    friction = next(row for row in told["parameters"] if row["name"] == "friction")
+        reply = asked(measured(), bodies)
+        assert reply["asks"] == "bodies"
+        assert reply["message"].startswith("me.csv does not say which bodies")
+        assert [row["head"] for row in reply["columns"]] == ["angle [deg]", "contact_beta", "run"]
+    reply = asked(measured(), "given=bodies&radius=5")
+    assert reply["bodies"]["from"] == "page"
+    assert "ball of 5 mm radius, bearing-steel" in reply["bodies"]["text"]
+    friction = next(row for row in reply["parameters"] if row["name"] == "friction")
     low, high = map(float, friction["interval"].split(" to "))
     assert low < 0.123 < high
 
@@ -101,10 +101,10 @@ def test_bodies_are_not_asked_for_in_vain(content, words):
 
 def test_bodies_of_the_file_are_not_those_of_the_page():
     file = carom.datasets.path("kharaz2001")
-    told = asked(file.read_bytes(), "given=bodies&radius=9")
-    assert told["bodies"]["from"] == "file"
-    assert "2.5 mm" in told["bodies"]["text"]
-    assert told["words"] == str(carom.fit(file))
+    reply = asked(file.read_bytes(), "given=bodies&radius=9")
+    assert reply["bodies"]["from"] == "file"
+    assert "2.5 mm" in reply["bodies"]["text"]
+    assert reply["words"] == str(carom.fit(file))
 
 
 def test_columns_say_what_they_were_taken_for():
@@ -120,11 +120,11 @@ def test_columns_say_what_they_were_taken_for():
 
 def test_drops_are_told_as_restitution_against_speed():
     drops = "drop_height [mm],rebound_height [mm]\n100,60\n200,100\n400,170\n800,290\n"
-    told = asked(drops, "given=bodies")
-    (chart,) = told["charts"]
+    reply = asked(drops, "given=bodies")
+    (chart,) = reply["charts"]
     assert chart["along_unit"] == "m/s"
     np.testing.assert_allclose(chart["measured"], np.sqrt([0.6, 0.5, 0.425, 0.3625]), rtol=1e-5)
-    assert {law["law"] for law in told["laws"]} == {"ElasticPlastic", "KelvinVoigt", "constant"}
+    assert {law["law"] for law in reply["laws"]} == {"ElasticPlastic", "KelvinVoigt", "constant"}
 
 
 @pytest.mark.parametrize(
@@ -139,10 +139,10 @@ def test_drops_are_told_as_restitution_against_speed():
     ],
 )
 def test_what_cannot_be_fitted_is_refused_in_the_words_of_the_page(content, words, folder):
-    told = refused("", asked, content, "given=bodies")
-    assert words in told
+    reply = refused("", asked, content, "given=bodies")
+    assert words in reply
     for odd in (str(folder), "pair=", "fixed=", "--", "data: ", "results: "):
-        assert odd not in told, told
+        assert odd not in reply, reply
 
 
 @pytest.mark.parametrize("contents", ["data:text/csv;base64,a", "data:text/csv;base64,é"])
@@ -154,8 +154,8 @@ def test_what_did_not_arrive_whole_is_refused(contents):
 def test_the_process_that_fits():
     worker = Worker()
     try:
-        found = worker.fit(contents=sent(measured().encode()), name="a.csv", bodies="")
-        assert found["asks"] == "bodies"
+        result = worker.fit(contents=sent(measured().encode()), name="a.csv", bodies="")
+        assert result["asks"] == "bodies"
         refused("^file: ", worker.fit, contents=sent(b"what"), name="a.csv", bodies="")
     finally:
         worker.close()

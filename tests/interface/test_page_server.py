@@ -28,9 +28,9 @@ LARGE_BODY = 2 * LARGEST_REQUEST
 @pytest.fixture
 def slow():
     """Whether the application is to take its time: it waits until this is set."""
-    found = threading.Event()
-    found.set()
-    return found
+    event = threading.Event()
+    event.set()
+    return event
 
 
 @pytest.fixture
@@ -60,12 +60,12 @@ def port(slow, monkeypatch):
 
 
 def opened(port, sent):
-    found = socket.create_connection(("127.0.0.1", port), PATIENCE)
-    found.sendall(sent)
-    return found
+    actual = socket.create_connection(("127.0.0.1", port), PATIENCE)
+    actual.sendall(sent)
+    return actual
 
 
-def told(connection):
+def received(connection):
     """Return all that a connection says until it is closed."""
     parts = []
     with connection:
@@ -85,11 +85,11 @@ def test_slow_connections_give_way_to_new_ones(port, start):
     held = [opened(port, start) for _ in range(12)]
     for each in held[8:]:
         each.sendall(b"a")
-    assert told(opened(port, GET)).endswith(b"told ")
-    assert told(opened(port, SENT)).endswith(b"told what")
+    assert received(opened(port, GET)).endswith(b"told ")
+    assert received(opened(port, SENT)).endswith(b"told what")
     for each in held[:8]:
         each.settimeout(1.0)
-        assert told(each) == b""
+        assert received(each) == b""
     for each in held[8:]:
         each.close()
 
@@ -101,8 +101,8 @@ def test_answers_that_are_not_taken_give_way_to_new_ones(port):
         held.append(opened(port, LARGE))
         assert held[-1].recv(1) == b"H"  # the answer is on its way
     time.sleep(0.5)
-    assert told(opened(port, GET)).endswith(b"told ")
-    cut = [len(told(each)) < SIZE for each in held]
+    assert received(opened(port, GET)).endswith(b"told ")
+    cut = [len(received(each)) < SIZE for each in held]
     assert 2 <= sum(cut) < 8  # those that had waited the longest, four where all were known by then
 
 
@@ -112,7 +112,7 @@ def test_requests_at_work_are_not_closed_and_others_wait_for_them(port, slow):
     time.sleep(0.5)
     slow.set()
     for each in working:
-        assert told(each).endswith(b"told ")
+        assert received(each).endswith(b"told ")
 
 
 def test_a_client_that_goes_away_takes_nothing_with_it(port, slow):
@@ -120,7 +120,7 @@ def test_a_client_that_goes_away_takes_nothing_with_it(port, slow):
     for sent in (GET, SENT, LARGE, BODY):
         opened(port, sent).close()
     slow.set()
-    assert told(opened(port, GET)).endswith(b"told ")
+    assert received(opened(port, GET)).endswith(b"told ")
 
 
 CHUNKS = b"POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
@@ -138,8 +138,8 @@ CHUNKS = b"POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\
     ids=range(7),
 )
 def test_garbled_and_large_requests_are_refused(port, sent, status, capfd):
-    found = told(opened(port, sent))
-    assert found[8:13] == (b" %d " % status if status else b"")
-    assert b"Traceback" not in found
+    actual = received(opened(port, sent))
+    assert actual[8:13] == (b" %d " % status if status else b"")
+    assert b"Traceback" not in actual
     assert capfd.readouterr().err == ""
-    assert told(opened(port, GET)).endswith(b"told ")
+    assert received(opened(port, GET)).endswith(b"told ")

@@ -24,19 +24,19 @@ from carom.plots.regimes import REGIMES as OF_FIGURES
 
 def test_an_answer_is_the_scene_as_json_holds_it():
     view = View(law=LAWS[:2], angle=41.5)
-    scene, told = scene_of(view), json.loads(json.dumps(answer(view), allow_nan=False))
-    assert View.of(told["query"]) == view
-    assert told["carried"] == {
+    scene, reply = scene_of(view), json.loads(json.dumps(answer(view), allow_nan=False))
+    assert View.of(reply["query"]) == view
+    assert reply["carried"] == {
         "psi": float(f"{scene.psi_in:.6g}"),
         "chi": float(f"{scene.chi:.6g}"),
     }
     psi, out = exact_curve(scene)
-    np.testing.assert_allclose(told["curve"]["psi"], psi, atol=1e-7)
-    np.testing.assert_allclose(told["curve"]["out"], out, atol=1e-7)
-    assert told["curve"]["at"] == [scene.psi_in, scene.psi_out]
+    np.testing.assert_allclose(reply["curve"]["psi"], psi, atol=1e-7)
+    np.testing.assert_allclose(reply["curve"]["out"], out, atol=1e-7)
+    assert reply["curve"]["at"] == [scene.psi_in, scene.psi_out]
     chi = scene.chi
-    np.testing.assert_allclose(told["curve"]["borders"], [1.0, 2.0 * chi, 4.0 * chi - 1.0])
-    history = told["history"]
+    np.testing.assert_allclose(reply["curve"]["borders"], [1.0, 2.0 * chi, 4.0 * chi - 1.0])
+    history = reply["history"]
     np.testing.assert_allclose(history["force"], scene.force, atol=1e-5)
     np.testing.assert_allclose(np.sum(list(history["energies"].values()), axis=0), 1.0, atol=1e-4)
     assert set(history["energies"]) == set(scene.energies)
@@ -44,8 +44,8 @@ def test_an_answer_is_the_scene_as_json_holds_it():
 
 def test_laws_that_are_not_there_follow():
     view = View(given=NUMBERS, psi=1.0, chi=1.61803, law=LAWS)
-    told = answer(view)
-    assert {law["label"] for law in told["laws"]} | set(told["late"]) == set(LAWS)
+    reply = answer(view)
+    assert {law["label"] for law in reply["laws"]} | set(reply["late"]) == set(LAWS)
     followed = json.loads(json.dumps(laws(view), allow_nan=False))
     assert followed["slow"] == []
     assert [law["label"] for law in followed["laws"]] == list(LAWS)
@@ -77,30 +77,30 @@ def test_results_are_the_numbers_of_the_impact():
 
 def test_findings_speak_of_the_page():
     view = View(radius=0.2, material="rubber", speed=60.0, second_material="steel", friction=0.05)
-    told, found = answer(view)["findings"], impact_of(view).validity
-    assert len(told) == len(found.findings)
-    marks = [row["mark"] for row in told]
+    reply, actual = answer(view)["findings"], impact_of(view).validity
+    assert len(reply) == len(actual.findings)
+    marks = [row["mark"] for row in reply]
     assert marks == sorted(marks, key=["FAILS", "?", "ok"].index)
-    assert marks.count("FAILS") == sum(finding.holds is False for finding in found.findings) > 0
-    for row in told:
+    assert marks.count("FAILS") == sum(finding.holds is False for finding in actual.findings) > 0
+    for row in reply:
         for word in ("method=", "psi_", "mu ", "chi"):
             assert word not in row["text"]
 
 
 def test_the_page_is_told_all_that_it_shows():
-    told = json.loads(json.dumps(config(), allow_nan=False))
-    assert set(told["fields"]) == {field.name for field in fields(View)}
-    for name, field in told["fields"].items():
+    record = json.loads(json.dumps(config(), allow_nan=False))
+    assert set(record["fields"]) == {field.name for field in fields(View)}
+    for name, field in record["fields"].items():
         assert field["label"]
         assert FIELDS[name].is_number == (field["most"] is not None)
         assert View.of(urlencode({name: field["default"]}, doseq=True)) == View()
-        assert field["symbol"] in ("", *told["symbols"])
-    assert [law["label"] for law in told["laws"]] == list(LAWS)
-    assert told["materials"]["rigid"]["young"] is None
-    assert told["materials"]["steel"] == {"young": 210e9, "poisson": 0.3, "density": 7850}
+        assert field["symbol"] in ("", *record["symbols"])
+    assert [law["label"] for law in record["laws"]] == list(LAWS)
+    assert record["materials"]["rigid"]["young"] is None
+    assert record["materials"]["steel"] == {"young": 210e9, "poisson": 0.3, "density": 7850}
     assert tuple(OF_FIGURES) == REGIMES
     assert {name: words[0] for name, words in (IN_FIGURES | LOST).items()} == ENERGIES
-    for preset in told["presets"]:
+    for preset in record["presets"]:
         answer(View.of(preset["query"]))
 
 
@@ -122,9 +122,9 @@ def test_phases_have_the_tints_of_figures(name):
 
 
 def test_regimes_have_the_names_and_tints_of_figures_and_fits():
-    told = config()["regimes"]
-    assert [each["name"] for each in told] == list(OF_FIGURES)
-    assert [each["long"] for each in told] == list(LONG)
+    regimes = config()["regimes"]
+    assert [each["name"] for each in regimes] == list(OF_FIGURES)
+    assert [each["long"] for each in regimes] == list(LONG)
     assert variables(LIGHT)["only-fill"] == OF_FIGURES["gross slip only"].face.lower()
 
 

@@ -99,11 +99,11 @@ EXTREME = {name: st.sampled_from([knob.least, knob.most]) for name, knob in KNOB
 @settings(max_examples=40, derandomize=True, deadline=None)
 def test_any_numbers_are_answered_or_refused_by_field(view):
     try:
-        told = json.dumps(answer(view), allow_nan=False)
+        text = json.dumps(answer(view), allow_nan=False)
     except Refused as error:
-        told = error.field
-        event(told)
-    assert told in FIELDS or 10_000 < len(told) < 200_000
+        text = error.field
+        event(text)
+    assert text in FIELDS or 10_000 < len(text) < 200_000
 
 
 def test_own_materials_are_those_of_the_numbers():

@@ -42,9 +42,9 @@ PATIENCE = 20.0  # s
 def desk(monkeypatch, tmp_path):
     """A process that echoes, and has a second for each answer."""
     monkeypatch.setattr(workers, "PROGRAM", ECHO)
-    found = Desk("fit", 1.0, str(tmp_path))
-    yield found
-    found.close()
+    value = Desk("fit", 1.0, str(tmp_path))
+    yield value
+    value.close()
 
 
 def gone(process):
@@ -103,32 +103,32 @@ def test_a_few_wait_and_the_rest_is_told_that_the_page_is_busy(desk):
         asked = [visitors.submit(desk.ask, name="hang")]
         time.sleep(0.3)
         asked += [visitors.submit(desk.ask, name=str(row)) for row in range(MOST_WAITING + 3)]
-        found = [each.exception(PATIENCE) for each in asked]
-    assert isinstance(found[0], Refused)
-    assert sum(each is None for each in found) == MOST_WAITING
-    assert sum(isinstance(each, Busy) for each in found) == 3
+        value = [each.exception(PATIENCE) for each in asked]
+    assert isinstance(value[0], Refused)
+    assert sum(each is None for each in value) == MOST_WAITING
+    assert sum(isinstance(each, Busy) for each in value) == 3
 
 
 def test_a_fit_that_never_ends_holds_up_no_file_and_an_end_leaves_nothing_behind(monkeypatch):
     monkeypatch.setattr(workers, "PROGRAM", ECHO)
-    found = Worker()
-    folder = found._folder.name
-    _, process = found.fit(name="one")
-    found.file("curve.png", "", 0.5)
-    asking = threading.Thread(target=pytest.raises, args=(Busy, found.fit), kwargs={"name": "hang"})
+    value = Worker()
+    folder = value._folder.name
+    _, process = value.fit(name="one")
+    value.file("curve.png", "", 0.5)
+    asking = threading.Thread(target=pytest.raises, args=(Busy, value.fit), kwargs={"name": "hang"})
     asking.start()
     time.sleep(0.3)
     begin = time.monotonic()
-    assert found.file("curve.png", "", 0.5)[0] == "curve.png"
+    assert value.file("curve.png", "", 0.5)[0] == "curve.png"
     assert time.monotonic() - begin < 1.0
     assert asking.is_alive()
-    found.close()
+    value.close()
     asking.join(PATIENCE)
     assert not asking.is_alive()
     assert gone(process)
     assert not os.path.exists(folder)
     with pytest.raises(Busy):
-        found.fit(name="one")
+        value.fit(name="one")
 
 
 def test_memory_is_limited_where_the_system_can(monkeypatch, tmp_path):
@@ -136,10 +136,10 @@ def test_memory_is_limited_where_the_system_can(monkeypatch, tmp_path):
     hungry = "worker.TASKS['fit'] = lambda size: bytes(size), {'size': 1}"
     program = workers.PROGRAM.replace("\nworker.work", f"\n{hungry}\nworker.work")
     monkeypatch.setattr(workers, "PROGRAM", program)
-    found = Desk("fit", 20.0, str(tmp_path))
+    value = Desk("fit", 20.0, str(tmp_path))
     try:
         with pytest.raises(Refused, match=r"^file: it takes more than 1024 MB of memory$"):
-            found.ask(size=1 << 31)
-        assert found.ask(size=3) == bytes(3)
+            value.ask(size=1 << 31)
+        assert value.ask(size=3) == bytes(3)
     finally:
-        found.close()
+        value.close()

@@ -68,8 +68,8 @@ def test_accuracy_claims_what_its_script_finds(claim, part):
     """One number for one thing: the table of claims has what the figure above it shows."""
     page = ACCURACY.read_text(encoding="utf-8")
     claimed = float(re.search(rf"(?m)^\| {claim}[^|]*\|[^|]*\| ([\de.-]+) \|", page)[1])
-    found = float(re.search(r"[\de.-]+$", getattr(accuracy, part)(Figure().subplots()))[0])
-    assert 0.3 * claimed < found < 1.5 * claimed
+    value = float(re.search(r"[\de.-]+$", getattr(accuracy, part)(Figure().subplots()))[0])
+    assert 0.3 * claimed < value < 1.5 * claimed
 
 
 def written(folder, text):

@@ -42,12 +42,12 @@ def manual(name):
 
 def entries(bib):
     """Return the fields of all entries of a BibTeX file, by key."""
-    found = {}
+    by_name = {}
     for entry in re.split(r"(?m)^@", bib)[1:]:
         key = re.match(r"\w+\{(\w+),", entry)[1]
-        assert key not in found, key
-        found[key] = dict(re.findall(r"(?m)^  (\w+) = \{(.*)\},$", entry))
-    return found
+        assert key not in by_name, key
+        by_name[key] = dict(re.findall(r"(?m)^  (\w+) = \{(.*)\},$", entry))
+    return by_name
 
 
 def rows(text):
@@ -59,7 +59,7 @@ def last_number(text):
     """Return the last number of a cell: 4e-13, [4e-9](laws.md) or $4 \\cdot 10^{-13}$."""
     text = re.sub(r"\]\([^)]*\)| of \$p_0\$| in \$\\psi_2\$| of the bound", "]", text)
     power = r"\$(?:([\d.]+) \\cdot )?10\^\{(-?\d+)\}\$"
-    text = re.sub(power, lambda found: f"{found[1] or 1}e{found[2]}", text)
+    text = re.sub(power, lambda actual: f"{actual[1] or 1}e{actual[2]}", text)
     return float(re.findall(r"\d+(?:\.\d+)?(?:e-?\d+)?", text)[-1])
 
 
@@ -84,10 +84,10 @@ def test_header_is_what_the_journal_asks_for():
 
 def test_sections_are_in_the_order_of_the_journal():
     asked = "Summary; Statement of need; State of the field; Software design; Acknowledgements"
-    found = re.findall(r"(?m)^# (.*)$", BODY)
-    places = [found.index(section) for section in (*asked.split("; "), "References")]
+    matches = re.findall(r"(?m)^# (.*)$", BODY)
+    places = [matches.index(section) for section in (*asked.split("; "), "References")]
     assert places == sorted(places)
-    assert found[-1] == "References"
+    assert matches[-1] == "References"
 
 
 def test_as_long_as_the_journal_takes():
@@ -140,15 +140,15 @@ def test_labels_that_are_referred_to_are_there():
 def test_largest_differences_are_those_of_the_manual(row):
     claim, reference = ROWS[row]
     (paper,) = (cells for cells in rows(BODY) if cells.startswith(row))
-    found = [
+    values = [
         cells[2]
         for cells in table_of_claims()
         if cells[0].startswith(claim) and cells[1].startswith(reference)
     ]
     if row == "boundary elements":  # the page says how close with words before the number
-        found = [re.search(r"within (\S+)", cell)[1] for cell in found]
-    assert len(found) == 1
-    assert last_number(paper.split(" | ")[-1]) == last_number(found[0])
+        values = [re.search(r"within (\S+)", cell)[1] for cell in values]
+    assert len(values) == 1
+    assert last_number(paper.split(" | ")[-1]) == last_number(values[0])
 
 
 def test_the_whole_table_is_compared():
@@ -208,14 +208,14 @@ def test_the_ball_at_ten_degrees_is_that_of_the_manual():
     (spin,) = re.findall(r"(?m)^\| mindlin \| [^|]* \| ([\d.]+) ", ball)
     said = re.search(r"leaves at (\S+) degrees instead of (\S+), with (\d+) % of its spin", WORDS)
     assert said.groups() == (angles["mindlin"], angles["exact"], f"{100 * float(spin):.0f}")
-    told = 0
+    answer = 0
     for place in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md")):  # the same words everywhere
         text = " ".join(place.read_text(encoding="utf-8").split())
         pattern = r"instead of 7\.3(?:°| degrees)?, with (.{,20}?) of (?:its|the)"
         for share in re.findall(pattern, text):
             assert share == f"{100 * float(spin):.0f} %", place.name
-            told += 1
-    assert told >= 5
+            answer += 1
+    assert answer >= 5
 
 
 def test_citation_file_has_the_version_of_the_package():

@@ -82,10 +82,10 @@ def test_labels_are_those_of_the_glossary(figures):
         for axis in figures[name].axes:
             for text in (axis.get_xlabel(), axis.get_ylabel()):
                 plain = text.replace("\n", " ")
-                known = [q for q in GLOSSARY.values() if q.symbol in plain]
-                assert known or plain in ("", "share of energy"), (name, plain)
+                names = [q for q in GLOSSARY.values() if q.symbol in plain]
+                assert names or plain in ("", "share of energy"), (name, plain)
                 assert (
-                    not plain or plain == "share of energy" or any(_fits(q, plain) for q in known)
+                    not plain or plain == "share of energy" or any(_fits(q, plain) for q in names)
                 )
     assert label("psi_in") == "$\\psi_1$"
     assert label("tangential_force", "mN") == "$F_x$\u00a0(mN)"

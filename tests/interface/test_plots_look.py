@@ -25,18 +25,18 @@ def drawers(pair, hit):
     psi = [0.5, 1.0, 3.0]
     law = carom.dem.LinearSpring()
     of_impacts = "impact forces radii patch profiles stress spectrum wear contact"
-    given = {
+    inputs = {
         **{f"plot_{name}": hit for name in of_impacts.split()},
         "plot_cone": path,
         "plot_strength": carom.bearable_speeds(pair, angle=["0 deg", "60 deg"]),
         "plot_curve": carom.curve(1.44, [0.0, 0.5, 1.0, 6.0]),
         "plot_regime_map": carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]),
-        "plot_laws": verify.rank([law], psi=psi),
+        "plot_laws": verify.rank([law], psi_1=psi),
         "plot_error_map": verify.error_map(law, psi, [1.2, 1.4]),
         "plot_score": verify.score({"psi_1": psi, "psi_2": carom.rebound(psi, 1.44)}, chi=1.44),
     }
-    assert set(given) == {name for name in plots.__all__ if name.startswith("plot_")}
-    return given
+    assert set(inputs) == {name for name in plots.__all__ if name.startswith("plot_")}
+    return inputs
 
 
 def texts(figure):
@@ -47,9 +47,9 @@ def texts(figure):
 
 def test_every_figure_has_the_width_and_the_font_that_were_asked_for(drawers):
     """The larger font is that of labels; no text keeps the size of the usual one."""
-    for name, given in drawers.items():
-        usual = {text.get_fontsize() for text in texts(getattr(plots, name)(given))}
-        figure = getattr(plots, name)(given, width=150.0, font_size=9.5)
+    for name, values in drawers.items():
+        usual = {text.get_fontsize() for text in texts(getattr(plots, name)(values))}
+        figure = getattr(plots, name)(values, width=150.0, font_size=9.5)
         assert figure.get_figwidth() == pytest.approx(150.0 * MM, rel=1e-12), name
         sizes = {round(text.get_fontsize(), 3) for text in texts(figure)}
         assert max(sizes) == pytest.approx(9.5), name
@@ -125,11 +125,11 @@ def test_several_impacts_are_laid_over_each_other(pair, hit):
 def test_zero_is_white_where_a_quantity_has_a_sign():
     """To the last bit of eight: matplotlib's map has 256 colours, none of them quite white."""
     for name in ("traction_x", "sigma_xz", "principal_1"):
-        found = colours(name, [-3.0, 1.0])
-        shade = matplotlib.colormaps[found["cmap"]](
-            -found["vmin"] / (found["vmax"] - found["vmin"])
+        actual = colours(name, [-3.0, 1.0])
+        shade = matplotlib.colormaps[actual["cmap"]](
+            -actual["vmin"] / (actual["vmax"] - actual["vmin"])
         )
-        assert found["vmax"] == -found["vmin"] == 3.0
+        assert actual["vmax"] == -actual["vmin"] == 3.0
         assert min(shade[:3]) > 0.96
     assert "vmin" not in colours("pressure", [0.0, 2.0])
 
@@ -147,8 +147,8 @@ def test_a_legend_has_as_many_columns_as_fit():
         wide = {}
         for columns in range(1, 6):
             legend = axis.legend(handles=handles, ncols=columns)
-            found = legend.get_window_extent(canvas.get_renderer()).width
-            wide[columns] = found * 72.0 / figure.dpi
+            width = legend.get_window_extent(canvas.get_renderer()).width
+            wide[columns] = width * 72.0 / figure.dpi
         for columns in range(1, 5):
             assert fitting_columns(handles, 5, wide[columns] * 1.05) == columns
     assert fitting_columns(handles, 5, 10.0) == 1
@@ -197,14 +197,14 @@ SEVERAL = {"plot_impact", "plot_wear", "plot_contact", "plot_laws", "plot_score"
 
 def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers):
     """As it is without; the rest of the figure, its size and a user's settings stay."""
-    for name, given in drawers.items():
+    for name, fields in drawers.items():
         if name in SEVERAL:
             continue
         figure, (left, right) = pyplot.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")
         if name == "plot_profiles":
-            given = given.fields("21 us")
-        assert getattr(plots, name)(given, ax=right) is figure, name
-        alone = getattr(plots, name)(given).axes[0]
+            fields = fields.fields("21 us")
+        assert getattr(plots, name)(fields, ax=right) is figure, name
+        alone = getattr(plots, name)(fields).axes[0]
         assert not left.has_data(), name
         for kind in ("lines", "patches", "collections", "texts"):
             kinds = [len(getattr(axis, kind)) for axis in (right, alone)]
@@ -222,8 +222,8 @@ OTHER_SIZE = {("plot_regime_map", "lines"), ("plot_regime_map", "texts")}  # lab
 def test_several_panels_take_no_axes(drawers, hit):
     axis = Figure().subplots()
     several = [(getattr(plots, name), drawers[name]) for name in sorted(SEVERAL)]
-    for draw, given in [*several, (plots.plot_profiles, hit)]:
-        refused(r"^ax: this figure has several panels, and", draw, given, ax=axis)
+    for draw, values in [*several, (plots.plot_profiles, hit)]:
+        refused(r"^ax: this figure has several panels, and", draw, values, ax=axis)
     assert not axis.has_data()
     refused(r"^ax: 5 cannot be used; must be Axes", plots.plot_forces, hit, ax=5)
     with pytest.raises(carom.InputError, match=r"^width: the figure that ax belongs to has its"):

@@ -114,13 +114,13 @@ def test_arrows_are_slip_velocities_in_the_slip_zone(hit):
 def test_arrows_stay_in_the_contact_and_clear_of_each_other(hit, share):
     """Arrows along x are shorter than the way to the border and to the next at the same height."""
     slip = next(phase for phase in hit.phases if phase.kind == "slip")
-    found = arrows(hit.fields(slip.start + share * (slip.end - slip.start)))
+    actual = arrows(hit.fields(slip.start + share * (slip.end - slip.start)))
     contact = hit.contact(slip.start + share * (slip.end - slip.start)).radius
-    x, y = np.abs(found.x), found.y
-    assert np.all(np.hypot(x + 0.5 * found.longest, y) <= contact * (1.0 + 1e-9))
-    apart = np.hypot(found.x[:, np.newaxis] - found.x, y[:, np.newaxis] - y)
+    x, y = np.abs(actual.x), actual.y
+    assert np.all(np.hypot(x + 0.5 * actual.longest, y) <= contact * (1.0 + 1e-9))
+    apart = np.hypot(actual.x[:, np.newaxis] - actual.x, y[:, np.newaxis] - y)
     np.fill_diagonal(apart, np.inf)
-    assert found.longest < 0.95 * apart.min(initial=np.inf)
+    assert actual.longest < 0.95 * apart.min(initial=np.inf)
 
 
 def test_zero_traction_has_the_middle_colour(hit):
@@ -140,5 +140,5 @@ def test_a_contact_that_sticks_has_no_arrows(hit):
 def test_the_middle_of_a_sliding_contact_has_its_arrow(hit):
     """On a map of this width the lattice is odd, with a place at the centre."""
     time = 0.5 * hit.phases[0].end
-    found = arrows(hit.fields(time), reach=1.28 * hit.contact(time).radius)
-    assert np.hypot(found.x, found.y).min() == 0.0
+    actual = arrows(hit.fields(time), reach=1.28 * hit.contact(time).radius)
+    assert np.hypot(actual.x, actual.y).min() == 0.0

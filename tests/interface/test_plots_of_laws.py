@@ -31,7 +31,7 @@ LAWS = tuple(entry for entry in CATALOGUE if entry.label in NAMES)
 
 @pytest.fixture(scope="module")
 def ranking():
-    return rank(LAWS, psi=[3.0, 0.5, 1.0, 1.5, 5.0]).to_dataset()
+    return rank(LAWS, psi_1=[3.0, 0.5, 1.0, 1.5, 5.0]).to_dataset()
 
 
 @pytest.fixture(scope="module")
@@ -67,8 +67,8 @@ def test_bars_are_the_errors_best_first(laws, ranking):
 
 
 def test_numbers_at_the_bars_are_the_errors(laws, ranking):
-    told = [text.get_text() for _, axis in rows(laws) for text in axis.texts]
-    assert told == [f"{value:.3f}" for value in ranking.max_error.values]
+    entries = [text.get_text() for _, axis in rows(laws) for text in axis.texts]
+    assert entries == [f"{value:.3f}" for value in ranking.max_error.values]
 
 
 def test_lines_are_the_rebounds_in_the_colours_of_the_bars(laws, ranking):
@@ -114,8 +114,8 @@ def test_map_outlines_an_error_of_a_tenth(errors):
     np.testing.assert_array_equal(contour.levels, [-0.1, 0.1])
     vertices = np.concatenate([path.vertices for path in contour.get_paths()])
     assert len(vertices) > 5
-    found = errors.error.interp(chi=("p", vertices[:, 1]), psi_in=("p", vertices[:, 0]))
-    np.testing.assert_allclose(np.abs(found), 0.1, atol=0.02)
+    actual = errors.error.interp(chi=("p", vertices[:, 1]), psi_in=("p", vertices[:, 0]))
+    np.testing.assert_allclose(np.abs(actual), 0.1, atol=0.02)
 
 
 def test_map_draws_the_borders_of_the_regimes(errors):

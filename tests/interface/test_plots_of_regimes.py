@@ -12,7 +12,7 @@ import carom
 from carom.plots import plot_regime_map, save_figure
 from carom.plots.legends import wrapped
 from carom.plots.regime_map import group_of
-from carom.plots.region_labels import SMALLEST, find_labels, in_letters
+from carom.plots.region_labels import SMALLEST_LABEL, find_labels, in_letters
 from carom.plots.regions import area, limits, regions
 
 SPACES = str.maketrans({"\n": " ", "\u00a0": " "})
@@ -42,13 +42,13 @@ NAMES = ("many", "points", "old", "few", "half", "mirrored", "row")
 @pytest.mark.parametrize("name", NAMES)
 def test_every_sequence_is_named_and_all_text_is_legible(maps, name, width):
     """In a label or below the map, those that only outlines know too; and numbers are explained."""
-    given = maps[name]
-    figure = plot_regime_map(given, width=width)
+    values = maps[name]
+    figure = plot_regime_map(values, width=width)
     labels = {text.get_text().translate(SPACES) for text in figure.axes[0].texts}
     below = figure.get_supxlabel().translate(SPACES)
     listed = set(re.sub(r"Not marked, [^:]*: ", "; ", below).split("; "))
     listed = {entry.split(" = ")[-1].split(" (")[0].strip("; ") for entry in listed}
-    for region in regions(given):
+    for region in regions(values):
         assert " ".join(in_letters(region.name)) in labels | listed, region.name
     numbers = sorted({int(label) for label in labels if label.isdigit()})
     assert numbers == list(range(1, len(numbers) + 1))
@@ -65,18 +65,18 @@ def test_every_sequence_is_named_and_all_text_is_legible(maps, name, width):
 @pytest.mark.parametrize("name", NAMES)
 def test_leader_lines_run_clear_of_labels_and_begin_in_their_region(maps, name):
     """Labels without a line lie in their region; to a tenth of a millimetre."""
-    found = regions(maps[name])
+    actual = regions(maps[name])
     low, high = np.transpose([limits(maps[name], axis) for axis in ("psi_in", "chi")])
     factor = np.array([120.0, 70.0]) / (high - low)
-    placed = find_labels(found, [], np.array([factor, -low * factor]), (120.0, 70.0)).placed
+    placed = find_labels(actual, [], np.array([factor, -low * factor]), (120.0, 70.0)).placed
     assert placed
     for number, label in placed.items():
         half = 0.5 * np.array([label.block.width, label.block.height])
         if label.start is None:
             corners = [label.at + half * (x, y) for x in (-1, 1) for y in (-1, 1)]
-            assert np.all(found[number].holds(np.array(corners) / factor + low)), number
+            assert np.all(actual[number].holds(np.array(corners) / factor + low)), number
         else:
-            assert found[number].holds(label.start[np.newaxis] / factor + low)[0], number
+            assert actual[number].holds(label.start[np.newaxis] / factor + low)[0], number
         for other in (label for n, label in placed.items() if n != number):
             other_half = 0.5 * np.array([other.block.width, other.block.height])
             apart = np.abs(label.at - other.at) - half - other_half
@@ -166,4 +166,4 @@ def test_long_lines_are_broken_where_there_is_room():
     lines = wrapped(text, 60.0).split("\n")
     assert len(lines) > 1
     assert " ".join(lines) == text
-    assert SMALLEST == 0.2, "as the docstring of plot_regime_map and the tests have it"
+    assert SMALLEST_LABEL == 0.2, "as the docstring of plot_regime_map and the tests have it"

@@ -69,17 +69,17 @@ def test_odd_numbers_are_drawn_or_refused_in_silence(
             try:
                 save_figure(getattr(plots, name)(odd), tmp_path / "x.svg")
             except carom.InputError as error:
-                told = str(error)
+                text = str(error)
             else:
-                told = name
-        assert told.startswith(name)
-        assert "\n" not in told
+                text = name
+        assert text.startswith(name)
+        assert "\n" not in text
     assert capfd.readouterr() == ("", "")
     assert caplog.records == []
 
 
 def test_words_that_no_font_has_are_drawn_in_silence(tmp_path, capfd, caplog):
-    laws = carom.verify.rank(chi=1.44, psi=[0.5, 1.0]).to_dataset()
+    laws = carom.verify.rank(chi=1.44, psi_1=[0.5, 1.0]).to_dataset()
     names = [f"\u92fc {i}" for i in range(laws.sizes["law"])]
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -57,12 +57,12 @@ def test_datasets_of_another_kind_are_refused_in_one_line(hit, kind):
         "impact": lambda: hit,
         "pair": lambda: hit.pair,
     }
-    given = makes[kind]()
+    values = makes[kind]()
     for name in (name for name in plots.__all__ if name.startswith("plot_")):
         if name in DRAWN[kind]:
-            getattr(plots, name)(given)
+            getattr(plots, name)(values)
             continue
-        refused(rf"^{name} draws .*, what .* returns; ", getattr(plots, name), given)
+        refused(rf"^{name} draws .*, what .* returns; ", getattr(plots, name), values)
 
 
 def test_the_first_touch_and_an_impact_without_friction_can_be_drawn(hit):

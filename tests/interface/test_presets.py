@@ -89,8 +89,8 @@ def test_a_link_is_a_state_of_the_page(preset):
     view = View.of(preset.query)
     assert sorted(parse_qsl(view.query())) != []
     assert View.of(view.query()) == view
-    given = dict(parse_qsl(preset.query))
-    assert {name: str(getattr(view, name)).removesuffix(".0") for name in given} == given
+    values = dict(parse_qsl(preset.query))
+    assert {name: str(getattr(view, name)).removesuffix(".0") for name in values} == values
 
 
 def test_a_static_copy_can_show_it(preset):
@@ -102,12 +102,12 @@ def test_a_static_copy_can_show_it(preset):
 
 
 def test_a_story_tells_what_is_computed(preset):
-    told = re.findall(r"\d+(?:\.\d+)?", preset.story)
+    matches = re.findall(r"\d+(?:\.\d+)?", preset.story)
     computed = numbers(preset.id)
-    assert [number for number in computed if number not in told] == []
-    given = dict(parse_qsl(preset.query)).values()
-    known = {*computed, *given, *MEASURED.get(preset.id, ()), *TRIED.get(preset.id, ())}
-    assert [number for number in told if number not in known] == []
+    assert [number for number in computed if number not in matches] == []
+    values = dict(parse_qsl(preset.query)).values()
+    basis = {*computed, *values, *MEASURED.get(preset.id, ()), *TRIED.get(preset.id, ())}
+    assert [number for number in matches if number not in basis] == []
 
 
 def test_a_story_has_two_to_five_sentences_and_sources(preset):

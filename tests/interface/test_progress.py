@@ -39,13 +39,13 @@ def on_terminal(code, *, columns=100, typed=None, **environment):
     """Run a script with a terminal as stderr; return what it got, what stdout got, the status."""
     own, theirs = pty.openpty()
     fcntl.ioctl(own, termios.TIOCSWINSZ, struct.pack("HHHH", 30, columns, 0, 0))
-    told = {name: os.environ[name] for name in os.environ if name not in ("COLUMNS", "LINES")}
+    usual = {name: os.environ[name] for name in os.environ if name not in ("COLUMNS", "LINES")}
     process = subprocess.Popen(
         [sys.executable, "-c", OWN_TERMINAL + code],
         stdin=theirs,
         stdout=subprocess.PIPE,
         stderr=theirs,
-        env=told | {"TERM": "xterm-256color"} | environment,
+        env=usual | {"TERM": "xterm-256color"} | environment,
         start_new_session=True,
     )
     os.close(theirs)
@@ -188,8 +188,8 @@ def test_work_within_work_has_no_bar_of_its_own():
 def test_a_pipe_gets_nothing_unless_asked():
     for progress, seen in (("None", False), ("False", False), ("True", True)):
         code = LONG.format(patience=0.1, more="").replace("30, unit", f"30, {progress}, unit")
-        told = {"FORCE_COLOR": "1", **os.environ}
-        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=told)
+        env = {"FORCE_COLOR": "1", **os.environ}
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env)
         assert ("30/30" in run.stderr) is seen, progress
         assert run.stderr.endswith("done\n")
         assert run.stdout == ""

@@ -38,8 +38,8 @@ LONG = [
     (by_elements, "solving by boundary elements", 35),
     (posterior, "sampling the posterior", 120),
     (lambda _, p: carom.sweep(CASE, GRID, progress=p), "solving the sweep", 6),
-    (lambda _, p: carom.verify.rank(LAWS, psi=[1.0], progress=p), "ranking the laws", 2),
-    (lambda _, p: carom.verify.tune(LAWS, chi=1.44, psi=[1.0], progress=p), "tuning the laws", 2),
+    (lambda _, p: carom.verify.rank(LAWS, psi_1=[1.0], progress=p), "ranking the laws", 2),
+    (lambda _, p: carom.verify.tune(LAWS, chi=1.44, psi_1=[1.0], progress=p), "tuning the laws", 2),
     (mapped, "computing the map of regimes", 3),
     (lambda folder, p: HIT.animate(folder / "hit.gif", frames=3, progress=p), "animation", 3),
     (drawn, "animation", 2),
@@ -65,19 +65,19 @@ def test_a_bar_is_shown_on_request_only(work, name, total, tmp_path, capsys):
 
 @pytest.mark.parametrize(("work", "name", "total"), LONG[:6])
 def test_a_callable_is_told_what_is_done_and_of_how_many(work, name, total, tmp_path):
-    told = []
-    work(tmp_path, lambda done, whole: told.append((done, whole)))
-    done = [count for count, _ in told]
+    entries = []
+    work(tmp_path, lambda done, whole: entries.append((done, whole)))
+    done = [count for count, _ in entries]
     assert done == sorted(done)
-    assert told[-1] == (total, total)
-    assert {whole for _, whole in told} == {total}
+    assert entries[-1] == (total, total)
+    assert {whole for _, whole in entries} == {total}
 
 
 @pytest.mark.parametrize(("work", "name", "total"), LONG[6:])
 def test_a_callable_is_called_for_every_frame(work, name, total, tmp_path):
-    told = []
-    work(tmp_path, lambda: told.append(1))
-    assert len(told) == total
+    entries = []
+    work(tmp_path, lambda: entries.append(1))
+    assert len(entries) == total
 
 
 @pytest.mark.usefixtures("_at_once")
@@ -95,9 +95,9 @@ def test_a_table_with_losses_counts_its_impacts(monkeypatch, capsys):
     solved = []
     genuine = tables.lossy_rebounds
 
-    def counted(psi, *given, **options):
+    def counted(psi, *inputs, **options):
         solved.append(np.size(psi))
-        return genuine(psi, *given, **options)
+        return genuine(psi, *inputs, **options)
 
     monkeypatch.setattr(tables, "lossy_rebounds", counted)
     monkeypatch.setattr("carom.io.progress.place", lambda progress: Place.TEXT)

@@ -46,28 +46,28 @@ def test_units_of_arrays_are_heeded():
     """Of velocities, spins, angles: pint's arrays count as the numbers in SI units."""
     fast, spin = UNITS.Quantity([[1000.0, 0.0, 2000.0]], "mm/s"), UNITS.Quantity([0, 60, 0], "rpm")
     axis = [0.0, 0.0, 1.0]
-    told = carom.collide(PAIR, velocity1=fast, spin1=spin, normal=axis)
+    after = carom.collide(PAIR, velocity1=fast, spin1=spin, normal=axis)
     turning = [0.0, 2.0 * np.pi, 0.0]
     plain = carom.collide(PAIR, velocity1=[[1.0, 0.0, 2.0]], spin1=turning, normal=axis)
-    assert told.velocity1 == pytest.approx(plain.velocity1, rel=1e-12)
-    assert told.spin1 == pytest.approx(plain.spin1, rel=1e-12)
+    assert after.velocity1 == pytest.approx(plain.velocity1, rel=1e-12)
+    assert after.spin1 == pytest.approx(plain.spin1, rel=1e-12)
     refused(lambda: carom.collide(PAIR, velocity1=spin, normal=axis), "velocity1: ", "m/s")
-    known = {"speed": 2.0, "contact_beta": 0.3, "normal_restitution": 0.9}
-    given = [
-        carom.convert_observables(PAIR, known=known | {"angle": angle}, wanted="rebound_angle")
+    basis = {"speed": 2.0, "contact_beta": 0.3, "normal_restitution": 0.9}
+    data = [
+        carom.convert_observables(PAIR, known=basis | {"angle": angle}, wanted="rebound_angle")
         for angle in (UNITS.Quantity([10.0, 20.0], "deg"), ["10 deg", "20 deg"])
     ]
-    assert given[0] == pytest.approx(given[1], rel=1e-12)
+    assert data[0] == pytest.approx(data[1], rel=1e-12)
 
 
 @pytest.mark.parametrize("unit", ["1", "", "dimensionless", "%"])
 def test_a_friction_may_be_told_to_be_a_pure_number(unit):
     """A length may not, but for the attribute that is empty."""
-    told = xr.DataArray(0.2, attrs={"units": unit})
-    pair = carom.Pair(PAIR.first, PAIR.second, friction=told)
+    item = xr.DataArray(0.2, attrs={"units": unit})
+    pair = carom.Pair(PAIR.first, PAIR.second, friction=item)
     assert pair.friction == pytest.approx(0.002 if unit == "%" else 0.2, rel=1e-15)
     if unit:
-        refused(lambda: carom.Sphere(radius=told, material="steel"), "radius: ", "not a value in m")
+        refused(lambda: carom.Sphere(radius=item, material="steel"), "radius: ", "not a value in m")
 
 
 @pytest.mark.parametrize("kind", [np.float16, np.float32, np.int8, float])
@@ -85,10 +85,10 @@ def test_a_unit_is_applied_in_double_precision(kind):
     "values", [["5"], [True], np.array(["2020-01-01"], "M8[D]"), [5j], [b"5"], [None]], ids=str
 )
 def test_what_has_a_unit_holds_numbers(values):
-    told = xr.DataArray(np.array(values), attrs={"units": "%"})
-    refused(lambda: carom.rebound(told, 1.44), "psi_1: ")
-    refused(lambda: carom.load_path(PAIR, normal_force=told, tangential_force=0.0), "normal_force:")
-    refused(lambda: carom.Sphere(radius=told[0].assign_attrs(units="mm"), material="steel"), "rad")
+    item = xr.DataArray(np.array(values), attrs={"units": "%"})
+    refused(lambda: carom.rebound(item, 1.44), "psi_1: ")
+    refused(lambda: carom.load_path(PAIR, normal_force=item, tangential_force=0.0), "normal_force:")
+    refused(lambda: carom.Sphere(radius=item[0].assign_attrs(units="mm"), material="steel"), "rad")
 
 
 @pytest.mark.parametrize(
@@ -138,22 +138,21 @@ PURE = {
     ids=str,
 )
 def test_what_is_no_pure_number_is_refused(call, psi):
-    name = "psi: " if call is PURE["law"] else "psi_1: "
-    refused(lambda: call(psi), name, "cannot be used")
+    refused(lambda: call(psi), "psi_1: ", "cannot be used")
 
 
 @pytest.mark.parametrize("key", ["units", "unit", "Units", "Unit", "UNITS", "UNIT"])
-@pytest.mark.parametrize("told", ["mm/s", b"mm/s"])
-def test_units_are_heeded_however_the_attribute_is_written(key, told):
+@pytest.mark.parametrize("text", ["mm/s", b"mm/s"])
+def test_units_are_heeded_however_the_attribute_is_written(key, text):
     """In one number, in an axis, in a column of a dataset: everywhere 2 mm/s or so, never 2 m/s."""
-    speeds = xr.DataArray([1.0, 2.0], dims="row", attrs={key: told})
+    speeds = xr.DataArray([1.0, 2.0], dims="row", attrs={key: text})
     assert carom.impact(PAIR, speed=speeds[1], angle=0.1).normal_speed < 2.001e-3
     assert carom.Grid({"speed": speeds}).coords()["speed"][1] == pytest.approx([1e-3, 2e-3])
     for source in (xr.Dataset({"speed": speeds}), {"speed": speeds}):
-        given = carom.Table(source).inputs((slice(0, 2),))["speed"]
-        assert given == pytest.approx([1e-3, 2e-3], rel=1e-15)
-    known = {"normal_speed": speeds, "tangential_speed": speeds}
-    assert carom.convert_observables(PAIR, known=known, wanted="speed")[0] < 2e-3
+        speed = carom.Table(source).inputs((slice(0, 2),))["speed"]
+        assert speed == pytest.approx([1e-3, 2e-3], rel=1e-15)
+    basis = {"normal_speed": speeds, "tangential_speed": speeds}
+    assert carom.convert_observables(PAIR, known=basis, wanted="speed")[0] < 2e-3
 
 
 @pytest.mark.parametrize("key", ["unit", "Units", "UNITS"])
@@ -256,9 +255,9 @@ def test_a_masked_point_is_a_point_without_number():
     ],
 )
 def test_contact_laws_say_what_they_leave_unsolved(law, chi, kappa, status):
-    found = law.rebound(0.5, chi, kappa=kappa, return_status=True)
-    assert np.isnan(found[0])
-    assert found[1] == status
+    value = law.rebound(0.5, chi, kappa=kappa, return_status=True)
+    assert np.isnan(value[0])
+    assert value[1] == status
     with pytest.warns(RuntimeWarning, match=status.message):
         assert np.isnan(law.rebound([0.5, 1.0], chi, kappa=kappa)).all()
 

@@ -37,7 +37,7 @@ def test_times(hit, ask, time, message):
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("inputs", "message"),
     [
         ({"points": [1.0, 2.0]}, r"points: an array of shape \(2,\) cannot .* shape \(n, 2\)"),
         ({"points": np.zeros((4, 3))}, r"shape \(4, 3\) .* must be .* of shape \(n, 2\)"),
@@ -55,12 +55,12 @@ def test_times(hit, ask, time, message):
         ({"points": np.array([["here", 1.0]] * 40, dtype=object)}, "points: 'here' cannot"),
     ],
 )
-def test_places_on_the_surface(hit, given, message):
-    refused(message, hit.fields, 1e-6, **given)
+def test_places_on_the_surface(hit, inputs, message):
+    refused(message, hit.fields, 1e-6, **inputs)
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("inputs", "message"),
     [
         ({"points": np.zeros((4, 2))}, r"shape \(n, 3\)"),
         ({"points": [[0.0, 0.0, -1e-6]]}, "depth in the body and must not be negative"),
@@ -71,8 +71,8 @@ def test_places_on_the_surface(hit, given, message):
         ({"body": 3}, "body: 3 cannot be used"),
     ],
 )
-def test_places_below_the_surface(hit, given, message):
-    refused(message, hit.stress, 1e-6, **({"body": "first"} | given))
+def test_places_below_the_surface(hit, inputs, message):
+    refused(message, hit.stress, 1e-6, **({"body": "first"} | inputs))
 
 
 @pytest.mark.parametrize("n", [1, 2.5, "many", NAN, None])
@@ -182,7 +182,7 @@ COLUMNS = np.array(PSI, [("psi_1", "f8"), ("psi_2", "f8")])
 
 
 @pytest.mark.parametrize(
-    "given",
+    "inputs",
     [
         *(COLUMNS, COLUMNS.view(np.recarray), np.ma.masked_array(COLUMNS)),
         np.array(PSI, [("psi_1 [1]", "f4"), ("psi_2", "f8")]),
@@ -190,15 +190,15 @@ COLUMNS = np.array(PSI, [("psi_1", "f8"), ("psi_2", "f8")])
         *(pd.DataFrame(COLUMNS).to_records(index=False), COLUMNS[::-1][::-1]),
     ],
 )
-def test_fields_of_records_are_columns(given):
+def test_fields_of_records_are_columns(inputs):
     """As numpy.genfromtxt(names=True) reads them."""
     whole = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.0, -0.9]}
     wanted = carom.verify.score(whole, chi=1.44).to_dict()
-    assert carom.verify.score(given, chi=1.44).to_dict() == wanted
+    assert carom.verify.score(inputs, chi=1.44).to_dict() == wanted
 
 
 @pytest.mark.parametrize(
-    "given",
+    "inputs",
     [
         *(COLUMNS[0], COLUMNS.reshape(3, 1), np.array(PSI[0], COLUMNS.dtype), COLUMNS[:0]),
         np.zeros(3, [("psi_1", "f8", 2), ("psi_2", "f8")]),
@@ -210,10 +210,10 @@ def test_fields_of_records_are_columns(given):
     ],
 )
 @pytest.mark.parametrize("use", ["score", "fit", "table"])
-def test_records_that_are_no_columns(use, given):
+def test_records_that_are_no_columns(use, inputs):
     call = {
-        "score": lambda given: carom.verify.score(given, chi=1.44),
+        "score": lambda arguments: carom.verify.score(arguments, chi=1.44),
         "fit": carom.fit,
-        "table": lambda given: carom.sweep(CASE, carom.Table(given)),
+        "table": lambda arguments: carom.sweep(CASE, carom.Table(arguments)),
     }[use]
-    refused(": ", call, given)
+    refused(": ", call, inputs)

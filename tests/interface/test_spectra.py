@@ -13,22 +13,22 @@ from carom import plots
 
 def test_frequencies_are_those_asked_for(hit):
     assert_array_equal(hit.spectrum(["100 kHz", 0, 2.5e3]).frequency.values, [1e5, 0.0, 2.5e3])
-    found = hit.spectrum(max_frequency="1 MHz", n=5)
-    assert_array_equal(found.frequency.values, np.linspace(0.0, 1e6, 5))
+    spectrum = hit.spectrum(max_frequency="1 MHz", n=5)
+    assert_array_equal(spectrum.frequency.values, np.linspace(0.0, 1e6, 5))
     default = hit.spectrum().frequency.values
     assert (default.size, default[0]) == (601, 0.0)
     assert default[-1] * hit.duration == pytest.approx(6.0, rel=1e-14)
 
 
 def test_variables_tell_unit_and_meaning(hit):
-    found = hit.spectrum(n=5)
-    assert found.normal_spectrum.units == found.tangential_spectrum_imag.units == "N s"
-    assert found.moment_spectrum.units == "N m s"
-    assert found.normal_corner_frequency.units == found.frequency.units == "Hz"
-    assert "force" in found.tangential_spectrum.long_name
-    assert json.loads(found.attrs["inputs"])["friction"] == 0.2
+    spectrum = hit.spectrum(n=5)
+    assert spectrum.normal_spectrum.units == spectrum.tangential_spectrum_imag.units == "N s"
+    assert spectrum.moment_spectrum.units == "N m s"
+    assert spectrum.normal_corner_frequency.units == spectrum.frequency.units == "Hz"
+    assert "force" in spectrum.tangential_spectrum.long_name
+    assert json.loads(spectrum.attrs["inputs"])["friction"] == 0.2
     radius = hit.pair.first.radius
-    assert_allclose(found.moment_spectrum, radius * found.tangential_spectrum)
+    assert_allclose(spectrum.moment_spectrum, radius * spectrum.tangential_spectrum)
 
 
 @pytest.mark.parametrize("law", [1e-3, 0.01, 0.3, 0.46, 0.48, 0.9, 1.0, "yields", "no friction"])
@@ -41,17 +41,17 @@ def test_corners_are_numbers_or_say_why_not(hit, law):
         pair = carom.Pair(pair.first, pair.second, friction=0.0)
     else:
         losses = carom.KelvinVoigt(restitution=law)
-    found = carom.impact(pair, speed=2.0, angle="30 deg", losses=losses).spectrum(n=1201)
-    corners = [found[name] for name in found.data_vars if str(name).endswith("_frequency")]
+    spectrum = carom.impact(pair, speed=2.0, angle="30 deg", losses=losses).spectrum(n=1201)
+    corners = [spectrum[name] for name in spectrum.data_vars if str(name).endswith("_frequency")]
     assert len(corners) == 6
     assert all(np.isfinite(corner) or corner.attrs["comment"] for corner in corners)
-    falls = np.all(np.diff(found.normal_spectrum.values) < 0.0)  # up to 6 over the duration
-    notch = found.normal_notch_frequency
+    falls = np.all(np.diff(spectrum.normal_spectrum.values) < 0.0)  # up to 6 over the duration
+    notch = spectrum.normal_notch_frequency
     assert np.isnan(notch) == falls == (notch.attrs.get("comment", "").startswith("the amplitude"))
-    _, names = plots.plot_spectrum(found).axes[0].get_legend_handles_labels()
+    _, names = plots.plot_spectrum(spectrum).axes[0].get_legend_handles_labels()
     assert ("first minimum" in names) == (not falls)
     if law == "no friction":
-        assert found.tangential_peak_frequency.comment == "there is no tangential force"
+        assert spectrum.tangential_peak_frequency.comment == "there is no tangential force"
 
 
 @pytest.mark.parametrize(
@@ -79,17 +79,17 @@ def test_what_cannot_be_used_takes_one_line(hit, asked, said):
 
 
 def test_stored_spectra_come_back_and_are_drawn(hit, tmp_path):
-    found = hit.spectrum(n=101)
-    back = carom.read(carom.save(found, tmp_path / "spectrum.nc"))
-    assert back.identical(found)
+    spectrum = hit.spectrum(n=101)
+    back = carom.read(carom.save(spectrum, tmp_path / "spectrum.nc"))
+    assert back.identical(spectrum)
     stored = plots.save_figure(plots.plot_spectrum(back), tmp_path / "spectrum.png")
     assert stored.stat().st_size > 20_000
 
 
 def test_marks_stand_at_the_corners(hit):
     """On the lines, in the unit of the axis, at 1/sqrt(2) and 1/2 of the largest amplitude."""
-    found = hit.spectrum(n=6001)
-    axis = plots.plot_spectrum(found).axes[0]
+    spectrum = hit.spectrum(n=6001)
+    axis = plots.plot_spectrum(spectrum).axes[0]
     marks = [line for line in axis.lines if line.get_marker() != "None" and line.get_xdata().size]
     places = {
         (str(line.get_marker()), line.get_color()): (line.get_xdata()[0], line.get_ydata()[0])
@@ -97,10 +97,10 @@ def test_marks_stand_at_the_corners(hit):
     }
     assert len(places) == 4
     for name, color in (("normal", plots.style.BLUE), ("tangential", plots.style.VERMILION)):
-        largest = 1e3 * float(found[f"{name}_spectrum"].max())
+        largest = 1e3 * float(spectrum[f"{name}_spectrum"].max())
         for mark, symbol, share in (("corner", "o", 0.5**0.5), ("half", "s", 0.5)):
             place, height = places[symbol, color]
-            assert place == pytest.approx(1e-3 * float(found[f"{name}_{mark}_frequency"]))
+            assert place == pytest.approx(1e-3 * float(spectrum[f"{name}_{mark}_frequency"]))
             assert height == pytest.approx(share * largest, rel=1e-4)
 
 

@@ -196,7 +196,7 @@ def test_random_datasets_come_back_or_are_refused(seed, tmp_path):
     rare = "/\0" if seed % 4 == 0 else ""
     sizes = {"x": 2, "y": 3, "z": 1}
     dims = [rng.permutation([*sizes])[: rng.integers(4)].tolist() for _ in range(5)]
-    given = xr.Dataset(
+    source = xr.Dataset(
         {
             f"v{text('aµ #,;[]', rare)}": (d, values([sizes[n] for n in d]), {"k": text()})
             for d in dims
@@ -204,10 +204,10 @@ def test_random_datasets_come_back_or_are_refused(seed, tmp_path):
         {"x": values(2)} if seed % 2 else {},
         {"title": text(), "n": float(rng.normal())},
     )
-    if "\0" in repr(given.to_dict()).replace("\\x00", "\0") or "/" in "".join(given):
-        refused("cannot hold it", save, given, tmp_path / "file.nc")
+    if "\0" in repr(source.to_dict()).replace("\\x00", "\0") or "/" in "".join(source):
+        refused("cannot hold it", save, source, tmp_path / "file.nc")
     else:
-        xr.testing.assert_identical(read(save(given, tmp_path / "file.nc")), given)
+        xr.testing.assert_identical(read(save(source, tmp_path / "file.nc")), source)
 
 
 @pytest.mark.parametrize("make", MAKERS)

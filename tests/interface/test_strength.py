@@ -20,14 +20,14 @@ def findings(hit):
     return {each.name: each for each in hit.validity.findings}
 
 
-def pair_of(first="bearing steel", second="bearing steel", friction=0.2, **given):
-    stuff = carom.material(second, **given)
+def pair_of(first="bearing steel", second="bearing steel", friction=0.2, **keywords):
+    stuff = carom.material(second, **keywords)
     ball = carom.Sphere(radius="5 mm", material=first)
     return carom.Pair(ball, carom.HalfSpace(material=stuff), friction=friction)
 
 
 @pytest.mark.parametrize(
-    ("given", "words"),
+    ("inputs", "words"),
     [
         ({"yield_strength": -1.0}, "yield_strength: -1.0 cannot be used; must be positive"),
         ({"tensile_strength": "0 MPa"}, "tensile_strength: '0 MPa' cannot be used"),
@@ -37,8 +37,8 @@ def pair_of(first="bearing steel", second="bearing steel", friction=0.2, **given
         ({"toughness": 1e6}, "toughness: unknown in a material; write fracture_toughness"),
     ],
 )
-def test_strengths_that_cannot_be_used(given, words):
-    refused(words, carom.material, "glass", **given)
+def test_strengths_that_cannot_be_used(inputs, words):
+    refused(words, carom.material, "glass", **inputs)
 
 
 @pytest.mark.parametrize(
@@ -49,13 +49,13 @@ def test_toughness_is_read_as_it_is_written(text):
 
 
 def test_a_material_of_the_catalogue_takes_what_is_known_besides():
-    known = carom.material("float glass")
+    stuff = carom.material("float glass")
     more = carom.material("float glass", flaw_size="20 um", young="70 GPa")
-    assert (more.young, more.poisson, more.flaw_size) == (70e9, known.poisson, 20e-6)
-    assert more.fracture_toughness == known.fracture_toughness == 0.75e6
+    assert (more.young, more.poisson, more.flaw_size) == (70e9, stuff.poisson, 20e-6)
+    assert more.fracture_toughness == stuff.fracture_toughness == 0.75e6
     first = {"radius": "5 mm", "material": {"name": "float glass", "flaw_size": "20 um"}}
-    found = one_angle(["crack_speed_first"], first=first)
-    assert np.isfinite(found.crack_speed_first.values).all()
+    actual = one_angle(["crack_speed_first"], first=first)
+    assert np.isfinite(actual.crack_speed_first.values).all()
 
 
 def test_no_strength_at_all_is_told_with_where_to_put_it():
@@ -83,27 +83,27 @@ def test_losses_are_refused_where_stresses_are_searched():
 def test_a_material_without_the_strength_has_a_status_of_its_own():
     """One of two materials has no yield strength: its point says so, the other is solved."""
     grid = carom.Grid({"second.material": ["steel", "glass"]})
-    found = carom.sweep(CASE, grid, outputs=["yield_speed_second", "rebound_angle"])
-    assert found.status.values.tolist() == [PointStatus.SOLVED, PointStatus.STRENGTH_NOT_KNOWN]
-    assert np.isfinite(found.yield_speed_second.values).tolist() == [True, False]
-    assert np.isfinite(found.rebound_angle.values).all()  # which no strength matters to
+    dataset = carom.sweep(CASE, grid, outputs=["yield_speed_second", "rebound_angle"])
+    assert dataset.status.values.tolist() == [PointStatus.SOLVED, PointStatus.STRENGTH_NOT_KNOWN]
+    assert np.isfinite(dataset.yield_speed_second.values).tolist() == [True, False]
+    assert np.isfinite(dataset.rebound_angle.values).all()  # which no strength matters to
 
 
 def test_points_that_cannot_be_solved_have_their_status():
-    found = carom.bearable_speeds(pair_of(), angle=["30 deg", "95 deg"], friction=[0.1, -0.1])
-    assert found.status.values.tolist() == [
+    speeds = carom.bearable_speeds(pair_of(), angle=["30 deg", "95 deg"], friction=[0.1, -0.1])
+    assert speeds.status.values.tolist() == [
         [PointStatus.SOLVED, PointStatus.NOT_APPROACHING],
         [PointStatus.OUT_OF_RANGE, PointStatus.NOT_APPROACHING],
     ]
-    assert np.isnan(found.yield_speed_second.values).tolist() == [[False, True], [True, True]]
+    assert np.isnan(speeds.yield_speed_second.values).tolist() == [[False, True], [True, True]]
 
 
 def test_the_speed_told_is_the_speed_at_which_it_happens():
     """An impact at the speed of the map has the strength as its largest stress, spin or not."""
     pair = pair_of(tensile_strength="1 GPa")
-    found = carom.bearable_speeds(pair, angle=["15 deg"], friction=[0.2])
+    speeds = carom.bearable_speeds(pair, angle=["15 deg"], friction=[0.2])
     for name, share in (("yield_speed", "yield_ratio"), ("tensile_speed", "tension_ratio")):
-        speed = float(found[f"{name}_second"][0, 0])
+        speed = float(speeds[f"{name}_second"][0, 0])
         peaks = carom.impact(pair, speed=speed, angle="15 deg").peaks()
         assert float(peaks[share].sel(body="second")) == pytest.approx(1.0, rel=1e-9)
     first = {"radius": "5 mm", "material": "bearing steel"}
@@ -136,19 +136,19 @@ def test_bodies_that_yield_make_stresses_upper_bounds():
 
 def test_validity_judges_yield_with_friction():
     """Friction of 0.6 brings yield at a fraction of the pressure that it takes head-on."""
-    found = {}
+    by_name = {}
     for friction in (0.0, 0.6):
         hit = carom.impact(pair_of(friction=friction), speed=1.0, angle="45 deg")
-        found[friction] = findings(hit)["von Mises stress/Y"].value
-    assert found[0.6] == pytest.approx(found[0.0] * 1.085 / 0.62, rel=0.03)
+        by_name[friction] = findings(hit)["von Mises stress/Y"].value
+    assert by_name[0.6] == pytest.approx(by_name[0.0] * 1.085 / 0.62, rel=0.03)
 
 
 def test_validity_judges_each_body_by_what_it_bears():
     hit = carom.impact(pair_of("steel", "glass", flaw_size="20 um"), speed=0.3, angle="30 deg")
-    found = findings(hit)
-    assert "the first body yields" in found["von Mises stress/Y"].verdict
-    assert "flaws in the second body grow into cracks" in found["K/K_c"].verdict
-    assert "tension/strength" not in found
+    actual = findings(hit)
+    assert "the first body yields" in actual["von Mises stress/Y"].verdict
+    assert "flaws in the second body grow into cracks" in actual["K/K_c"].verdict
+    assert "tension/strength" not in actual
 
 
 @pytest.mark.parametrize("body", ["first", "second"])
@@ -233,8 +233,8 @@ def test_spheres_that_yield_have_no_known_stress():
 
 def test_peaks_and_maps_are_stored_and_read_again(tmp_path):
     peaks = carom.impact(pair_of(), speed=0.5, angle="30 deg").peaks()
-    found = carom.bearable_speeds(pair_of(), angle=[0.1, 0.8], friction=[0.1, 0.3])
-    for name, dataset in (("peaks", peaks), ("strength", found)):
+    speeds = carom.bearable_speeds(pair_of(), angle=[0.1, 0.8], friction=[0.1, 0.3])
+    for name, dataset in (("peaks", peaks), ("strength", speeds)):
         again = carom.read(carom.save(dataset, tmp_path / f"{name}.nc"))
         for variable in dataset.data_vars:
             assert again[variable].values == pytest.approx(dataset[variable].values)
@@ -244,10 +244,10 @@ def test_peaks_and_maps_are_stored_and_read_again(tmp_path):
 
 def test_many_frictions_are_drawn_as_a_map():
     friction = np.linspace(0.0, 0.5, 7)
-    found = carom.bearable_speeds(pair_of(), angle=[0.0, 0.5, 1.0], friction=friction)
-    figure = carom.plots.plot_strength(found)
+    speeds = carom.bearable_speeds(pair_of(), angle=[0.0, 0.5, 1.0], friction=friction)
+    figure = carom.plots.plot_strength(speeds)
     assert figure.axes[0].get_ylabel().startswith("$\\mu$")
-    none = found.drop_vars(["yield_speed_first", "yield_speed_second"])
+    none = speeds.drop_vars(["yield_speed_first", "yield_speed_second"])
     refused("no speed in this dataset is finite", carom.plots.plot_strength, none)
 
 

@@ -144,10 +144,10 @@ def test_a_write_that_fails_leaves_no_status_without_its_values(tmp_path, monkey
         with pytest.raises(SweepStopped, match=words):
             sweep(CASE, GRID, outputs=outputs, store=path)
     there = carom.read(path)
-    told = there.status.values != PointStatus.NOT_RUN
-    assert told.any() == (fails >= 3)
+    answer = there.status.values != PointStatus.NOT_RUN
+    assert answer.any() == (fails >= 3)
     for name in outputs:
-        assert np.all(np.isfinite(there[name].values[told]))
+        assert np.all(np.isfinite(there[name].values[answer]))
     truth = sweep(CASE, GRID, outputs=outputs)
     assert truth.identical(sweep(CASE, GRID, outputs=outputs, store=path, resume=True).load())
 

@@ -150,11 +150,11 @@ def test_the_table_is_as_long_as_it_should_be():
 def test_what_is_a_quantity_is_read(text, name, value):
     """In Python, in lists of Python, in a cell, in a case file: the same float everywhere."""
     si = GLOSSARY[name].unit
-    found = number(name, text)
-    assert found == pytest.approx(value, rel=1e-15)
-    assert numbers(name, [text, text], "")[1] == found
-    assert column_in_si(name, si, "", [text])[0][0] == found
-    assert number(name, tomllib.loads(f"x = {json.dumps(text)}")["x"]) == found
+    actual = number(name, text)
+    assert actual == pytest.approx(value, rel=1e-15)
+    assert numbers(name, [text, text], "")[1] == actual
+    assert column_in_si(name, si, "", [text])[0][0] == actual
+    assert number(name, tomllib.loads(f"x = {json.dumps(text)}")["x"]) == actual
 
 
 @pytest.mark.parametrize(("text", "name", "words"), REFUSED)

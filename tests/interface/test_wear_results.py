@@ -44,7 +44,7 @@ def test_map_is_symmetric_and_its_mean_is_the_profile(hit):
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("inputs", "said"),
     [
         ({"n": 1}, "n: 1 cannot be used; must be a whole number of at least 2"),
         ({"coefficient": -1e-13}, "coefficient: -1e-13 cannot be used; must be zero or pos"),
@@ -53,8 +53,8 @@ def test_map_is_symmetric_and_its_mean_is_the_profile(hit):
         ({"x": [0.0, np.nan]}, "x: "),
     ],
 )
-def test_bad_input_is_refused_in_one_line(hit, given, said):
-    assert said in refused("", hit.wear, **given)
+def test_bad_input_is_refused_in_one_line(hit, inputs, said):
+    assert said in refused("", hit.wear, **inputs)
 
 
 def test_yielding_spheres_wear_on_a_spot_as_one_impact_does(pair):
@@ -70,9 +70,9 @@ def test_bad_impacts_have_a_status_and_are_left_out(pair):
     angles = ["20 deg", "95 deg", np.nan, "20 deg", "20 deg", "20 deg"]
     speeds, counts = [2.0, 2.0, 2.0, -1.0, 2.0, 1e300], [1.0, 1.0, 1.0, 1.0, -1.0, 1.0]
     worn = carom.wear_of_many(pair, speed=speeds, angle=angles, counts=counts)
-    found = [carom.status.PointStatus(int(code)).name for code in worn.status]
-    assert found[:3] == ["SOLVED", "NOT_APPROACHING", "NOT_A_NUMBER"]
-    assert found[3:] == ["NOT_APPROACHING", "OUT_OF_RANGE", "BEYOND_FLOATING_POINT"]
+    values = [carom.status.PointStatus(int(code)).name for code in worn.status]
+    assert values[:3] == ["SOLVED", "NOT_APPROACHING", "NOT_A_NUMBER"]
+    assert values[3:] == ["NOT_APPROACHING", "OUT_OF_RANGE", "BEYOND_FLOATING_POINT"]
     assert np.array_equal(np.isnan(worn.dissipated_energy), worn.status != 0)
     assert int(worn.unsolved_impacts) == 5
     alone = carom.impact(pair, speed=2.0, angle="20 deg").dissipated_energy
@@ -85,9 +85,9 @@ def test_bad_impacts_have_a_status_and_are_left_out(pair):
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("inputs", "said"),
     [
-        ({}, "speed: give speed and angle, or normal_speed and tangential_speed"),
+        ({}, "speed: missing; give speed and angle, or normal_speed"),
         ({"speed": 1.0, "normal_speed": 1.0}, "speed: give speed and angle, or normal_speed"),
         ({"normal_speed": 1.0, "angle": 0.1}, "angle: give speed and angle, or normal_speed"),
         ({"speed": [1.0, 2.0], "angle": [0.1, 0.2, 0.3]}, "do not fit each other"),
@@ -99,8 +99,8 @@ def test_bad_impacts_have_a_status_and_are_left_out(pair):
         ({"speed": 1.0, "mu": 3}, "mu: no keyword of wear"),
     ],
 )
-def test_many_impacts_that_cannot_be_read_are_refused_in_one_line(pair, given, said):
-    assert said in refused("", carom.wear_of_many, pair, **given)
+def test_many_impacts_that_cannot_be_read_are_refused_in_one_line(pair, inputs, said):
+    assert said in refused("", carom.wear_of_many, pair, **inputs)
 
 
 def test_components_and_speeds_are_the_same_impacts(pair):
@@ -120,7 +120,7 @@ def test_two_spheres_that_spin(steel_ball):
 
 def test_progress_is_told(pair):
     said = []
-    carom.wear_of_many(pair, speed=[1.0, 2.0], progress=lambda *told: said.append(told))
+    carom.wear_of_many(pair, speed=[1.0, 2.0], progress=lambda *answer: said.append(answer))
     assert said == [(2, 2), (1, 2), (2, 2)]
 
 

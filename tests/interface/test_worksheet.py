@@ -79,8 +79,8 @@ def test_forces_of_laws_are_as_the_answer_says():
     share = np.array([0.2, 0.8]) * exact.duration
 
     def ratio(name):
-        told = carom.dem.LammpsMindlin(name).history(hit.psi_in, pair.chi, steps=4000)
-        force = np.interp(share, told["time"], told["tangential_force"])
+        history = carom.dem.LammpsMindlin(name).history(hit.psi_in, pair.chi, steps=4000)
+        force = np.interp(share, history["time"], history["tangential_force"])
         return force / (1.5 * exact.at(share).force)
 
     assert ratio("mindlin") == pytest.approx([1.4, 2.0], abs=0.05)

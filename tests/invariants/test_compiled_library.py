@@ -38,16 +38,16 @@ def calls(monkeypatch):
         by_library = shared_library.function(kernel.signatures(), kernel.floats)
         assert by_library is not None
 
-        def call(*given):
-            other = copy.deepcopy(given)
+        def call(*inputs):
+            other = copy.deepcopy(inputs)
             expected = kernel.dispatcher(*other)
-            found = by_library(*given)
-            pairs = zip(leaves((given, found)), leaves((other, expected)), strict=True)
+            actual = by_library(*inputs)
+            pairs = zip(leaves((inputs, actual)), leaves((other, expected)), strict=True)
             for one, two in pairs:
                 assert one.dtype.kind == two.dtype.kind
                 assert one.tobytes() == two.tobytes(), kernel.__name__
             counts[kernel.__name__ + "@" + kernel.__module__] += 1
-            return found
+            return actual
 
         return call
 
@@ -72,12 +72,12 @@ def rebounds(rng):
 
 def impacts(rng):
     for psi, chi in zip(rng.uniform(0.0, 6.0, 12), rng.uniform(0.3, 2.5, 12), strict=True):
-        found = carom.solve(psi, chi)
-        times = found.duration * np.concatenate([[0.0, 0.5, 1.0], rng.uniform(0.0, 1.0, 9)])
-        found.at(times)
-        found.traction(times[4], np.linspace(0.0, 1.0, 7))
-        found.slid(times[5], np.linspace(0.0, 1.0, 7))
-        found.memory(times[6]).profile()
+        solution = carom.solve(psi, chi)
+        times = solution.duration * np.concatenate([[0.0, 0.5, 1.0], rng.uniform(0.0, 1.0, 9)])
+        solution.at(times)
+        solution.traction(times[4], np.linspace(0.0, 1.0, 7))
+        solution.slid(times[5], np.linspace(0.0, 1.0, 7))
+        solution.memory(times[6]).profile()
         lossy = carom.solve(psi, chi, losses=carom.KelvinVoigt(restitution=0.8))
         lossy.at(lossy.duration * rng.uniform(0.0, 1.0, 4))
         inside = lossy.contact_at(lossy.duration * rng.uniform(0.1, 0.9))

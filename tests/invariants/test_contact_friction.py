@@ -28,8 +28,8 @@ def built(folder, source, options):
     return target
 
 
-def told(program, *words, given=""):
-    ran = subprocess.run([program, *words], input=given, capture_output=True, text=True, check=True)
+def printed(program, *words, text=""):
+    ran = subprocess.run([program, *words], input=text, capture_output=True, text=True, check=True)
     return [float(word) for word in ran.stdout.split()]
 
 
@@ -45,7 +45,7 @@ def loads(folder, request):
 
     def run(kind, rows):
         text = "\n".join(" ".join(map(repr, row)) for row in rows)
-        return np.array(told(program, kind, given=text)).reshape(-1, 3).T
+        return np.array(printed(program, kind, text=text)).reshape(-1, 3).T
 
     return run
 
@@ -72,9 +72,9 @@ def test_friction_opposes_the_slide_at_any_rate_of_approach(loads, kind):
             for rate in RATES
             for depth in depths
         ]
-        found, along, across = loads(kind, rows)
+        actual, along, across = loads(kind, rows)
         normal, sticking, sliding = steady(kind, rows)
-        np.testing.assert_allclose(found, normal, rtol=1e-6)
+        np.testing.assert_allclose(actual, normal, rtol=1e-6)
         if slide > 1.0:
             np.testing.assert_allclose(along, sliding, rtol=1e-6)
         else:
@@ -128,15 +128,15 @@ def test_the_plugin_finds_the_loss_of_any_restitution(folder):
         'while (std::scanf("%lf", &e) == 1) std::printf("%.12g ", LAMMPS_NS::carom_loss(e)); }\n'
     )
     program = built(folder, folder / "loss.cpp", ("-O0", f"-I{lammps.SOURCES}"))
-    given = [0.5, *(1.0 - 10.0**power for power in (-4, -6, -10))]
-    found = told(program, given=" ".join(map(repr, given)))
-    np.testing.assert_allclose(found, [viscous_loss(e) for e in given], rtol=1e-4)
+    values = [0.5, *(1.0 - 10.0**power for power in (-4, -6, -10))]
+    actual = printed(program, text=" ".join(map(repr, values)))
+    np.testing.assert_allclose(actual, [viscous_loss(e) for e in values], rtol=1e-4)
 
 
 def test_no_ball_on_a_level_floor_gains_energy(folder):
     """Thrown, sliding, rolling, spinning, at rest: 3,000 histories. Without losses velocity Verlet
     is off by the square of its step; with them nothing is gained but by rounding."""
     program = built(folder, SOURCES / "histories.cpp", FUSED)
-    viscous, double, ledger, elastic = told(program, "1", "3000", "200")
+    viscous, double, ledger, elastic = printed(program, "1", "3000", "200")
     assert max(viscous, double, ledger) < 1e-8
     assert elastic < 1e-3

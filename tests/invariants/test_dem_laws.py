@@ -144,12 +144,12 @@ def test_what_is_out_of_range_is_nan_and_nothing_else(law, steps):
     psi = np.array([0.3, np.nan, 0.5, 0.5, 0.5, 0.5, 0.5, 2.0])
     chi = np.array([CHI, CHI, 0.0, -1.0, np.nan, CHI, CHI, CHI])
     kappa = np.array([0.8, 0.8, 0.8, 0.8, 0.8, 0.0, np.nan, 0.8])
-    given = {"kappa": kappa, "steps": steps}
-    out, status = law.rebound(psi, chi, **given, return_status=True)
+    inputs = {"kappa": kappa, "steps": steps}
+    out, status = law.rebound(psi, chi, **inputs, return_status=True)
     assert list(np.isfinite(out)) == [True, *[False] * 6, True]
     assert status.tolist() == [0, 1, 2, 2, 2, 3, 3, 0]
     with pytest.warns(RuntimeWarning, match=r"6 of 8 .* index \(1,\): psi_1 must be a finite"):
-        assert np.array_equal(law.rebound(psi, chi, **given), out, equal_nan=True)
+        assert np.array_equal(law.rebound(psi, chi, **inputs), out, equal_nan=True)
     for i in (0, 7):
         assert out[i] == law.rebound(psi[i], chi[i], kappa=kappa[i], steps=steps)
 

@@ -90,12 +90,12 @@ def test_forces_and_elastic_energies_by_quadrature(psi, chi, place):
     pushed = over_contact(hit, time, lambda f: f.traction_x)
     assert abs(pushed - 1.5 * MU * hit.max_force * now.force[0]) <= 1e-10 * MU * force
     energy = 0.4 * force * now.penetration[0] * hit.max_penetration
-    found = over_contact(hit, time, lambda f: 0.5 * f.pressure * f.displacement_z)
-    assert found == pytest.approx(energy, rel=1e-11)
+    actual = over_contact(hit, time, lambda f: 0.5 * f.pressure * f.displacement_z)
+    assert actual == pytest.approx(energy, rel=1e-11)
     unit = hit.pair.tangential_mass * (MU * hit.normal_speed / hit.pair.kappa) ** 2
-    found = over_contact(hit, time, lambda f: 0.5 * f.traction_x * f.displacement_x)
+    actual = over_contact(hit, time, lambda f: 0.5 * f.traction_x * f.displacement_x)
     rounding = 1e-13 * max(1.0, psi**2) * unit  # of `stored`, relative to psi^2/2
-    assert abs(found - now.stored[0] * unit) <= 1e-10 * MU**2 * energy + rounding
+    assert abs(actual - now.stored[0] * unit) <= 1e-10 * MU**2 * energy + rounding
 
 
 @examples
@@ -221,9 +221,9 @@ def test_slip_velocity_and_power_in_closed_form(psi, chi, place):
         lateral = LATERAL * np.sin(phi) * cos
         shape = np.stack([phi - lateral * np.cos(2.0 * theta), -lateral * np.sin(2.0 * theta)])
         rate = now.psi[0] - phase.sign * now.speed[0]
-        found = slip_velocities(hit, time, polar(radii, ANGLES)) / speed
-        assert np.all(np.abs(found - rate * 2.0 / math.pi * shape.T) <= 1e-12 * max(1.0, abs(psi)))
-        angle = np.arctan2(np.abs(found[:, 1]), phase.sign * found[:, 0])
+        value = slip_velocities(hit, time, polar(radii, ANGLES)) / speed
+        assert np.all(np.abs(value - rate * 2.0 / math.pi * shape.T) <= 1e-12 * max(1.0, abs(psi)))
+        angle = np.arctan2(np.abs(value[:, 1]), phase.sign * value[:, 0])
         assert np.all(angle <= math.asin(LATERAL) + 1e-9)
         power = abs(rate) * ((b**3 - a**3) * 2.0 / 3.0 - a * (b * b - a * a))
         power *= 1.5 * MU * hit.max_force * speed
@@ -246,8 +246,8 @@ def test_far_away_the_load_is_a_point_force(psi, chi, place):
         expected[1] += float(fields.tangential_force) * nu * x * y / r**2 / unit
         expected[2] += float(fields.normal_force) * (1.0 - nu) / unit
     scale = np.array([MU, MU, 1.0])[:, None] * expected[2]
-    found = np.stack([fields[f"displacement_{axis}"] for axis in "xyz"])
-    assert np.all(np.abs(found - expected) <= 1e-7 * scale)
+    values = np.stack([fields[f"displacement_{axis}"] for axis in "xyz"])
+    assert np.all(np.abs(values - expected) <= 1e-7 * scale)
 
 
 def test_without_friction_it_slides_freely():

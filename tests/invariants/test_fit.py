@@ -64,18 +64,18 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
 @pytest.mark.parametrize("name", NAMES)
 def test_every_response_tells_the_same_parameters(plain, name):
     """Without noise any response gives back friction and stiffness, to the error of the curves."""
-    found = fitted({name: plain[name]}, robust=False)
-    assert found.friction.value == pytest.approx(MU, rel=2e-4)
-    assert found.kappa.value == pytest.approx(PAIR.kappa, rel=5e-4)
+    result = fitted({name: plain[name]}, robust=False)
+    assert result.friction.value == pytest.approx(MU, rel=2e-4)
+    assert result.kappa.value == pytest.approx(PAIR.kappa, rel=5e-4)
 
 
 def test_spin_before_that_is_known_is_no_offset():
     seen = exact(spin=SPIN)
     spins = {"spin [rpm]": np.full(DEGREES.size, SPIN * 30.0 / np.pi)}
-    found = fitted({**noisy(seen, 1), **spins}, vary=["friction", "kappa", "spin_offset"])
-    assert found.spin_offset.low < 0.0 < found.spin_offset.high
+    result = fitted({**noisy(seen, 1), **spins}, vary=["friction", "kappa", "spin_offset"])
+    assert result.spin_offset.low < 0.0 < result.spin_offset.high
     without = fitted(noisy(seen, 1), vary=["friction", "kappa", "spin_offset"])
-    assert without.spin_offset.value == pytest.approx(found.spin_offset.value + SPIN, abs=0.1)
+    assert without.spin_offset.value == pytest.approx(result.spin_offset.value + SPIN, abs=0.1)
 
 
 def test_ways_of_saying_the_incidence_are_one(plain):
@@ -88,10 +88,10 @@ def test_ways_of_saying_the_incidence_are_one(plain):
         {"contact_angle": angle},
         {"psi_in": START.kappa / START.friction * np.tan(angle)},
     )
-    found = [fit({**w, **data}, pair=START, fixed={"restitution": 1.0}) for w in ways]
-    for other in found[1:]:
-        assert other.friction.low == pytest.approx(found[0].friction.low, rel=1e-5)
-        assert other.kappa.high == pytest.approx(found[0].kappa.high, rel=1e-5)
+    values = [fit({**w, **data}, pair=START, fixed={"restitution": 1.0}) for w in ways]
+    for other in values[1:]:
+        assert other.friction.low == pytest.approx(values[0].friction.low, rel=1e-5)
+        assert other.kappa.high == pytest.approx(values[0].kappa.high, rel=1e-5)
 
 
 def test_order_of_rows_and_units_do_not_matter(plain):
@@ -138,11 +138,11 @@ def test_one_wild_row_moves_a_robust_fit_little(plain):
 def test_errors_that_are_too_small_are_found_out(plain):
     """Errors told as a fifth of the scatter: enlarged about fivefold, and said so."""
     data = noisy(plain, 6, {"contact_restitution": 0.05})
-    told = {"contact_restitution_error": np.full(11, 0.01)}
-    found = fitted({**data, **told})
-    assert any("were enlarged" in note for note in found.notes)
+    entries = {"contact_restitution_error": np.full(11, 0.01)}
+    result = fitted({**data, **entries})
+    assert any("were enlarged" in note for note in result.notes)
     honest = fitted(data)
-    assert found.friction.high - found.friction.low == pytest.approx(
+    assert result.friction.high - result.friction.low == pytest.approx(
         honest.friction.high - honest.friction.low, rel=0.2
     )
 

@@ -49,11 +49,11 @@ def hold_the_truth(tables, **options):
 
     The study with 2000 sets a design tells 94 to 97 %; intervals that hold 80 % are noticed here.
     """
-    known = {"friction": MU, "kappa": KAPPA, "restitution": 0.95}
-    found = [fit(table, pair=bodies(), **options) for table in tables]
-    most = binom.ppf(1.0 - 1e-3, len(found), 0.1)
-    for name, value in known.items():
-        inside = [each[name].low <= value <= each[name].high for each in found]
+    by_name = {"friction": MU, "kappa": KAPPA, "restitution": 0.95}
+    values = [fit(table, pair=bodies(), **options) for table in tables]
+    most = binom.ppf(1.0 - 1e-3, len(values), 0.1)
+    for name, value in by_name.items():
+        inside = [each[name].low <= value <= each[name].high for each in values]
         assert len(inside) - sum(inside) <= most, name
 
 
@@ -119,8 +119,8 @@ def test_an_outlier_is_left_out_for_all_laws_and_the_errors_are_those_of_the_bes
     gap, spoilt = [], list(table["spin_out"])
     for value in ("-", spoilt[3] * 10.0):
         spoilt[3] = value
-        found = fit({**table, "spin_out": list(spoilt)}, pair=bodies()).comparison
-        gap.append(found["rigid Coulomb"].excess)
+        comparison = fit({**table, "spin_out": list(spoilt)}, pair=bodies()).comparison
+        gap.append(comparison["rigid Coulomb"].excess)
     assert gap[1] == pytest.approx(gap[0], rel=0.05)
 
 
@@ -128,9 +128,9 @@ def test_a_kappa_that_bodies_cannot_have_is_questioned(truth):
     """Spins of a ball of half the size: kappa 0.3 or so, beside 0.82 of the elastic constants."""
     table = noisy(truth, np.random.default_rng(6))
     assert not any("elastic" in note for note in fit(table, pair=bodies()).notes)
-    found = fit({**table, "spin_out": 0.5 * table["spin_out"]}, pair=bodies())
-    assert found.kappa.elastic == pytest.approx(KAPPA)
-    assert any("kappa is 2/3 to 1 for elastic bodies" in note for note in found.notes)
+    result = fit({**table, "spin_out": 0.5 * table["spin_out"]}, pair=bodies())
+    assert result.kappa.elastic == pytest.approx(KAPPA)
+    assert any("kappa is 2/3 to 1 for elastic bodies" in note for note in result.notes)
 
 
 def turned(table):
@@ -181,10 +181,10 @@ MISTAKES = {
 @pytest.mark.parametrize("words", MISTAKES)
 def test_usual_mistakes_are_named(truth, words):
     change, radius = MISTAKES[words]
-    found = fit(change(noisy(truth, np.random.default_rng(7))), pair=bodies(radius))
-    told = [note for note in found.notes if note.startswith("these data fit as")]
-    assert len(told) == 1
-    assert words in told[0]
+    result = fit(change(noisy(truth, np.random.default_rng(7))), pair=bodies(radius))
+    entries = [note for note in result.notes if note.startswith("these data fit as")]
+    assert len(entries) == 1
+    assert words in entries[0]
 
 
 def test_spins_of_the_other_sign_are_named_where_they_are_not_refused(truth):
@@ -198,14 +198,14 @@ def test_spins_of_the_other_sign_are_named_where_they_are_not_refused(truth):
     table = {"angle": ANGLES, "speed": np.full(ROWS, SPEED), "spin": start}
     table["spin_out"] = noise - [hit.spin_out for hit in hits]
     table["rebound_angle"] = [hit.rebound_angle for hit in hits]
-    found = fit(table, pair=bodies(), fixed={"restitution": 1.0})
-    assert any("spins of the other sign" in note for note in found.notes)
+    result = fit(table, pair=bodies(), fixed={"restitution": 1.0})
+    assert any("spins of the other sign" in note for note in result.notes)
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_clean_data_are_not_called_mistaken(truth, seed):
-    found = fit(noisy(truth, np.random.default_rng([11, seed])), pair=bodies())
-    assert not any(note.startswith("these data fit as") for note in found.notes)
+    result = fit(noisy(truth, np.random.default_rng([11, seed])), pair=bodies())
+    assert not any(note.startswith("these data fit as") for note in result.notes)
 
 
 def test_advice_halves_the_interval():

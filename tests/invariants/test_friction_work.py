@@ -81,8 +81,8 @@ def test_viscoelastic_impacts():
         chi, e = 0.1 * 50.0 ** rng.uniform(), rng.uniform(0.1, 0.99)
         psi = rng.uniform(-1.0, 1.0) * (2.0 * chi * (1.0 + e) + 1.0)
         solution = carom.solve(psi, chi, losses=carom.KelvinVoigt(restitution=e))
-        found, known = summed(solution), lost(solution)
-        assert found == pytest.approx(known, rel=1e-4, abs=1e-6 * psi**2), (psi, chi, e)
+        actual, values = summed(solution), lost(solution)
+        assert actual == pytest.approx(values, rel=1e-4, abs=1e-6 * psi**2), (psi, chi, e)
 
 
 @pytest.mark.parametrize("psi", [1.5e4, -1e9])
@@ -92,8 +92,8 @@ def test_viscoelastic_impacts_that_slide(psi):
     ledger = solution.at(solution.duration).dissipated[0]
     assert summed(solution) == pytest.approx(ledger, rel=1e-9)
     radii = np.linspace(0.0, 1.0, 12)
-    found = solution.friction_work(radii)[:, 0]
-    assert found == pytest.approx(abs(psi) * solution.pressed(radii), rel=20.0 / abs(psi))
+    actual = solution.friction_work(radii)[:, 0]
+    assert actual == pytest.approx(abs(psi) * solution.pressed(radii), rel=20.0 / abs(psi))
 
 
 def test_the_pressure_adds_up_to_the_momentum():
@@ -101,6 +101,6 @@ def test_the_pressure_adds_up_to_the_momentum():
     for losses in (None, carom.KelvinVoigt(restitution=0.7), carom.KelvinVoigt(restitution=0.2)):
         solution = carom.solve(0.5, 1.44, losses=losses)
         radii, areas = _quadrature(solution)
-        found = float(solution.pressed(radii) @ areas)
+        value = float(solution.pressed(radii) @ areas)
         exact = 8.0 / 15.0 * np.pi * (1.0 + solution.restitution)
-        assert found == pytest.approx(exact, rel=1e-9, abs=0.0)
+        assert value == pytest.approx(exact, rel=1e-9, abs=0.0)

@@ -36,9 +36,9 @@ def dense():
     return {name: SPACING / np.pi * matrix for name, matrix in unit._asdict().items()}
 
 
-def apart(found, exact):
+def apart(values, exact):
     """Return the largest difference as part of the largest value."""
-    return np.abs(found.ravel() - exact).max() / np.abs(exact).max()
+    return np.abs(values.ravel() - exact).max() / np.abs(exact).max()
 
 
 def test_normal(compliance, dense):
@@ -55,9 +55,9 @@ def test_tangential(compliance, dense):
     isotropic = dense["xx"] + dense["yy"]
     x = (isotropic + m * dense["xx"]) @ along.ravel() + m * dense["xy"] @ across.ravel()
     y = (isotropic + m * dense["yy"]) @ across.ravel() + m * dense["xy"] @ along.ravel()
-    found = compliance.tangential(traction)
-    assert apart(found[0], x) <= 1e-14
-    assert apart(found[1], y) <= 1e-14
+    actual = compliance.tangential(traction)
+    assert apart(actual[0], x) <= 1e-14
+    assert apart(actual[1], y) <= 1e-14
 
 
 def test_coupling(compliance, dense):
@@ -73,8 +73,8 @@ def test_coupling(compliance, dense):
 def test_lateral_factor_of_like_materials():
     """kappa = 2 (1 - nu)/(2 - nu) makes m = nu/(1 - nu): Cerruti's kernel (Johnson 1985, 3.6)."""
     for nu in (0.0, 0.2, 0.3, 0.42, 0.5):
-        found = Materials(2.0 * (1.0 - nu) / (2.0 - nu)).lateral
-        assert found == pytest.approx(nu / (1.0 - nu), abs=1e-15)
+        lateral = Materials(2.0 * (1.0 - nu) / (2.0 - nu)).lateral
+        assert lateral == pytest.approx(nu / (1.0 - nu), abs=1e-15)
 
 
 def test_no_wrap_around():
@@ -94,8 +94,8 @@ def test_no_wrap_around():
         ("tangential_of_pressure", pressure, wide_pressure),
         ("normal_of_traction", traction, wide_traction),
     ]:
-        found, exact = getattr(small, name)(load), getattr(large, name)(wide)
-        assert np.abs(found - exact[..., middle, middle]).max() <= 1e-14, name
+        actual, exact = getattr(small, name)(load), getattr(large, name)(wide)
+        assert np.abs(actual - exact[..., middle, middle]).max() <= 1e-14, name
     furthest = small.normal(pressure)[-1, -1]
     point = SPACING**2 / np.pi / (np.sqrt(2.0) * (SIZE - 1) * SPACING)
     assert furthest == pytest.approx(point, rel=2e-3)
@@ -189,13 +189,13 @@ def test_a_mirrored_grid_gives_way_as_the_whole(size, mirrors):
     def scalar(field):
         return unfolded(field, mirrors, False)
 
-    for name, load, given, found in [
+    for name, load, values, actual in [
         *(("normal", p, scalar, scalar), ("tangential", q, vector, vector)),
         *(("normal_of_traction", q, vector, scalar), ("tangential_of_pressure", p, scalar, vector)),
         *(("roughly_pressure", p, scalar, scalar), ("roughly_traction", q, vector, vector)),
     ]:
-        exact = getattr(whole, name)(given(load))
-        off = np.abs(found(getattr(part, name)(load)) - exact).max()
+        exact = getattr(whole, name)(values(load))
+        off = np.abs(actual(getattr(part, name)(load)) - exact).max()
         assert off <= 1e-12 * max(np.abs(exact).max(), 1e-3), name
 
 
@@ -217,12 +217,12 @@ def test_diagonals_are_those_of_the_matrices():
 
 def test_finer_elements_refine_the_same_displacement():
     """Of a smooth pressure, at the centre: errors fall with the square of the spacing."""
-    found = []
+    entries = []
     for size in (15, 45, 135):
         patch = Patch(Compliance(size, 4.0 / size, Materials(1.0)))
         squares = patch.grid.line[:, None] ** 2 + patch.grid.line**2
-        found.append(patch.compliance.normal(np.exp(-4.0 * squares))[size // 2, size // 2])
+        entries.append(patch.compliance.normal(np.exp(-4.0 * squares))[size // 2, size // 2])
     exact = np.sqrt(np.pi) / 2.0  # (1/pi) times 2 pi times the integral of exp(-4 r^2) over r
-    coarse, fine, finest = np.abs(np.array(found) - exact)
+    coarse, fine, finest = np.abs(np.array(entries) - exact)
     assert finest <= 3e-4
     assert 5.0 < coarse / fine < fine / finest < 9.0

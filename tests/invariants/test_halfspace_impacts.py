@@ -51,12 +51,12 @@ def test_the_history_is_the_theorys_in_every_column(both):
 def test_the_stick_radius_is_the_theorys(both):
     """To half an element, but within two steps of where gross slip gives way to stick."""
     full, exact = (hit.history(120) for hit in both)
-    found, theory = full.stick_radius.values, exact.stick_radius.values
+    actual, theory = full.stick_radius.values, exact.stick_radius.values
     half = exact.contact_radius.values.max() / COARSE.elements
     begins = exact.time.values[np.argmax(theory > 0.0)]
     away = np.abs(exact.time.values - begins) > 2.0 * both[0].duration / COARSE.steps
-    assert np.abs(found - theory)[away].max() <= half
-    assert np.median(np.abs(found - theory)[theory > 0.0]) <= 0.3 * half
+    assert np.abs(actual - theory)[away].max() <= half
+    assert np.median(np.abs(actual - theory)[theory > 0.0]) <= 0.3 * half
 
 
 def test_phases_are_the_theorys(both):

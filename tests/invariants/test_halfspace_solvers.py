@@ -34,36 +34,36 @@ def test_pressure_of_rough_bodies(seed):
     root = np.linalg.cholesky(matrix(compliance.normal, 1))
     exact, _ = nnls(root.T, np.linalg.solve(root, overlap.ravel()))
     start = np.zeros((SIZE, SIZE))
-    found = solve_pressure(compliance, overlap, start, TIGHT).load
+    load = solve_pressure(compliance, overlap, start, TIGHT).load
     assert 5 <= np.count_nonzero(exact) <= 60
-    assert np.abs(found.ravel() - exact).max() <= 1e-7 * exact.max()
-    assert np.array_equal(found.ravel() > 0.0, exact > 0.0)
+    assert np.abs(load.ravel() - exact).max() <= 1e-7 * exact.max()
+    assert np.array_equal(load.ravel() > 0.0, exact > 0.0)
 
 
-def by_projected_gradients(compliance, given, bound):
+def by_projected_gradients(compliance, inputs, bound):
     """Return the traction of least energy by Nesterov's accelerated gradients (1983)."""
     dense = matrix(compliance.tangential, 2)
     values = np.linalg.eigvalsh(dense)
     ratio = np.sqrt(values[0] / values[-1])
     speed = (1.0 - ratio) / (1.0 + ratio)
-    here = ahead = np.zeros(given.size)
+    here = ahead = np.zeros(inputs.size)
     for _ in range(1500):
-        trial = ahead + (given.ravel() - dense @ ahead) / values[-1]
+        trial = ahead + (inputs.ravel() - dense @ ahead) / values[-1]
         size = np.hypot(*trial.reshape(2, -1))
         cut = np.minimum(1.0, bound.ravel() / np.maximum(size, 1e-300))
         new = trial * np.tile(cut, 2)
         here, ahead = new, new + speed * (new - here)
-    return here.reshape(given.shape)
+    return here.reshape(inputs.shape)
 
 
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("kappa", [1.0, 0.7])
 def test_traction_of_any_history(seed, kappa):
     compliance = Compliance(SIZE, 0.3, Materials(kappa))
-    given, bound = 0.5 * bumps(seed, 2), np.maximum(bumps(seed + 100), 0.0)
-    exact = by_projected_gradients(compliance, given, bound)
-    found = solve_traction(compliance, given, bound, np.zeros_like(given), TIGHT).load
-    assert np.abs(found - exact).max() <= 1e-7 * bound.max()
+    values, bound = 0.5 * bumps(seed, 2), np.maximum(bumps(seed + 100), 0.0)
+    exact = by_projected_gradients(compliance, values, bound)
+    load = solve_traction(compliance, values, bound, np.zeros_like(values), TIGHT).load
+    assert np.abs(load - exact).max() <= 1e-7 * bound.max()
     slips = np.hypot(*exact) >= bound * (1.0 - 1e-9)
     assert 3 <= np.count_nonzero(slips & (bound > 0.0)) <= np.count_nonzero(bound) - 3
 
@@ -72,9 +72,9 @@ def test_traction_of_any_history(seed, kappa):
 def test_coulombs_law_at_every_element(seed):
     """|q| <= p; where it is less nothing moves, elsewhere slip is along q and never against it."""
     compliance = Compliance(SIZE, 0.3, Materials(0.75))
-    given, bound = 0.5 * bumps(seed, 2), np.maximum(bumps(seed + 100), 0.0)
-    traction, dragged = solve_traction(compliance, given, bound, np.zeros_like(given), TIGHT)
-    size, slip = np.hypot(*traction), given - dragged
+    values, bound = 0.5 * bumps(seed, 2), np.maximum(bumps(seed + 100), 0.0)
+    traction, dragged = solve_traction(compliance, values, bound, np.zeros_like(values), TIGHT)
+    size, slip = np.hypot(*traction), values - dragged
     noise = 10.0 * TIGHT * bound.max() * compliance.tangential_diagonal
     assert np.all(size <= bound * (1.0 + 1e-12))
     touches, slips = bound > 0.0, np.hypot(*slip) > noise
@@ -89,13 +89,13 @@ def test_coulombs_law_at_every_element(seed):
 def test_start_does_not_matter():
     """The energy has one minimum: from any start the same traction."""
     compliance = Compliance(SIZE, 0.3, Materials(0.75))
-    given, bound = bumps(1, 2), np.maximum(bumps(51), 0.0)
-    found = [
-        solve_traction(compliance, given, bound, start, TIGHT).load
-        for start in (np.zeros_like(given), bumps(8, 2), -given)
+    source, bound = bumps(1, 2), np.maximum(bumps(51), 0.0)
+    values = [
+        solve_traction(compliance, source, bound, start, TIGHT).load
+        for start in (np.zeros_like(source), bumps(8, 2), -source)
     ]
-    assert np.abs(found[1] - found[0]).max() <= 1e-7 * bound.max()
-    assert np.abs(found[2] - found[0]).max() <= 1e-7 * bound.max()
+    assert np.abs(values[1] - values[0]).max() <= 1e-7 * bound.max()
+    assert np.abs(values[2] - values[0]).max() <= 1e-7 * bound.max()
 
 
 def test_nothing_touches():

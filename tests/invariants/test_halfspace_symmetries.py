@@ -54,11 +54,11 @@ def test_no_direction_is_special(psi):
     for degrees, bound in ((45.0, 5e-5), (20.0, 5e-5), (90.0, 1e-9)):
         angle = np.radians(degrees)
         direction = np.array([np.cos(angle), np.sin(angle)])
-        found = rebound(tuple(psi * direction), LIKE, 16, 40)
-        assert found @ direction == pytest.approx(along[0], abs=bound)
-        assert abs(found @ [-direction[1], direction[0]]) <= bound
+        psi_out = rebound(tuple(psi * direction), LIKE, 16, 40)
+        assert psi_out @ direction == pytest.approx(along[0], abs=bound)
+        assert abs(psi_out @ [-direction[1], direction[0]]) <= bound
         if degrees == 45.0:
-            assert found[0] == pytest.approx(found[1], abs=1e-9)
+            assert psi_out[0] == pytest.approx(psi_out[1], abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -101,9 +101,9 @@ def test_spin_reversed():
 
 def test_normal_motion_of_like_materials():
     """Friction does not enter: Hertz's impact, of duration 2.9433, depth 1, force 4/3."""
-    found, others = (impact((psi, 0.0), LIKE, 20, 80) for psi in (1.0, 3.0))
-    assert found[-1].time == pytest.approx(2.94327518, rel=1e-3)
-    assert found[-1].approach == pytest.approx(-1.0, abs=1e-3)
-    assert max(now.step.state.depth for now in found) == pytest.approx(1.0, abs=1e-3)
-    assert max(now.force for now in found) == pytest.approx(4.0 / 3.0, rel=1e-3)
-    assert [now.force for now in others] == pytest.approx([now.force for now in found], rel=1e-12)
+    actual, others = (impact((psi, 0.0), LIKE, 20, 80) for psi in (1.0, 3.0))
+    assert actual[-1].time == pytest.approx(2.94327518, rel=1e-3)
+    assert actual[-1].approach == pytest.approx(-1.0, abs=1e-3)
+    assert max(now.step.state.depth for now in actual) == pytest.approx(1.0, abs=1e-3)
+    assert max(now.force for now in actual) == pytest.approx(4.0 / 3.0, rel=1e-3)
+    assert [now.force for now in others] == pytest.approx([now.force for now in actual], rel=1e-12)

@@ -68,8 +68,8 @@ def contacts():
     yield [list(angle) for angle in hit.slip_angles]
     rng = np.random.default_rng(7)
     normal = rng.uniform(1.0, 9.0, 40)
-    given = {"tangential_force": 0.2 * normal * rng.uniform(-1.0, 1.0, 40)}
-    path = carom.load_path(PAIR, normal_force=normal, **given)
+    inputs = {"tangential_force": 0.2 * normal * rng.uniform(-1.0, 1.0, 40)}
+    path = carom.load_path(PAIR, normal_force=normal, **inputs)
     yield from parts(path.to_dataset(), unit)
     yield from parts(path.fields(points=reach).drop_vars("zone"), unit)
     state = turning.apart(0.0, np.zeros(2), 0.0)
@@ -93,8 +93,8 @@ def lossy():
         yield [solution.max_force, solution.max_penetration]
         yield from (h.force, h.dissipated, h.normal_lost, h.stick_radius)
     for psi, chi, solid in MARCHED:
-        kept, given = march.new_work(1000), (motion.Inertia(chi), motion.Solid(*solid))
-        steps = march.trace(psi, *given, SPRINGS, march.new_work(), kept)
+        kept, values = march.new_work(1000), (motion.Inertia(chi), motion.Solid(*solid))
+        steps = march.trace(psi, *values, SPRINGS, march.new_work(), kept)
         yield kept.rows[:steps]
 
 

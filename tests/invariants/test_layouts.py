@@ -84,6 +84,6 @@ def test_of_any_layout(call):
     for name, layout in LAYOUTS.items():
         other = arrays(CALLS[call](layout))
         assert len(plain) == len(other) > 0
-        for expected, found in zip(plain, other, strict=True):
+        for expected, value in zip(plain, other, strict=True):
             size = np.abs(expected).max(initial=0.0)
-            np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-14 * size, err_msg=name)
+            np.testing.assert_allclose(value, expected, rtol=1e-13, atol=1e-14 * size, err_msg=name)

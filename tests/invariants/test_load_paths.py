@@ -61,8 +61,8 @@ def springs(d, u, s, parts):
 @given(walks)
 def test_same_as_springs_one_by_one(walk):
     s = ((np.arange(101) + 0.5) / 101) ** 2
-    found = deflections(moved(*walk).stack, s)
-    assert_allclose(found, springs(*walk, s, 3), rtol=0, atol=3e-15)
+    actual = deflections(moved(*walk).stack, s)
+    assert_allclose(actual, springs(*walk, s, 3), rtol=0, atol=3e-15)
 
 
 @EXAMPLES
@@ -126,8 +126,8 @@ def test_a_step_may_be_split(walk, cuts):
     last = split.results[shares.size - 1 :: shares.size]
     assert_allclose(last[:, COLUMNS], whole.results[:, COLUMNS], rtol=0, atol=1e-13)
     s = np.linspace(0.0, 1.0, 50)
-    found, expected = (deflections(path.stack, s) for path in (split, whole))
-    assert_allclose(found, expected, rtol=0, atol=1e-14)
+    actual, expected = (deflections(path.stack, s) for path in (split, whole))
+    assert_allclose(actual, expected, rtol=0, atol=1e-14)
 
 
 @EXAMPLES
@@ -226,8 +226,8 @@ def test_slip_is_that_of_an_impact_with_the_same_motion():
     radii = np.linspace(0.0, 1.0, 9)
     for end in (0.9, 1.6, 2.2):
         history = solution.at(np.linspace(0.0, end, 20001)[1:])
-        found = paths.slid(history.penetration, history.displacement, radii)
-        assert_allclose(found, solution.slid(end, radii), rtol=0, atol=2e-6)
+        actual = paths.slid(history.penetration, history.displacement, radii)
+        assert_allclose(actual, solution.slid(end, radii), rtol=0, atol=2e-6)
         path = moved(history.penetration, history.displacement).results
         assert_allclose(path[:, paths.TRACTION], history.force, rtol=0, atol=1e-7)
         assert_allclose(path[-1, paths.STORED], history.stored[-1] / 3.75 / 1.44, rtol=0, atol=1e-7)

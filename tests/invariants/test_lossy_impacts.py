@@ -50,10 +50,10 @@ def impacts(seed: int, count: int) -> tuple[Array, Array, Array]:
 
 def solved(psi: Array, chi: Array, parameter: Array) -> LossyRebounds:
     """Return impacts, all of which must be solved."""
-    found = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, parameter))
-    failed = np.flatnonzero(found.status != Status.SOLVED)
+    rebounds = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, parameter))
+    failed = np.flatnonzero(rebounds.status != Status.SOLVED)
     assert failed.size == 0, [(psi[i], chi[i], parameter[i]) for i in failed[:5]]
-    return found
+    return rebounds
 
 
 def histories(seed: int, count: int) -> list[LossySolution]:
@@ -70,12 +70,12 @@ def test_without_losses_it_is_the_elastic_solver() -> None:
     chi = np.append(rng.uniform(0.3, 3.0, 500), 10.0 ** rng.uniform(-2.0, 1.7, 200))
     exact = carom.rebound(psi, chi)
     work, record, numbers = new_work(), new_record(False), np.zeros(NUMBERS)
-    found = np.empty(700)
+    values = np.empty(700)
     for i in range(700):  # lossy_rebounds would hand them to the elastic solver
         solid = Solid(chi[i], 0.0, TOLERANCE)
         assert outgoing(psi[i], solid, work, record, numbers)[0] == Status.SOLVED
-        found[i] = numbers[PSI_OUT]
-    error = np.abs(found - exact) / np.maximum(1.0, psi)
+        values[i] = numbers[PSI_OUT]
+    error = np.abs(values - exact) / np.maximum(1.0, psi)
     assert np.max(error) < PROMISED
     assert np.quantile(error, 0.95) < 1e-9
 
@@ -85,11 +85,11 @@ def test_vanishing_losses_give_the_elastic_impact() -> None:
     psi, chi, _ = impacts(6, 150)
     exact = carom.rebound(psi, chi)
     for alpha in (1e-4, 1e-6, 1e-8, 1e-11):
-        found = solved(psi, chi, np.full(150, alpha))
-        error = np.abs(found.psi_out - exact) / np.maximum(1.0, psi)
+        result = solved(psi, chi, np.full(150, alpha))
+        error = np.abs(result.psi_out - exact) / np.maximum(1.0, psi)
         assert np.max(error) < 6.0 * alpha + PROMISED
         assert np.median(error) < 1.2 * alpha + 1e-11
-        assert np.max(np.abs(1.0 - 1.891706 * alpha - found.restitution)) < 4.0 * alpha**2 + 1e-9
+        assert np.max(np.abs(1.0 - 1.891706 * alpha - result.restitution)) < 4.0 * alpha**2 + 1e-9
 
 
 LOSSES = (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999, 0.9999)
@@ -108,10 +108,10 @@ def all_losses(count: int, seed: int) -> tuple[Array, Array, Array]:
 def test_impacts_are_solved_to_what_is_promised() -> None:
     """1e-8 max(1, psi_1): smaller panels change them by less; 5e-10 was the largest of 4000."""
     psi, chi, alpha = all_losses(400, 1)
-    found, law = solved(psi, chi, alpha), LossNumbers(Loss.VISCOUS, alpha)
+    rebounds, law = solved(psi, chi, alpha), LossNumbers(Loss.VISCOUS, alpha)
     finer = lossy_rebounds(psi, chi, law, tolerance=1e-10)
     assert np.all(finer.status == Status.SOLVED)
-    assert np.max(np.abs(found.psi_out - finer.psi_out) / np.maximum(1.0, psi)) < PROMISED
+    assert np.max(np.abs(rebounds.psi_out - finer.psi_out) / np.maximum(1.0, psi)) < PROMISED
 
 
 @pytest.mark.parametrize(
@@ -121,8 +121,8 @@ def test_impacts_are_solved_to_what_is_promised() -> None:
 def test_panels_that_end_with_the_loading(psi: float, chi: float) -> None:
     """To rounding, by chance."""
     beside = psi * (1.0 + 1e-9 * np.arange(-1.0, 2.0))
-    found = solved(beside, np.full(3, chi), np.full(3, viscous_loss(0.3)))
-    assert np.ptp(found.psi_out) < 1e-8
+    rebounds = solved(beside, np.full(3, chi), np.full(3, viscous_loss(0.3)))
+    assert np.ptp(rebounds.psi_out) < 1e-8
 
 
 @pytest.mark.parametrize(
@@ -138,8 +138,8 @@ def test_panels_that_end_with_the_loading(psi: float, chi: float) -> None:
 def test_events_beside_the_end_of_something(psi: float, chi: float, e: float) -> None:
     """Each once was missed, or told again and again; a smooth curve has no steps."""
     beside = psi * (1.0 + np.array([-2e-9, -1e-9, -1e-12, 0.0, 1e-12, 1e-9, 2e-9]))
-    found = solved(beside, np.full(7, chi), np.full(7, viscous_loss(e)))
-    assert np.ptp(found.psi_out) < 1e-7
+    rebounds = solved(beside, np.full(7, chi), np.full(7, viscous_loss(e)))
+    assert np.ptp(rebounds.psi_out) < 1e-7
 
 
 @pytest.mark.parametrize("psi", [0.0, 5e-4, 0.01, 0.03, 0.1, 1.0])
@@ -180,9 +180,9 @@ def test_impacts_come_no_further_apart(law: str) -> None:
     for chi in (1.44,) if few else (1.44, 0.5, 2.8):
         for start, step, count in ((0.0, 0.1, 51), (0.95, 8e-4, 30), (2.0, 1e-5, 20)):
             psi = start + step * np.arange(count)
-            found = lossy_rebounds(psi, np.full(count, chi), losses)
-            assert np.all(found.status == Status.SOLVED)
-            apart = np.max(np.abs(np.diff(found.psi_out)) - step)
+            rebounds = lossy_rebounds(psi, np.full(count, chi), losses)
+            assert np.all(rebounds.status == Status.SOLVED)
+            apart = np.max(np.abs(np.diff(rebounds.psi_out)) - step)
             assert apart < 2.0 * CLOSE[losses.loss] * (1.0 + psi[-1])
 
 
@@ -197,9 +197,9 @@ def test_small_changes_of_chi_and_loss_change_little() -> None:
 def test_friction_bounds_the_impulse_and_energy_is_lost() -> None:
     """|psi_1 - psi_2| <= 2 chi (1 + e), and |psi_2| <= |psi_1|."""
     psi, chi, parameter = np.hstack((impacts(9, 200), all_losses(200, 3)))
-    found = solved(psi, chi, parameter)
-    assert np.all(np.abs(psi - found.psi_out) <= 2.0 * chi * (1.0 + found.restitution) + 1e-9)
-    assert np.all(np.abs(found.psi_out) <= psi + 1e-9)
+    result = solved(psi, chi, parameter)
+    assert np.all(np.abs(psi - result.psi_out) <= 2.0 * chi * (1.0 + result.restitution) + 1e-9)
+    assert np.all(np.abs(result.psi_out) <= psi + 1e-9)
 
 
 def test_ledgers_close_along_the_history() -> None:
@@ -289,13 +289,13 @@ def test_histories_agree_with_themselves() -> None:
         assert s.psi_in - 3.75 * s.chi * impulse == pytest.approx(s.psi_out, abs=2e-5)
         for name in ("penetration", "contact_radius", "normal_force"):
             largest = np.max(getattr(h, name))
-            told = getattr(
+            answer = getattr(
                 s,
                 {"normal_force": "max_force", "contact_radius": "max_radius"}.get(
                     name, "max_penetration"
                 ),
             )
-            assert largest - 1e-9 <= told <= largest + 3e-6, name
+            assert largest - 1e-9 <= answer <= largest + 3e-6, name
 
 
 @pytest.mark.parametrize("impact", [(0.3, 2.0, 0.2), (3.0, 1.44, 0.1)])
@@ -343,8 +343,8 @@ def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
         slopes.append(psi)
     limit = (4.0 * slopes[1] - slopes[0]) / 3.0
     for psi in (1e-12, 1e-7, 5e-5):
-        found = solve_lossy(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).psi_out / psi
-        assert found == pytest.approx(limit, abs=2e-4)
+        value = solve_lossy(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).psi_out / psi
+        assert value == pytest.approx(limit, abs=2e-4)
 
 
 def test_small_psi_where_twice_the_smallest_is_not_solved() -> None:
@@ -369,20 +369,20 @@ def test_bad_input_is_told_and_takes_no_time() -> None:
     for status, cases in [*wrong.items(), (None, extreme)]:
         for (psi, chi, parameter), law in product(cases, LAWS):
             begun = time.process_time()
-            found = lossy_rebounds(*np.array([[psi], [chi]]), LossNumbers(law, parameter, 1.0))
+            rebounds = lossy_rebounds(*np.array([[psi], [chi]]), LossNumbers(law, parameter, 1.0))
             assert time.process_time() - begun < 10.0
-            assert status is None or found.status[0] == status
-            rest = np.array([column[0] for column in found[:-1]])
-            assert np.all(np.isfinite(rest) == (found.status[0] == Status.SOLVED))
+            assert status is None or rebounds.status[0] == status
+            rest = np.array([column[0] for column in rebounds[:-1]])
+            assert np.all(np.isfinite(rest) == (rebounds.status[0] == Status.SOLVED))
 
 
 @pytest.mark.parametrize("chi", [0.01, 0.2, 8.0, 30.0, 60.0])
 def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
     psi = np.append(np.linspace(0.01, 8.0, 9), [20.0, 100.0, 1000.0])
     for law in LAWS:
-        found = lossy_rebounds(psi, np.full(12, chi), LossNumbers(law, 0.2, 1.0))
-        assert np.all(found.status == Status.SOLVED)
-        assert np.all(np.abs(found.psi_out) < psi)
+        rebounds = lossy_rebounds(psi, np.full(12, chi), LossNumbers(law, 0.2, 1.0))
+        assert np.all(rebounds.status == Status.SOLVED)
+        assert np.all(np.abs(rebounds.psi_out) < psi)
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -400,12 +400,12 @@ def test_friction_takes_energy_however_slow_or_fast_the_slip(law: Loss) -> None:
         parameter = rng.uniform(1e-3, 2.0, count)
     if law is Loss.RELAXING:
         extra = 10.0 ** rng.uniform(-1.0, 2.5, count)
-    found = lossy_rebounds(psi, chi, LossNumbers(law, parameter, extra))
-    assert np.all(found.status == Status.SOLVED)
-    assert np.all(np.abs(found.psi_out) <= psi)
-    assert np.all(found.shear_lost >= 0.0)
-    lost = 0.5 * (psi - found.psi_out) * (psi + found.psi_out)
-    assert np.min((lost - found.shear_lost) / psi**2) > -1e-15
+    rebounds = lossy_rebounds(psi, chi, LossNumbers(law, parameter, extra))
+    assert np.all(rebounds.status == Status.SOLVED)
+    assert np.all(np.abs(rebounds.psi_out) <= psi)
+    assert np.all(rebounds.shear_lost >= 0.0)
+    lost = 0.5 * (psi - rebounds.psi_out) * (psi + rebounds.psi_out)
+    assert np.min((lost - rebounds.shear_lost) / psi**2) > -1e-15
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -414,7 +414,7 @@ def test_slow_slip_is_linear(law: Loss) -> None:
     psi = np.array([1e-100, 1e-30, 1e-9, 1e-7])
     for chi in (0.3, 1.44, 5.0):
         parameter = 0.4 if law is Loss.PLASTIC else 0.3
-        found = lossy_rebounds(psi, np.full(4, chi), LossNumbers(law, parameter, 0.5))
-        assert found.psi_out / psi == pytest.approx(found.psi_out[-1] / psi[-1], abs=2e-7)
-        shares = found.shear_lost / psi**2
+        rebounds = lossy_rebounds(psi, np.full(4, chi), LossNumbers(law, parameter, 0.5))
+        assert rebounds.psi_out / psi == pytest.approx(rebounds.psi_out[-1] / psi[-1], abs=2e-7)
+        shares = rebounds.shear_lost / psi**2
         assert shares == pytest.approx(shares[-1], abs=3e-4)  # marched ones: energies to 1e-4

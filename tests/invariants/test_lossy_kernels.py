@@ -75,6 +75,6 @@ def test_a_record_leaves_every_bit(impact: tuple[float, float, tuple[Loss, float
 def test_rebound_solve_and_impact_are_one_solver(pair: carom.Pair) -> None:
     law = carom.KelvinVoigt(restitution=0.8)
     hit = carom.impact(pair, normal_speed=1.5, tangential_speed=1.0, losses=law)
-    found = carom.rebound(hit.psi_in, pair.chi, losses=law)
-    assert found == carom.solve(hit.psi_in, pair.chi, losses=law).psi_out
-    assert hit.psi_out == found
+    psi_out = carom.rebound(hit.psi_in, pair.chi, losses=law)
+    assert psi_out == carom.solve(hit.psi_in, pair.chi, losses=law).psi_out
+    assert hit.psi_out == psi_out

@@ -138,8 +138,8 @@ def test_curve_of_impacts_with_losses(capsys, tmp_path, monkeypatch):
     from carom.plots import plot_curve
 
     axis = plot_curve(carom.curve(1.44, np.linspace(0.0, 6.0, 9), losses=LOSSES)).axes[0]
-    told = [text.get_text() for text in axis.get_legend().get_texts()]
-    assert told[0] == r"$\chi$ = 1.44"
-    assert len(told) == 5  # and the regimes, as without losses
+    entries = [text.get_text() for text in axis.get_legend().get_texts()]
+    assert entries[0] == r"$\chi$ = 1.44"
+    assert len(entries) == 5  # and the regimes, as without losses
     assert main(["curve", "--chi", "1.44", "--restitution", "1.5"]) == 2
     assert capsys.readouterr().err.startswith("carom: restitution: '1.5' cannot be used")

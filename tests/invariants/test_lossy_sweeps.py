@@ -36,13 +36,13 @@ SOLVER = 1e-8  # what an impact with losses is solved to
 ULP = 1e-10  # what the solver makes of a last bit, of powers of arrays and of numbers, at most
 
 
-def require_same(problem, found, case, at, point):
+def require_same(problem, actual, case, at, point):
     """Every output of a point is that of `impact`, against the largest of the block."""
     hit = solved_alone(case, point).scalars()
-    assert found["status"].flat[at] == PointStatus.SOLVED
+    assert actual["status"].flat[at] == PointStatus.SOLVED
     for name in problem.outputs:
-        scale = np.nanmax(np.abs(found[name]))
-        value, wanted = found[name].flat[at], hit[name]
+        scale = np.nanmax(np.abs(actual[name]))
+        value, wanted = actual[name].flat[at], hit[name]
         assert value == pytest.approx(wanted, rel=ULP, abs=ULP * scale, nan_ok=True), name
 
 
@@ -55,11 +55,11 @@ def test_a_swept_loss_gives_what_single_impacts_give(loss, kind):
     table = Table({name: rng.uniform(*ends, POINTS) for name, ends in ranges.items()})
     for design in (cube, table):
         problem = SweepProblem(case, design)
-        found, given = problem.block(whole(design)), design.inputs(whole(design))
+        actual, source = problem.block(whole(design)), design.inputs(whole(design))
         assert set(problem.outputs) >= {*OUTPUTS[:3], "normal_restitution", "lost_energy"}
         for at in range(POINTS):
-            point = {name: float(values[at]) for name, values in given.items()}
-            require_same(problem, found, case, at, point)
+            point = {name: float(values[at]) for name, values in source.items()}
+            require_same(problem, actual, case, at, point)
 
 
 @pytest.mark.parametrize(
@@ -71,11 +71,11 @@ def test_a_fixed_loss_holds_at_every_point(loss):
     grid = Grid({"angle": [0.0, 0.4], "speed": ["50 cm/s", 2.0], "friction": [0.0, 0.3]})
     outputs = ["normal_restitution", "psi_out", "duration", "max_force", "chi"]
     problem = SweepProblem(case, grid, outputs)
-    found, given = problem.block(whole(grid)), grid.inputs(whole(grid))
+    actual, values = problem.block(whole(grid)), grid.inputs(whole(grid))
     for at in range(8):
-        require_same(problem, found, case, at, {key: float(v[at]) for key, v in given.items()})
+        require_same(problem, actual, case, at, {key: float(v[at]) for key, v in values.items()})
     if name == "restitution":
-        assert np.max(np.abs(found["normal_restitution"] - 0.8)) < SOLVER
+        assert np.max(np.abs(actual["normal_restitution"] - 0.8)) < SOLVER
 
 
 BAD = {
@@ -95,12 +95,12 @@ def test_bad_rows_have_a_status_and_spoil_nothing(loss):
     rows = rng.permutation(20)[: len(BAD[loss])]
     bad[loss][rows] = list(BAD[loss])
     problem = SweepProblem(BALL, Table(bad))
-    found, others = problem.block((slice(0, 20),)), np.setdiff1d(np.arange(20), rows)
+    actual, others = problem.block((slice(0, 20),)), np.setdiff1d(np.arange(20), rows)
     for name in (*problem.outputs, "status"):
-        assert found[name][others].tobytes() == expected[name][others].tobytes(), name
-    assert found["status"][rows].tolist() == list(BAD[loss].values())
+        assert actual[name][others].tobytes() == expected[name][others].tobytes(), name
+    assert actual["status"][rows].tolist() == list(BAD[loss].values())
     for row in rows:
-        assert all(np.isnan(found[name][row]) for name in problem.outputs)
+        assert all(np.isnan(actual[name][row]) for name in problem.outputs)
         with pytest.raises(InputError):
             solved_alone(BALL, {name: float(values[row]) for name, values in bad.items()})
 
@@ -111,16 +111,16 @@ def test_the_yield_velocity_of_the_materials():
     names = ["aluminium-6061", "bearing-steel", "glass"]
     grid = Grid({"first.material": names, "second.material": names, "first.radius": [0.001, 0.02]})
     problem = SweepProblem(case, grid, ["normal_restitution", "psi_out"])
-    found, given = problem.block(whole(grid)), grid.inputs(whole(grid))
+    actual, values = problem.block(whole(grid)), grid.inputs(whole(grid))
     assert carom.material("glass").yield_strength is None
     for at in range(18):
-        first, second = (names[given[f"{body}.material"][at]] for body in ("first", "second"))
+        first, second = (names[values[f"{body}.material"][at]] for body in ("first", "second"))
         if (first, second) == ("glass", "glass"):
-            assert found["status"].flat[at] == PointStatus.NOT_A_NUMBER
+            assert actual["status"].flat[at] == PointStatus.NOT_A_NUMBER
             continue
         point = {"first.material": first, "second.material": second}
-        point["first.radius"] = float(given["first.radius"][at])
-        require_same(problem, found, case, at, point)
+        point["first.radius"] = float(values["first.radius"][at])
+        require_same(problem, actual, case, at, point)
     soft = {"young": 7e10, "poisson": 0.3, "density": 2700, "yield_strength": "200 MPa"}
     case |= {"first": {"radius": "5 mm", "material": soft}}
     grid = Grid({"first.material.poisson": [0.2, 0.4]})
@@ -147,9 +147,9 @@ def test_descriptions_tell_losses_apart_and_leave_elastic_sweeps_as_they_were():
     losses = ({}, {"restitution": 0.9}, {"restitution": 0.8}, {"loss_time": 1e-6})
     losses += ({"yield_velocity": 0.1}, {"yield_velocity": "material"})
     problems = [SweepProblem(case | loss, grid, ["psi_out"]) for loss in losses]
-    told = [json.dumps(problem.description()) for problem in problems]
-    assert len(set(told)) == len(losses)
-    assert str(carom.material("steel").yield_strength) in told[-1]
+    entries = [json.dumps(problem.description()) for problem in problems]
+    assert len(set(entries)) == len(losses)
+    assert str(carom.material("steel").yield_strength) in entries[-1]
 
 
 ANGLE = Grid({"angle": [0.1, 0.2]})
@@ -186,11 +186,11 @@ def test_standard_linear_solids_are_those_of_impact():
     ratios, speeds = [1.0, 1.5, 4.0, 0.5], [0.2, 3.0]
     design = Grid({"modulus_ratio": ratios, "speed": speeds})
     problem = SweepProblem(case, design)
-    found = problem.block(whole(design))
+    block = problem.block(whole(design))
     for at, (ratio, speed) in enumerate(product(ratios[:3], speeds)):
-        require_same(problem, found, case, at, {"modulus_ratio": ratio, "speed": speed})
-    assert found["status"][3].tolist() == [PointStatus.OUT_OF_RANGE] * 2
-    assert found["normal_restitution"][0] == pytest.approx([1.0, 1.0])
+        require_same(problem, block, case, at, {"modulus_ratio": ratio, "speed": speed})
+    assert block["status"][3].tolist() == [PointStatus.OUT_OF_RANGE] * 2
+    assert block["normal_restitution"][0] == pytest.approx([1.0, 1.0])
     for half in ({"relaxation_time": 1e-5}, {"modulus_ratio": 2.0}):
         with pytest.raises(InputError, match="missing; give it together with"):
             SweepProblem({**BALL, **half}, Grid({"angle": [0.1]}))

@@ -31,13 +31,13 @@ def test_friction_bounds_the_impulse_and_energy_is_lost(law):
     stick until they have caught up: a thousandth of the impulse at most.
     """
     psi, chi = impacts(9, 40)
-    found = lossy_rebounds(psi, chi, law)
-    most = 2.0 * chi * (1.0 + found.restitution)
-    assert np.all(found.status == Status.SOLVED)
-    assert np.all(np.abs(psi - found.psi_out) <= most + 1e-6)
-    assert np.all(np.abs(found.psi_out) <= psi + 1e-9)
+    rebounds = lossy_rebounds(psi, chi, law)
+    most = 2.0 * chi * (1.0 + rebounds.restitution)
+    assert np.all(rebounds.status == Status.SOLVED)
+    assert np.all(np.abs(psi - rebounds.psi_out) <= most + 1e-6)
+    assert np.all(np.abs(rebounds.psi_out) <= psi + 1e-9)
     far = psi > most + 1.0
-    short = (most - np.abs(psi - found.psi_out))[far] / most[far]
+    short = (most - np.abs(psi - rebounds.psi_out))[far] / most[far]
     assert np.all((short >= -1e-7) & (short < (1e-3 if law.loss is Loss.PLASTIC else 1e-6)))
     assert 5 < far.sum() < 40
 
@@ -100,12 +100,12 @@ def test_fields_are_the_elastic_ones_where_nothing_is_lost(law, psi):
     assert s.psi_out == pytest.approx(exact.psi_out, abs=1e-6 * max(psi, 1.0))
     parts = np.array([0.0, 0.1, 0.3, 0.5, 0.7, 0.9])
     for time in (0.3, 1.1, 1.9, 2.6):
-        found, wanted = s.contact_at(time), exact.contact_at(time)
+        actual, wanted = s.contact_at(time), exact.contact_at(time)
         radii = parts * wanted.radius
-        assert found.radius == pytest.approx(wanted.radius, abs=2e-5)
+        assert actual.radius == pytest.approx(wanted.radius, abs=2e-5)
         assert s.traction(time, radii) == pytest.approx(exact.traction(time, radii), abs=2e-3)
-        assert found.slid(radii) == pytest.approx(wanted.slid(radii), abs=5e-4)
-        rates = found.slipping(radii) - wanted.slipping(radii)
+        assert actual.slid(radii) == pytest.approx(wanted.slid(radii), abs=5e-4)
+        rates = actual.slipping(radii) - wanted.slipping(radii)
         assert np.median(np.abs(rates)) < 2e-3
         assert np.max(np.abs(rates)) < 0.05
     work = exact.friction_work(parts)
@@ -149,10 +149,10 @@ def test_work_of_friction_is_what_the_ledger_says(law, psi):
 def test_figures_and_wear_of_marched_impacts():
     ball = carom.Sphere(radius="5 mm", material="nylon")
     pair = carom.Pair(ball, carom.HalfSpace(material="nylon"), friction=0.2)
-    given = {"normal_speed": 1.0, "tangential_speed": 0.5}
-    hit = carom.impact(pair, **given, losses=carom.StandardLinearSolid(1.5, "20 us"))
-    elastic = carom.impact(pair, **given)
-    like = carom.impact(pair, **given, losses=carom.StandardLinearSolid(1.0001, "20 us"))
+    inputs = {"normal_speed": 1.0, "tangential_speed": 0.5}
+    hit = carom.impact(pair, **inputs, losses=carom.StandardLinearSolid(1.5, "20 us"))
+    elastic = carom.impact(pair, **inputs)
+    like = carom.impact(pair, **inputs, losses=carom.StandardLinearSolid(1.0001, "20 us"))
     half = 0.5 * elastic.duration
     exact, nearly, above = (each.stress(half) for each in (elastic, like, hit))
     for name in ("max_von_mises", "max_tension"):

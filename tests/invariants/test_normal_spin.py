@@ -37,23 +37,23 @@ ENERGIES = (
 @pytest.mark.parametrize("second", [STEEL, GLASS])
 def test_energy(second):
     """What friction takes is what the motions lose, that of the spin and across included."""
-    found = hit(pair(second=second), 400.0)
-    history = found.history(400)
-    across = 0.5 * found.pair.tangential_mass * history.contact_velocity_across.values**2
+    actual = hit(pair(second=second), 400.0)
+    history = actual.history(400)
+    across = 0.5 * actual.pair.tangential_mass * history.contact_velocity_across.values**2
     total = sum(history[name].values for name in ENERGIES) + across
     moving = history.normal_kinetic_energy.values[0]
     assert np.abs(total - total[0]).max() <= 2e-3 * moving
-    assert found.dissipated_energy == pytest.approx(float(history.frictional_work[-1]), rel=5e-3)
-    assert (abs(found.contact_velocity_across) > 1e-4) == (second is GLASS)
+    assert actual.dissipated_energy == pytest.approx(float(history.frictional_work[-1]), rel=5e-3)
+    assert (abs(actual.contact_velocity_across) > 1e-4) == (second is GLASS)
 
 
 def test_angular_momentum():
     """The moment over time is the inertia times the change of spin; two spheres share it."""
     for bodies in (pair(), carom.Pair(BALL, BALL, friction=0.2)):
-        found = hit(bodies, 400.0)
-        history = found.history(2000)
+        actual = hit(bodies, 400.0)
+        history = actual.history(2000)
         taken = float(np.trapezoid(history.frictional_moment, history.time))
-        change = normal_inertia(bodies) * (400.0 - found.normal_spin_out)
+        change = normal_inertia(bodies) * (400.0 - actual.normal_spin_out)
         assert taken == pytest.approx(change, rel=2e-3)
     one = 0.4 * BALL.mass * BALL.radius**2
     assert normal_inertia(bodies) == pytest.approx(0.5 * one)
@@ -62,9 +62,9 @@ def test_angular_momentum():
 def test_fast_spin_slips_all_around():
     """M = (3 pi/16) mu P b throughout: taken are (15/16)(pi/4)(4/5) B(6/5, 1/2) lightnesses."""
     bodies = pair()
-    found = hit(bodies, 3e5, angle="0 deg")
-    scaled = spin_about_normal(bodies, found.scales, 3e5)
-    taken = scaled.speed * (1.0 - found.normal_spin_out / 3e5)
+    actual = hit(bodies, 3e5, angle="0 deg")
+    scaled = spin_about_normal(bodies, actual.scales, 3e5)
+    taken = scaled.speed * (1.0 - actual.normal_spin_out / 3e5)
     path = 0.8 * gamma(1.2) * sqrt(pi) / gamma(1.7)
     assert scaled.speed > 50.0
     assert taken / scaled.lightness == pytest.approx(15.0 / 16.0 * pi / 4.0 * path, rel=5e-3)

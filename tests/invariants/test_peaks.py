@@ -55,23 +55,23 @@ def found_and_told(seed, case, shares):
     solution, friction, poisson = draw(rng, solid=case % 2 == 0)
     instants = [share * solution.duration for share in (*shares(rng), 0.5)]
     instants += [phase.start for phase in solution.phases if phase.start > 0.0]
-    told = [peak.value for peak in peaks(Contacts(solution, friction), poisson)]
-    return scanned(solution, friction, poisson, instants), np.array(told)
+    entries = [peak.value for peak in peaks(Contacts(solution, friction), poisson)]
+    return scanned(solution, friction, poisson, instants), np.array(entries)
 
 
 @pytest.mark.parametrize("case", range(2))
 def test_no_dense_scan_finds_more(case):
     """The promise of the docstring: dense scans find nothing that is larger by 1e-4."""
-    found, told = found_and_told(27, case, lambda rng: rng.uniform(0.02, 0.98, 16))
-    assert np.all(found <= (1.0 + ERROR) * told)
-    assert np.all(found >= 0.95 * told)  # the scan is no empty one
+    actual, answer = found_and_told(27, case, lambda rng: rng.uniform(0.02, 0.98, 16))
+    assert np.all(actual <= (1.0 + ERROR) * answer)
+    assert np.all(actual >= 0.95 * answer)  # the scan is no empty one
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", range(16))
 def test_no_dense_scan_of_many_impacts_finds_more(case):
-    found, told = found_and_told(28, case, lambda _: np.linspace(0.01, 0.99, 40))
-    assert np.all(found <= (1.0 + ERROR) * told)
+    actual, answer = found_and_told(28, case, lambda _: np.linspace(0.01, 0.99, 40))
+    assert np.all(actual <= (1.0 + ERROR) * answer)
 
 
 @pytest.mark.parametrize("restitution", [None, 0.6])
@@ -84,7 +84,7 @@ def test_no_dense_scan_below_a_depth_finds_more(friction, poisson, restitution):
     losses = None if restitution is None else carom.KelvinVoigt(restitution=restitution)
     hit = carom.impact(pair, speed=0.1, angle="25 deg", losses=losses)
     depth = 0.2 * hit.max_radius
-    told = hit.peaks(depth=depth).sel(body="second")
+    answer = hit.peaks(depth=depth).sel(body="second")
     x = np.concatenate([np.linspace(-4.0, 4.0, 41), [0.0]]) * hit.max_radius
     best = dict.fromkeys(PROMISED, 0.0)
     first = np.geomspace(1e-5, 0.02, 16)  # a viscous touch is a blow
@@ -94,8 +94,8 @@ def test_no_dense_scan_below_a_depth_finds_more(friction, poisson, restitution):
         for name, measure in PROMISED.items():
             best[name] = max(best[name], float(below[measure].max()))
     for name, most in best.items():
-        assert most <= (1.0 + ERROR) * float(told[name]), name
-        assert most >= 0.9 * float(told[name]), name
+        assert most <= (1.0 + ERROR) * float(answer[name]), name
+        assert most >= 0.9 * float(answer[name]), name
 
 
 @pytest.fixture(scope="module")
@@ -110,18 +110,18 @@ def hit():
 @pytest.mark.parametrize("body", ["first", "second"])
 def test_each_peak_is_the_stress_there_and_then(hit, body):
     """hit.stress, which knows nothing of the search, has the value at the place and time told."""
-    found = hit.peaks().sel(body=body)
+    actual = hit.peaks().sel(body=body)
     for name, measure in PROMISED.items():
-        at = [[float(found[f"{name}_{axis}"]) for axis in "xyz"]]
-        there = hit.stress(float(found[f"{name}_time"]), points=at, body=body)
-        assert float(there[measure][0]) == pytest.approx(float(found[name]), rel=2e-6)
+        at = [[float(actual[f"{name}_{axis}"]) for axis in "xyz"]]
+        there = hit.stress(float(actual[f"{name}_time"]), points=at, body=body)
+        assert float(there[measure][0]) == pytest.approx(float(actual[name]), rel=2e-6)
 
 
 def test_the_first_body_is_dragged_the_other_way(hit):
     """Of like bodies the peaks are the same, mirrored."""
     steel = carom.Pair(hit.pair.first, carom.HalfSpace(material="bearing steel"), friction=0.3)
-    found = carom.impact(steel, speed=1.0, angle="25 deg").peaks()
-    first, second = found.sel(body="first"), found.sel(body="second")
+    dataset = carom.impact(steel, speed=1.0, angle="25 deg").peaks()
+    first, second = dataset.sel(body="first"), dataset.sel(body="second")
     for name in PROMISED:
         assert float(first[name]) == float(second[name])
         assert float(first[f"{name}_x"]) == -float(second[f"{name}_x"]) != 0.0
@@ -153,7 +153,7 @@ def test_no_flaw_is_pulled_at_harder(flaw):
     stresses and Tada's weight, finds nothing that is larger.
     """
     solution, friction, poisson = carom.solve(0.8, 1.44), 0.2, 0.23
-    told = intensity(Contacts(solution, friction), poisson, flaw)
+    answer = intensity(Contacts(solution, friction), poisson, flaw)
     nodes, weights = np.polynomial.legendre.leggauss(24)
     w = 0.5 + 0.5 * nodes
     u = np.sin(0.5 * np.pi * w**2)
@@ -170,9 +170,9 @@ def test_no_flaw_is_pulled_at_harder(flaw):
                     at = places * [side, 1.0, 1.0]
                     sigma = stresses(at, profile, friction=friction, poisson=poisson)[:, 0]
                     best = max(best, np.sqrt(depth) * float(shares @ sigma))
-    assert best <= 1.002 * told.value  # the weight is within 0.3 %, the search within 0.2 %
-    assert best >= 0.97 * told.value
-    assert told.z <= flaw
+    assert best <= 1.002 * answer.value  # the weight is within 0.3 %, the search within 0.2 %
+    assert best >= 0.97 * answer.value
+    assert answer.z <= flaw
 
 
 @pytest.mark.parametrize("wanted", [1e3, 1.0, 0.1])

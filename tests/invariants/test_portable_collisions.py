@@ -77,7 +77,7 @@ def motions(pair):
     draw = np.random.default_rng(20).normal
     normal = draw(size=(COUNT, 3))
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    given = {
+    inputs = {
         "velocity1": draw(size=(COUNT, 3)) + normal,
         "spin1": draw(size=(COUNT, 3)) / RADIUS,
         "velocity2": draw(size=(COUNT, 3)),
@@ -85,51 +85,51 @@ def motions(pair):
         "normal": normal,
     }
     for name in NAMES:  # head-on, spins along the normal: V_t is rounding
-        given[name][:20] = normal[:20] * (1.0 if name == "velocity1" else -0.5)
-    given["normal"][20], given["velocity1"][20] = [0.0, 0.0, 1.0], [0.0, 0.0, 3.0]
+        inputs[name][:20] = normal[:20] * (1.0 if name == "velocity1" else -0.5)
+    inputs["normal"][20], inputs["velocity1"][20] = [0.0, 0.0, 1.0], [0.0, 0.0, 3.0]
     for name in ("spin1", "velocity2", "spin2"):  # V_t = 0 exactly
-        given[name][20] = 0.0
-    given["normal"][21:40] *= 1.0 + 3e-6  # made up for
+        inputs[name][20] = 0.0
+    inputs["normal"][21:40] *= 1.0 + 3e-6  # made up for
     for name in NAMES:  # grazing: V_t/V_n is beyond any number
-        given[name][49] = [100.0, 0.0, 1e-307] if name == "velocity1" else 0.0
-    given["normal"][49] = [0.0, 0.0, 1.0]
+        inputs[name][49] = [100.0, 0.0, 1e-307] if name == "velocity1" else 0.0
+    inputs["normal"][49] = [0.0, 0.0, 1.0]
     if not isinstance(pair.second, carom.Sphere):
-        del given["spin2"]
-    return given
+        del inputs["spin2"]
+    return inputs
 
 
-def spoiled(given):
+def spoiled(inputs):
     """The same, some of them beyond use: not finite, with a normal that is none, apart."""
-    given = {name: values.copy() for name, values in given.items()}
-    given["velocity1"][40, 1] = np.nan
-    given["spin1"][41, 2] = -np.inf
-    given["velocity2"][42, 0] = np.inf
-    given["normal"][43, 0] = np.nan
-    given["normal"][44] = 0.0
-    given["normal"][45] *= 2.0
-    given["velocity1"][46] = given["velocity2"][46]  # V_n = 0
-    given["velocity1"][47] = given["velocity2"][47] = [-0.0, 0.0, -0.0]
-    given["velocity1"][48] *= 1e30  # beyond float32
-    return given
+    inputs = {name: values.copy() for name, values in inputs.items()}
+    inputs["velocity1"][40, 1] = np.nan
+    inputs["spin1"][41, 2] = -np.inf
+    inputs["velocity2"][42, 0] = np.inf
+    inputs["normal"][43, 0] = np.nan
+    inputs["normal"][44] = 0.0
+    inputs["normal"][45] *= 2.0
+    inputs["velocity1"][46] = inputs["velocity2"][46]  # V_n = 0
+    inputs["velocity1"][47] = inputs["velocity2"][47] = [-0.0, 0.0, -0.0]
+    inputs["velocity1"][48] *= 1e30  # beyond float32
+    return inputs
 
 
-def collided(library, pair, given, law=None, **rest):
+def collided(library, pair, inputs, law=None, **rest):
     """Collisions of arrays of a library, each result as NumPy array."""
 
     def run(arrays):
         after = carom.collide(pair, **arrays, **rest, law=law)
         return {name: getattr(after, name) for name in (*NAMES, "status")}
 
-    after = library.compiled(run)({name: library.make(each) for name, each in given.items()})
+    after = library.compiled(run)({name: library.make(each) for name, each in inputs.items()})
     return {name: library.back(each) for name, each in after.items()}
 
 
-def errors(after, before, given):
+def errors(after, before, inputs):
     """Differences of motions, relative to the fastest motion of the same pair."""
     size = 1.0 + sum(
-        np.abs(given[name]).max(axis=1, keepdims=True) * (RADIUS if "spin" in name else 1.0)
+        np.abs(inputs[name]).max(axis=1, keepdims=True) * (RADIUS if "spin" in name else 1.0)
         for name in NAMES
-        if name in given
+        if name in inputs
     )
     return [
         np.max(np.abs(after[name] - before[name]) / size * (RADIUS if "spin" in name else 1.0))
@@ -151,14 +151,14 @@ CASES += [(against_half_space(), "exact"), (against_sphere(friction=0.0), "exact
 @pytest.mark.parametrize(("pair", "law"), CASES)
 def test_equals_the_compiled_path(library, pair, law):
     """To 16 eps of the fastest motion of each pair, in every regime and for every law."""
-    given = motions(pair)
-    want = collided(NUMPY, pair, given, LAWS[law])
-    got = collided(library, pair, given, LAWS[law])
+    values = motions(pair)
+    want = collided(NUMPY, pair, values, LAWS[law])
+    got = collided(library, pair, values, LAWS[law])
     np.testing.assert_array_equal(got["status"], want["status"])
     assert np.count_nonzero(want["status"] == 0) > COUNT // 2
     assert np.count_nonzero(want["status"] == 1) > COUNT // 20
     assert got["velocity1"].dtype == np.float64
-    assert max(errors(got, want, given)) < 16 * np.finfo(float).eps
+    assert max(errors(got, want, values)) < 16 * np.finfo(float).eps
 
 
 def test_single_precision_stays_single(library):
@@ -192,9 +192,9 @@ def test_slow_motion_in_single_precision(library, slow):
 def test_pairs_beyond_use_are_left_alone(library, kind):
     """They get the status of the compiled path and keep every bit; the others never notice."""
     pair = against_sphere()
-    given = {name: each.astype(kind) for name, each in spoiled(motions(pair)).items()}
+    values = {name: each.astype(kind) for name, each in spoiled(motions(pair)).items()}
     good = {name: each.astype(kind) for name, each in motions(pair).items()}
-    both = {name: np.concatenate([given[name], good[name]]) for name in given}
+    both = {name: np.concatenate([values[name], good[name]]) for name in values}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # array-api-strict computes with NumPy, which warns of NaN
         got = collided(library, pair, both)
@@ -240,7 +240,7 @@ def test_lists_and_numpy_arrays_take_the_kind_of_the_others(library):
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("inputs", "message"),
     [
         (
             {"velocity1": np.zeros((5, 3)), "normal": np.zeros((4, 3))},
@@ -251,10 +251,10 @@ def test_lists_and_numpy_arrays_take_the_kind_of_the_others(library):
         ({"velocity1": np.zeros(3), "normal": None}, "normal: missing"),
     ],
 )
-def test_refusals_are_those_of_numpy(library, given, message):
+def test_refusals_are_those_of_numpy(library, inputs, message):
     """One line that names the argument, whatever the library; nothing is broadcast by chance."""
     for each in (library.make, np.asarray):
-        arrays = {name: None if values is None else each(values) for name, values in given.items()}
+        arrays = {name: None if values is None else each(values) for name, values in inputs.items()}
         with pytest.raises(carom.InputError, match=message) as error:
             carom.collide(against_half_space(), **arrays)
         assert "\n" not in str(error.value)
@@ -278,12 +278,12 @@ def test_two_libraries_at_once_are_refused(double_jax):
 def test_the_oldest_standard_is_enough():
     """array-api-strict as of 2023.12, without boolean indexing and shapes that depend on data."""
     xp = pytest.importorskip("array_api_strict")
-    pair, given = against_sphere(), motions(against_sphere())
+    pair, values = against_sphere(), motions(against_sphere())
     with xp.ArrayAPIStrictFlags(
         api_version="2023.12", boolean_indexing=False, data_dependent_shapes=False
     ):
-        got = collided(strict(), pair, given)
+        got = collided(strict(), pair, values)
         law = np.asarray(carom.laws.ReboundLaw(1.44)(xp.asarray([0.5, -6.0])))
-    want = collided(NUMPY, pair, given)
-    assert max(errors(got, want, given)) < 16 * np.finfo(float).eps
+    want = collided(NUMPY, pair, values)
+    assert max(errors(got, want, values)) < 16 * np.finfo(float).eps
     np.testing.assert_array_equal(law, carom.laws.ReboundLaw(1.44)([0.5, -6.0]))

@@ -52,16 +52,16 @@ def motions():
     speed = np.array(SLOPES)[:, np.newaxis] * 0.3 / pair().kappa * 2.0
     spun = np.cross(spin1 + 2.0 * spin2, normal)
     relative = 2.0 * normal + speed * (0.6 * tangent + 0.8 * across) - spun
-    given = {
+    data = {
         "velocity1": frame + relative,
         "spin1": spin1 / RADIUS,
         "velocity2": frame,
         "spin2": spin2 / RADIUS,
     }
     for name in NAMES:
-        given[name][0] = 0.0  # V_t = 0 to the last bit
-    given["velocity1"][0], normal[0] = [0.0, 0.0, 2.0], [0.0, 0.0, 1.0]
-    return given, normal
+        data[name][0] = 0.0  # V_t = 0 to the last bit
+    data["velocity1"][0], normal[0] = [0.0, 0.0, 2.0], [0.0, 0.0, 1.0]
+    return data, normal
 
 
 def weighted(after):
@@ -74,14 +74,14 @@ def weighted(after):
     )
 
 
-def differences(given, normal, law):
+def differences(data, normal, law):
     """Central differences, component by component; the pairs do not know of each other."""
-    result = {name: np.empty_like(each) for name, each in given.items()}
+    result = {name: np.empty_like(each) for name, each in data.items()}
     for name in NAMES:
         step = STEP / UNIT[name]
         for k in range(3):
             shift = step * np.eye(3)[k]
-            ends = (given | {name: given[name] + shift}, given | {name: given[name] - shift})
+            ends = (data | {name: data[name] + shift}, data | {name: data[name] - shift})
             high, low = (weighted(carom.collide(pair(), **e, normal=normal, law=law)) for e in ends)
             result[name][:, k] = (high - low) / (2.0 * step)
     return result
@@ -90,12 +90,12 @@ def differences(given, normal, law):
 @pytest.mark.parametrize("law", LAWS)
 def test_of_collisions(gradient, law):
     """Of the motions after, with respect to those before: to 1e-6, head-on collisions included."""
-    given, normal = motions()
+    data, normal = motions()
 
     def number(arrays):
         return weighted(carom.collide(pair(), **arrays, normal=normal, law=LAWS[law])).sum()
 
-    got, want = gradient(number, given), differences(given, normal, LAWS[law])
+    got, want = gradient(number, data), differences(data, normal, LAWS[law])
     for name in NAMES:
         assert_allclose(got[name] / UNIT[name], want[name] / UNIT[name], rtol=0, atol=1e-6)
 
@@ -103,25 +103,25 @@ def test_of_collisions(gradient, law):
 @pytest.mark.filterwarnings("ignore:of 9 pairs these were left alone")  # torch has values to tell
 def test_of_pairs_that_are_left_alone(gradient):
     """Identity for them, and never NaN, whatever is wrong with them; the others do not notice."""
-    given, normal = motions()
+    data, normal = motions()
     rows = 8
-    given = {name: np.concatenate([each[3 : 3 + rows], each[3:4]]) for name, each in given.items()}
+    data = {name: np.concatenate([each[3 : 3 + rows], each[3:4]]) for name, each in data.items()}
     normal = np.concatenate([normal[3 : 3 + rows], normal[3:4]])
-    given["velocity1"][0] = given["velocity2"][0] - normal[0]
-    given["velocity1"][1, 0] = NAN
-    given["spin1"][2, 0] = INF
-    given["velocity2"][3, 0] = 1e200
+    data["velocity1"][0] = data["velocity2"][0] - normal[0]
+    data["velocity1"][1, 0] = NAN
+    data["spin1"][2, 0] = INF
+    data["velocity2"][3, 0] = 1e200
     normal[4] = 0.0
     normal[5, 1] = NAN
     normal[6] *= 2.0
-    given["velocity1"][7] = given["velocity2"][7]
-    given["spin1"][7] = given["spin2"][7] = 0.0
+    data["velocity1"][7] = data["velocity2"][7]
+    data["spin1"][7] = data["spin2"][7] = 0.0
 
     def number(arrays):
         after = carom.collide(pair(), **arrays, normal=normal)
         return sum((getattr(after, name)[:rows] * 3.0).sum() for name in NAMES)
 
-    got = gradient(number, given)
+    got = gradient(number, data)
     for name in NAMES:
         assert_array_equal(got[name][:rows], 3.0)
         assert_array_equal(got[name][rows], 0.0)
@@ -150,15 +150,15 @@ def test_of_the_law_is_that_of_the_exact_rebound(gradient):
 def test_jit_and_vmap():
     """A compiled collision, and one of a single pair mapped over many, are those of NumPy."""
     jax = pytest.importorskip("jax")
-    given, normal = motions()
+    data, normal = motions()
 
     def collided(normal, arrays):
         after = carom.collide(pair(), **arrays, normal=normal)
         return {name: getattr(after, name) for name in (*NAMES, "status")}
 
-    want = collided(normal, given)
+    want = collided(normal, data)
     with jax.enable_x64(True):
-        arrays = {name: jax.numpy.asarray(each) for name, each in given.items()}
+        arrays = {name: jax.numpy.asarray(each) for name, each in data.items()}
         for way in (collided, jax.vmap(collided)):
             for name, got in jax.jit(way)(jax.numpy.asarray(normal), arrays).items():
                 assert got.dtype == want[name].dtype

@@ -24,7 +24,7 @@ def phases(psi, chi):
 
 def kinks(chi, low, high, count=24):
     """Return where the sequence of phases changes, each to rounding."""
-    found = []
+    actual = []
     grid = np.linspace(low, high, count)
     seen = [phases(psi, chi) for psi in grid]
     for i in range(count - 1):
@@ -33,8 +33,8 @@ def kinks(chi, low, high, count=24):
         left, right = grid[i], grid[i + 1]
         while left < (middle := 0.5 * (left + right)) < right:
             left, right = (middle, right) if phases(middle, chi) == seen[i] else (left, middle)
-        found += [left, right]
-    return np.array(found)
+        actual += [left, right]
+    return np.array(actual)
 
 
 def around(places):

@@ -229,13 +229,13 @@ def test_numbers_that_cannot_be_meant_are_refused(results, words):
     """No overflow on the way to an error: the row and what to check are named."""
     rows = len(next(iter(results.values())))
     names = ("normal_speed", "tangential_speed", "spin", "tangential_speed_out", "spin_out")
-    given, bodies = {"chi": 1.44}, {}
+    inputs, bodies = {"chi": 1.44}, {}
     if "normal_force" in results:
         bodies = {"time": np.linspace(0.0, 1e-5, rows), "tangential_force": np.zeros(rows)}
-        given = {"case": carom.impact(PAIR, speed=1.0, angle=0.3)}
+        inputs = {"case": carom.impact(PAIR, speed=1.0, angle=0.3)}
     elif "psi_1" not in results:
-        bodies, given = dict.fromkeys(names, [1.0] * rows), {"case": PAIR}
-    refused(words, score, bodies | results, **given)
+        bodies, inputs = dict.fromkeys(names, [1.0] * rows), {"case": PAIR}
+    refused(words, score, bodies | results, **inputs)
 
 
 def test_forces_without_friction_cannot_be_scored():

@@ -33,24 +33,24 @@ def here():
     return sweep(CASE, GRID, workers=1)
 
 
-def killer(cluster, path: Path, told: dict[str, int]) -> None:
+def killer(cluster, path: Path, answer: dict[str, int]) -> None:
     """Kill a worker once some blocks are finished."""
     while len(list(path.glob("status/c/*/*"))) < 5:
         time.sleep(0.001)
-    told["pid"] = next(iter(cluster.workers.values())).pid
-    os.kill(told["pid"], signal.SIGKILL)
-    told["finished"] = len(list(path.glob("status/c/*/*")))
+    answer["pid"] = next(iter(cluster.workers.values())).pid
+    os.kill(answer["pid"], signal.SIGKILL)
+    answer["finished"] = len(list(path.glob("status/c/*/*")))
 
 
 def test_worker_killed_in_the_middle_is_survived_with_the_same_bits(cluster, here, tmp_path):
-    path, told = tmp_path / "sweep.zarr", {}
-    thread = threading.Thread(target=killer, args=(cluster, path, told), daemon=True)
+    path, answer = tmp_path / "sweep.zarr", {}
+    thread = threading.Thread(target=killer, args=(cluster, path, answer), daemon=True)
     thread.start()
     result = sweep(CASE, GRID, store=path, scheduler=cluster.scheduler_address)
     thread.join(timeout=10)
-    assert told["finished"] < len(list(path.glob("status/c/*/*"))) == 34
+    assert answer["finished"] < len(list(path.glob("status/c/*/*"))) == 34
     with pytest.raises(ProcessLookupError):
-        os.kill(told["pid"], 0)
+        os.kill(answer["pid"], 0)
     assert here.identical(result.load())
     for name, item in here.variables.items():
         assert result[name].values.tobytes() == item.values.tobytes()
@@ -85,26 +85,26 @@ def test_workers_of_another_version_are_refused_in_one_line(cluster, monkeypatch
     schedulers.versions.cache_clear()
     with pytest.raises(
         InputError, match=r"worker tcp://\S+ has carom \S+, not 9.9 as here"
-    ) as told:
+    ) as answer:
         sweep(CASE, GRID, scheduler=cluster.scheduler_address)
     schedulers.versions.cache_clear()
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(answer.value)
 
 
 def test_scheduler_that_does_not_answer_is_refused_soon(monkeypatch):
     """It has the seconds that it is given, and no more."""
-    assert schedulers.ANSWER < 10.0
+    assert schedulers.ANSWER_SECONDS < 10.0
     monkeypatch.setattr(schedulers, "ANSWER", 0.7)
-    client, given = distributed.Client, []
+    client, values = distributed.Client, []
 
     def called(*address, timeout, **options):
-        given.append(timeout)
+        values.append(timeout)
         return client(*address, timeout=timeout, **options)
 
     monkeypatch.setattr(distributed, "Client", called)
     with pytest.raises(InputError, match="does not answer; start one with 'dask scheduler'"):
         sweep(CASE, GRID, scheduler="tcp://127.0.0.1:1")
-    assert given == [0.7]
+    assert values == [0.7]
 
 
 def test_scheduler_without_workers_is_refused(monkeypatch):

@@ -78,13 +78,13 @@ def test_a_block_is_what_single_impacts_are(kind):
     case = {"first": {"material": dict(STUFF)}, "second": second}
     for design in designs((*ALWAYS, "first.material.poisson", *own), rng):
         problem = SweepProblem(case, design)
-        found, inputs = problem.block(whole(design)), design.inputs(whole(design))
-        assert np.all(found["status"] == PointStatus.SOLVED)
-        assert ("spin2_out" in found) == (second.get("kind") == "sphere")
-        for i in rng.permutation(found["status"].size)[:40]:
+        actual, inputs = problem.block(whole(design)), design.inputs(whole(design))
+        assert np.all(actual["status"] == PointStatus.SOLVED)
+        assert ("spin2_out" in actual) == (second.get("kind") == "sphere")
+        for i in rng.permutation(actual["status"].size)[:40]:
             hit = solved_alone(case, {name: float(inputs[name][i]) for name in inputs}).scalars()
             for name in problem.outputs:
-                value, scale = found[name].flat[i], np.nanmax(np.abs(found[name]))
+                value, scale = actual[name].flat[i], np.nanmax(np.abs(actual[name]))
                 assert value == pytest.approx(hit[name], rel=1e-14, abs=1e-14 * scale), name
 
 
@@ -96,16 +96,16 @@ def test_everything_that_can_be_asked_for():
     case = {"spin": 10.0, "first": BALL["first"], "second": {"material": "glass"}}
     outputs = tuple(name for name in (*RESULTS, *PAIR) if name != "friction")
     problem = SweepProblem(case, Grid(axes), outputs)
-    found = problem.block((slice(0, 2),) * 3)
+    block = problem.block((slice(0, 2),) * 3)
     for at in np.ndindex(2, 2, 2):
         point = {name: axes[name][i] for name, i in zip(axes, at, strict=True)}
         hit = solved_alone(case, point).scalars()
         for name in outputs:
-            assert found[name][at] == pytest.approx(hit[name], rel=1e-14, nan_ok=True)
-    assert np.isinf(found["psi_out"][..., 0]).all()  # without friction
-    ratio = found["tangential_speed_out"][:, 0] / -1.0
-    np.testing.assert_array_equal(found["tangential_restitution"][:, 0], ratio)
-    assert np.isnan(found["tangential_restitution"][:, 1]).all()  # without tangential speed
+            assert block[name][at] == pytest.approx(hit[name], rel=1e-14, nan_ok=True)
+    assert np.isinf(block["psi_out"][..., 0]).all()  # without friction
+    ratio = block["tangential_speed_out"][:, 0] / -1.0
+    np.testing.assert_array_equal(block["tangential_restitution"][:, 0], ratio)
+    assert np.isnan(block["tangential_restitution"][:, 1]).all()  # without tangential speed
 
 
 def test_materials_and_kinds_by_name():
@@ -113,28 +113,28 @@ def test_materials_and_kinds_by_name():
     bodies = {"first.material": ["steel", "nylon"], "second.kind": ["cup", "sphere"]}
     grid = Grid({**bodies, "angle": [1]})
     case = {"friction": 0.1, "speed": 1, "first": {"radius": 0.01}, "second": {"radius": 0.03}}
-    found = SweepProblem(case, grid).block(whole(grid))
+    block = SweepProblem(case, grid).block(whole(grid))
     for i, stuff in enumerate(("steel", "nylon")):
         for j, kind in enumerate(("cup", "sphere")):
             point = {"first.material": stuff, "second.kind": kind, "angle": 1.0}
             hit = solved_alone(case, point).scalars()
             for name in ("chi", "psi_out", "max_force", "spin2_out"):
-                assert found[name][i, j, 0] == pytest.approx(hit[name], rel=1e-14)
+                assert block[name][i, j, 0] == pytest.approx(hit[name], rel=1e-14)
 
 
 def test_the_second_body_is_as_the_first_unless_it_is_told():
     """A second sphere without radius and material follows the first one through the sweep."""
     axes = {"first.radius": ["2 mm", "7 mm"], "first.material.poisson": [0.1, 0.45]}
     case = BALL | {"angle": 0.6, "second": {"kind": "sphere"}}
-    found = SweepProblem(case, Grid(axes)).block((slice(0, 2), slice(0, 2)))
+    block = SweepProblem(case, Grid(axes)).block((slice(0, 2), slice(0, 2)))
     for i, radius in enumerate((0.002, 0.007)):
         for j, poisson in enumerate((0.1, 0.45)):
             steel = carom.material("steel")
             stuff = carom.Material(young=steel.young, poisson=poisson, density=steel.density)
             ball = carom.Sphere(radius=radius, material=stuff)
             hit = carom.impact(carom.Pair(ball, ball, 0.2), speed=2.0, angle=0.6)
-            assert found["chi"][i, j] == pytest.approx(hit.pair.chi, rel=1e-14)
-            assert found["max_force"][i, j] == pytest.approx(hit.max_force, rel=1e-14)
+            assert block["chi"][i, j] == pytest.approx(hit.pair.chi, rel=1e-14)
+            assert block["max_force"][i, j] == pytest.approx(hit.max_force, rel=1e-14)
 
 
 BAD = {  # a row with this in it -> its status
@@ -166,13 +166,13 @@ def test_bad_rows_have_a_status_and_spoil_nothing():
     for row, (name, value, _) in zip(rows, faults, strict=True):
         bad[name][row] = value
     problem = SweepProblem(case, Table(bad))
-    found = problem.block((slice(0, 1000),))
+    block = problem.block((slice(0, 1000),))
     others = np.setdiff1d(np.arange(1000), rows)
     for name in (*problem.outputs, "status"):
-        assert np.array_equal(found[name][others], expected[name][others], equal_nan=True)
+        assert np.array_equal(block[name][others], expected[name][others], equal_nan=True)
     for row, (name, value, status) in zip(rows, faults, strict=True):
-        assert found["status"][row] == PointStatus[status], (name, value)
-        assert all(np.isnan(found[output][row]) for output in problem.outputs)
+        assert block["status"][row] == PointStatus[status], (name, value)
+        assert all(np.isnan(block[output][row]) for output in problem.outputs)
         point = {key: float(column[row]) for key, column in bad.items()}
         with pytest.raises(InputError):  # the scalar code refuses the same
             solved_alone(case, point)
@@ -215,11 +215,11 @@ def test_variables_are_what_a_block_returns():
     """Names, types and a dataset with units; the status counts through its meanings."""
     design = Table({"first.radius": [0.001, 0.002], "first.material": ["steel", "glass"]})
     problem = SweepProblem({**BALL, "angle": 0.3}, design, ["rebound_angle"])
-    block, known = problem.block((slice(0, 2),)), problem.variables()
+    block, by_name = problem.block((slice(0, 2),)), problem.variables()
     assert {name: values.dtype for name, values in block.items()} == {
-        name: np.dtype(info.dtype) for name, info in known.items()
+        name: np.dtype(info.dtype) for name, info in by_name.items()
     }
-    entries = {name: (design.dims, block[name], known[name].attributes) for name in block}
+    entries = {name: (design.dims, block[name], by_name[name].attributes) for name in block}
     dataset = labelled_dataset(entries, design.coords(), {})
     assert dataset["first_radius"].units == "m"
     assert dataset["first_material"].flag_meanings == "unreadable steel glass"

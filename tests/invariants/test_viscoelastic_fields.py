@@ -76,9 +76,9 @@ def test_slip_is_what_slip_velocity_makes(pair):
         slip = np.array([patch[axis].values for patch in patches])
         name = axis.replace("slip", "slip_velocity")
         velocity = np.array([patch[name].values for patch in patches])
-        found = cumulative_simpson(velocity, x=times, axis=0, initial=0.0)
+        actual = cumulative_simpson(velocity, x=times, axis=0, initial=0.0)
         size = np.abs(patches[-1].slip_x.values).max()
-        np.testing.assert_allclose(slip - slip[0], found, rtol=0.0, atol=2e-3 * size)
+        np.testing.assert_allclose(slip - slip[0], actual, rtol=0.0, atol=2e-3 * size)
 
 
 def test_vanishing_losses_give_the_elastic_contact():
@@ -96,21 +96,21 @@ def test_vanishing_losses_give_the_elastic_contact():
 def test_stress_of_a_density_that_ends_with_a_jump():
     """Traction: as if it fell to nothing within 1e-5 of the radius. Pressure: Boussinesq's."""
     points = np.array([[0.3, 0.1, 0.2], [0.0, 0.0, 0.05], [1.0, 0.4, 0.3], [0.9, 0.0, 0.02]])
-    jump, inner, given = 0.4, 1.0 - 1e-5, {"friction": 1.0, "poisson": 0.3}
+    jump, inner, inputs = 0.4, 1.0 - 1e-5, {"friction": 1.0, "poisson": 0.3}
     ends = stacked([1.0], [flat(0.0, 1.0, 1.0, jump)], jump)
     falls = [flat(0.0, inner, 1.0, jump), flat(inner, 1.0, jump / (1.0 - inner**2), 0.0)]
     plain = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
-    with_rim = stresses(points, ends, **given, rim=jump)
-    pressed = stresses(points, ends._replace(rim=0.0), **given, rim=jump)
-    smooth = stresses(points, stacked([inner, 1.0], falls), **given)
-    pulled = smooth - stresses(points, plain, **given)
+    with_rim = stresses(points, ends, **inputs, rim=jump)
+    pressed = stresses(points, ends._replace(rim=0.0), **inputs, rim=jump)
+    smooth = stresses(points, stacked([inner, 1.0], falls), **inputs)
+    pulled = smooth - stresses(points, plain, **inputs)
     assert np.abs(pulled).max(axis=1).min() > 0.01
     np.testing.assert_allclose(with_rim - pressed, pulled, rtol=0.0, atol=1e-4)
     for z in (0.05, 0.5, 2.0):  # on the axis, p = (jump/2)/sqrt(1 - r^2)
         ring = quad(lambda a, z=z: np.sin(a) / (np.sin(a) ** 2 + z * z) ** 2.5, 0.0, np.pi / 2.0)
         axis = np.array([[0.0, 0.0, z]])
-        found = stresses(axis, plain, **given, rim=jump) - stresses(axis, plain, **given)
-        assert found[0, 2] == pytest.approx(-1.5 * jump * z**3 * ring[0], rel=1e-6)
+        value = stresses(axis, plain, **inputs, rim=jump) - stresses(axis, plain, **inputs)
+        assert value[0, 2] == pytest.approx(-1.5 * jump * z**3 * ring[0], rel=1e-6)
 
 
 def test_bodies_without_friction_have_no_traction_at_an_infinite_pressure(pair):

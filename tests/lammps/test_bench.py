@@ -31,9 +31,9 @@ def test_losses_and_unlike_bodies(built):
     law = carom.dem.ExactContactLaw(64, restitution=0.8)
     for other in (carom.HalfSpace(material="steel"), carom.Sphere(radius=5e-3, material="steel")):
         pair = carom.Pair(bead, other, friction=0.3)
-        (found,) = carom.verify.bench(carom.verify.Lammps(), law, pair=pair, steps=200).measured
-        assert found.failure is None
-        assert found.law_error < 1e-4
+        (actual,) = carom.verify.bench(carom.verify.Lammps(), law, pair=pair, steps=200).measured
+        assert actual.failure is None
+        assert actual.law_error < 1e-4
 
 
 def test_only_the_wheel_has_the_plugin(built, monkeypatch):

@@ -30,8 +30,8 @@ FORCE = 2.5 * ENERGY / DEPTH
 def rows(printed, width):
     """The numbers that LAMMPS prints in so many columns."""
     lines = [line.split() for line in printed.splitlines() if not re.search("[a-df-z]", line)]
-    found = [line for line in lines if len(line) == width and line[0].isdigit()]
-    return np.array(found, dtype=float)
+    values = [line for line in lines if len(line) == width and line[0].isdigit()]
+    return np.array(values, dtype=float)
 
 
 @pytest.mark.parametrize("newton", ["off", "on"])
@@ -60,8 +60,8 @@ def test_bonded_spheres_meet_only_if_special_bonds_says_so(lammps):
     bonded = "bond_style zero\nbond_coeff 1\nspecial_bonds lj {} 1 1\n"
     bonded += "create_bonds single/bond 1 1 2 special yes\n"
     for weight, contacts in ((0, 1), (1, 2)):
-        found = rows(lammps(start + CAROM + bonded.format(weight) + TELL), 5)
-        np.testing.assert_allclose(found[0, 2], contacts * ENERGY, rtol=1e-9)
+        actual = rows(lammps(start + CAROM + bonded.format(weight) + TELL), 5)
+        np.testing.assert_allclose(actual[0, 2], contacts * ENERGY, rtol=1e-9)
 
 
 @pytest.mark.parametrize("newton", ["off", "on"])
@@ -90,11 +90,11 @@ def test_stress_holds_the_tangential_force(lammps, newton):
 def test_what_is_moved_between_runs_has_its_force_at_once(lammps):
     """Not the force of the contact as it was."""
     moved = "group one id 1\ndisplace_atoms one move 1e-4 0 0\nrun 0\n"
-    found = rows(lammps(HEAD + PLAIN + CAROM + TELL + moved), 5)
+    actual = rows(lammps(HEAD + PLAIN + CAROM + TELL + moved), 5)
     energy = 8.0 / 15.0 * MODULUS * np.sqrt(REDUCED) * (DEPTH + 1e-4) ** 2.5
-    np.testing.assert_allclose(found[:, 1], [2.0 * ENERGY, ENERGY + energy], rtol=1e-9)
+    np.testing.assert_allclose(actual[:, 1], [2.0 * ENERGY, ENERGY + energy], rtol=1e-9)
     virial = FORCE * 0.0095 + 2.5 * energy / (DEPTH + 1e-4) * 0.0094
-    np.testing.assert_allclose(found[1, 3], virial / 1e-3, rtol=1e-9)
+    np.testing.assert_allclose(actual[1, 3], virial / 1e-3, rtol=1e-9)
 
 
 @pytest.mark.parametrize("rebuilds", ["check yes", "check no"])
@@ -149,10 +149,10 @@ def test_rigid_bodies(lammps):
     )
     off = []
     for step in (8e-6, 4e-6):
-        found = rows(lammps(f"{start}timestep {step}\nrun {round(8e-3 / step)}\n"), 8)
-        total = found[:, 1:7].sum(axis=1)
-        assert found[-1, 5] == 0.0  # parted
-        assert found[-1, 6] > 0.005 * total[0]  # rubbed
+        actual = rows(lammps(f"{start}timestep {step}\nrun {round(8e-3 / step)}\n"), 8)
+        total = actual[:, 1:7].sum(axis=1)
+        assert actual[-1, 5] == 0.0  # parted
+        assert actual[-1, 6] > 0.005 * total[0]  # rubbed
         off.append(abs(total[-1] / total[0] - 1.0))
     assert off[1] < 2e-4
     assert off[0] / off[1] > 3.0

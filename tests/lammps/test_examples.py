@@ -15,11 +15,11 @@ STEEL = carom.Material(young=210e9, poisson=0.3, density=7850.0)
 
 def printed(lammps, name, pattern, **small):
     """Run an input with smaller variables; return the numbers in the line that it prints."""
-    given = "".join(f"variable {key} index {value}\n" for key, value in small.items())
-    text = lammps(given + (EXAMPLES / name).read_text())
-    found = re.search(f"^{pattern}", text, re.MULTILINE)
-    assert found, text[-800:]
-    return [float(number) for number in found.groups()]
+    values = "".join(f"variable {key} index {value}\n" for key, value in small.items())
+    text = lammps(values + (EXAMPLES / name).read_text())
+    match = re.search(f"^{pattern}", text, re.MULTILINE)
+    assert match, text[-800:]
+    return [float(number) for number in match.groups()]
 
 
 def test_impact(lammps):

@@ -20,8 +20,8 @@ comm_modify vel yes
 """
 
 
-def words(**given):
-    return " ".join(f"{name} {value}" for name, value in given.items())
+def words(**keywords):
+    return " ".join(f"{name} {value}" for name, value in keywords.items())
 
 
 def impacts(steps, rng):
@@ -177,8 +177,8 @@ def test_ranks_and_newton_agree(lammps):
 def rows(printed, columns=7):
     """The numbers that LAMMPS prints."""
     lines = [line.split() for line in printed.splitlines()]
-    found = [line for line in lines if len(line) == columns and line[0].isdigit()]
-    return np.array(found, dtype=float)
+    values = [line for line in lines if len(line) == columns and line[0].isdigit()]
+    return np.array(values, dtype=float)
 
 
 def test_the_ledger_holds_all_energy(lammps):
@@ -187,9 +187,9 @@ def test_the_ledger_holds_all_energy(lammps):
     style = "springs 64 precision double ledger yes"
     for step, runs in ((3.2e-5, 120), (8e-6, 480), (4e-6, 1000)):
         _, printed = gas(lammps, style=style, then=f"timestep {step}\nrun {runs}")
-        found = rows(printed)
-        total = found[:, 1:6].sum(axis=1)
-        assert found[-1, 4] > 0.02 * total[0]
+        actual = rows(printed)
+        total = actual[:, 1:6].sum(axis=1)
+        assert actual[-1, 4] > 0.02 * total[0]
         off.append(np.abs(total / total[0] - 1.0).max())
     assert off[2] < 3e-5
     assert off[0] / off[1] > 9.0
@@ -208,11 +208,11 @@ def test_contacts_that_are_there_at_the_start_bear_springs_and_dashpots(lammps):
         f"timestep {step}\nvariable f equal fz[2]\nthermo_style custom step v_f\n"
         "thermo_modify format float %.12g\nthermo 1\nrun 3\n"
     )
-    found = rows(printed, columns=2)[:4, 1]
+    actual = rows(printed, columns=2)[:4, 1]
     modulus = young / (2.0 * (1.0 - poisson**2))
-    depths = depth + speed * step * np.arange(len(found))
+    depths = depth + speed * step * np.arange(len(actual))
     static = 4.0 / 3.0 * modulus * np.sqrt(0.5 * radius) * depths**1.5
-    np.testing.assert_allclose(found, static * (1.0 + 1.5 * tau * speed / depths), rtol=1e-3)
+    np.testing.assert_allclose(actual, static * (1.0 + 1.5 * tau * speed / depths), rtol=1e-3)
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
@@ -270,7 +270,7 @@ BOX = "boundary f f f\nregion b block -1 1 -1 1 -1 1\ncreate_box 2 b\ncreate_ato
 
 
 @pytest.mark.parametrize(
-    ("style", "coeff", "told"),
+    ("style", "coeff", "answer"),
     [
         ("springs 33", words(**SOLID), "springs 33 must be 16, 32 or 64"),
         ("precision half", words(**SOLID), "precision half is not known"),
@@ -295,18 +295,18 @@ BOX = "boundary f f f\nregion b block -1 1 -1 1 -1 1\ncreate_box 2 b\ncreate_ato
         ("", words(stiff=5.0), "stiff 5.0 is not known; young, poisson"),
     ],
 )
-def test_bad_input_stops_lammps_with_one_line(lammps, style, coeff, told):
+def test_bad_input_stops_lammps_with_one_line(lammps, style, coeff, answer):
     printed = lammps.fails(f"{HEAD}{BOX}pair_style carom {style}\npair_coeff * * {coeff}\nrun 1\n")
     (line,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
-    assert told in line
+    assert answer in line
 
 
 def test_what_the_style_needs_of_lammps(lammps):
     rest = f"pair_style carom\npair_coeff * * {words(**SOLID)}\nrun 1\n"
-    for head, told in (
+    for head, answer in (
         ("units si\natom_style sphere\n", "needs velocities of ghosts"),
         ("units real\natom_style sphere\ncomm_modify vel yes\n", "needs units si"),
         ("units si\natom_style atomic\ncomm_modify vel yes\n", "needs spheres"),
     ):
         mass = "mass * 1.0\n" if "atomic" in head else ""
-        assert told in lammps.fails(f"{head}{BOX}{mass}{rest}")
+        assert answer in lammps.fails(f"{head}{BOX}{mass}{rest}")

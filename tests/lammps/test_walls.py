@@ -187,7 +187,7 @@ EXTREME = "young 210e9 poisson 0.3 friction 1e100 region w"
 
 
 @pytest.mark.parametrize(
-    ("pair", "wall", "told"),
+    ("pair", "wall", "answer"),
     [
         (STYLE, "young 1e9 region w", "needs young, poisson"),
         (STYLE, f"{SOLID} region x", "no region x"),
@@ -200,7 +200,7 @@ EXTREME = "young 210e9 poisson 0.3 friction 1e100 region w"
         (f"{STYLE} retardation 1", f"{SOLID} retardation 1e9 region w", "too long for precision s"),
     ],
 )
-def test_bad_input_stops_lammps_with_one_line(lammps, pair, wall, told):
+def test_bad_input_stops_lammps_with_one_line(lammps, pair, wall, answer):
     box = "region b block -1 1 -1 1 -1 1\ncreate_box 1 b\ncreate_atoms 1 single 0 0 0.5\n"
     box += "variable way equal step*dt\nregion moves plane 0 0 0 0 0 1 move v_way NULL NULL\n"
     box += "region still plane 0 0 -1 0 0 1\nregion moving intersect 2 moves still\n"
@@ -209,4 +209,4 @@ def test_bad_input_stops_lammps_with_one_line(lammps, pair, wall, told):
         f"fix w all wall/carom {wall}\nrun 1\n"
     )
     (line,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
-    assert told in line
+    assert answer in line

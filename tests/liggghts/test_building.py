@@ -35,7 +35,7 @@ def model(tmp_path_factory):
     for name in HEADERS:
         (folder / f"{name}.h").write_text('#include "liggghts.h"\n')
     includes = [f"-I{path}" for path in (building.HEADERS, liggghts.MODEL, folder, CPP)]
-    flags = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", *building.MATHS]
+    flags = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", *building.MATH_FLAGS]
     source = str(CPP / "in_liggghts.cpp")
     subprocess.run(["c++", *flags, *includes, source, "-o", folder / "run"], check=True)
 
@@ -52,9 +52,9 @@ def model(tmp_path_factory):
 def test_model_is_the_law_of_carom(model, springs, turns):
     """Also where the contact becomes the other sphere's: without mirroring it would be off by 1."""
     psi = np.linspace(0.25, 5.0, 8)
-    found = np.array(model(springs, 100, turns, 0.0, *psi).split(), dtype=float)
+    values = np.array(model(springs, 100, turns, 0.0, *psi).split(), dtype=float)
     expected = carom.dem.ExactContactLaw(springs).rebound(psi, 3.5 * 0.8 / 2.0, steps=100)
-    np.testing.assert_allclose(found, expected, atol=1e-5)
+    np.testing.assert_allclose(values, expected, atol=1e-5)
 
 
 @compiles
@@ -62,11 +62,11 @@ def test_friction_opposes_the_slide_at_any_rate_of_approach(model):
     """Pressed to d = 0.3: spheres that stick have F = 2 G* a U, others reach Coulomb's limit."""
     rates = [0.0, *(sign * 10.0**power for power in range(-30, 1) for sign in (1.0, -1.0))]
     radius, moved = np.sqrt(0.3), 1e-9 * 1e-3
-    found = np.array(model(32, "held", 1e-9, *rates).split(), dtype=float)
+    values = np.array(model(32, "held", 1e-9, *rates).split(), dtype=float)
     sticking = 1.5 * radius * moved * 0.8 / 0.3 / 0.3**1.5  # of Coulomb's limit, kappa/mu = 0.8/0.3
-    np.testing.assert_allclose(found, sticking, rtol=0.025)
-    found = np.array(model(32, "held", 1e9, *rates).split(), dtype=float)
-    np.testing.assert_allclose(found, 1.0, rtol=1e-6)
+    np.testing.assert_allclose(values, sticking, rtol=0.025)
+    values = np.array(model(32, "held", 1e9, *rates).split(), dtype=float)
+    np.testing.assert_allclose(values, 1.0, rtol=1e-6)
 
 
 @compiles
@@ -104,15 +104,15 @@ def sources(tmp_path):
 @pytest.mark.parametrize("packed", [False, True], ids=["folder", "tarball"])
 def test_build(sources, tmp_path, monkeypatch, capsys, packed):
     """Made from a copy, with the model and its headers; then the bench finds it."""
-    given = sources
+    values = sources
     if packed:
-        given = tmp_path / "liggghts.orig.tar.xz"
-        with tarfile.open(given, "w:xz") as archive:
+        values = tmp_path / "liggghts.orig.tar.xz"
+        with tarfile.open(values, "w:xz") as archive:
             archive.add(sources, sources.name)
     before = sorted(path.name for path in (sources / "src").iterdir())
     monkeypatch.setattr(building, "home", lambda program: tmp_path / "home")
     assert not carom.verify.Liggghts().supports(carom.dem.ExactContactLaw(32))
-    assert main(["liggghts", "build", "--source", str(given)]) == 0
+    assert main(["liggghts", "build", "--source", str(values)]) == 0
     assert "built LIGGGHTS 3.8.0 with tangential model carom" in capsys.readouterr().out
     assert sorted(path.name for path in (sources / "src").iterdir()) == before
     engine = carom.verify.Liggghts()

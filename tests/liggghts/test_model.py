@@ -29,10 +29,10 @@ def test_is_the_law_of_carom(name, springs):
     """Step for step, but for R - d/2 and single precision; Hertz-Mindlin would be off by 0.5."""
     law = carom.dem.ExactContactLaw(springs)
     engine = carom.verify.Liggghts()
-    (found,) = carom.verify.bench(engine, law, pair=PAIRS[name], steps=100).measured
-    assert found.failure is None
-    assert found.law_error < (4e-6 if "wall" in name else 2e-5)
-    assert found.max_error < 0.1 / springs
+    (actual,) = carom.verify.bench(engine, law, pair=PAIRS[name], steps=100).measured
+    assert actual.failure is None
+    assert actual.law_error < (4e-6 if "wall" in name else 2e-5)
+    assert actual.max_error < 0.1 / springs
 
 
 def test_passes(tmp_path, capsys):

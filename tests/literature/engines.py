@@ -70,17 +70,17 @@ def run_all(program, folder, wanted, files, script, lines, **options) -> Results
     }
 
 
-def deviation(found: Results, case: Case, *, steps: int | None) -> float:
+def deviation(actual: Results, case: Case, *, steps: int | None) -> float:
     """Return how far psi_2 of the program is from that of the record."""
-    impacts, outcomes = found[case]
+    impacts, outcomes = actual[case]
     pair = impacts.pair
     expected = impacts.law.rebound(impacts.psi_in, pair.chi, kappa=pair.kappa, steps=steps)
     return float(np.abs(psi_out(impacts, outcomes) - expected).max())
 
 
-def assert_same_alone(program, found: Results, case: Case, version: str) -> None:
+def assert_same_alone(program, actual: Results, case: Case, version: str) -> None:
     """An experiment that is run alone comes out the same to the last digit."""
-    impacts, expected = found[case]
+    impacts, expected = actual[case]
     alone = run(program, impacts)
     assert alone.version == version
     for mine, theirs in zip(alone.outcomes, expected, strict=True):

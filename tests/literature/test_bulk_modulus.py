@@ -24,9 +24,9 @@ SIZE, STRAIN = 200, 1e-5
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A folder with a packing of 200 spheres."""
-    found = tmp_path_factory.mktemp("packings")
-    packings.packing(found, SIZE, 1, modulus.PRESSURE)
-    return found
+    actual = tmp_path_factory.mktemp("packings")
+    packings.packing(actual, SIZE, 1, modulus.PRESSURE)
+    return actual
 
 
 def spheres(file):
@@ -47,8 +47,8 @@ def test_small_strains_meet_the_linear_answer(
     """To 0.5 %: without the affine part of the slide G would be half as large."""
     monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(plugin))
     asked = Run("modulus", law, 0.5, 1.0, STRAIN, 1, SIZE)
-    found = {each.quantity: each.value for each in modulus.compute(asked, folder, tmp_path)}
+    by_name = {each.quantity: each.value for each in modulus.compute(asked, folder, tmp_path)}
     file = folder / f"packing_{SIZE}_1_{modulus.PRESSURE:g}_0.data"
     wanted = linear_modulus(*spheres(file), RADIUS, MODULUS, KAPPA, stiffness)
-    assert found["modulus"] == pytest.approx(wanted, rel=5e-3)
-    assert 0.0 < found["damping"] < 1e-3
+    assert by_name["modulus"] == pytest.approx(wanted, rel=5e-3)
+    assert 0.0 < by_name["damping"] < 1e-3

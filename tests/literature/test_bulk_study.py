@@ -63,13 +63,13 @@ def test_lammps_is_told_what_the_bench_tells_it(name, variant, stiffness):
     experiment = Experiment(
         pair=PAIR, law=law, normal_speed=0.01, tangential_speed=(0.0,), steps=100
     )
-    told = coefficients(experiment)
-    expected = told.words(told.number).split()
+    answer = coefficients(experiment)
+    expected = answer.words(answer.number).split()
     setting = contact_laws.Setting(0.3, 0.9, 0.01, 1.0)
     words = contact_laws.pairs(contact_laws.named(name), setting).split("* * ")[1].split()
     assert len(words) == len(expected)
     for word, other in zip(words, expected, strict=True):
-        scale = YOUNG if other in (repr(told.kn), repr(told.kt)) else 1.0
+        scale = YOUNG if other in (repr(answer.kn), repr(answer.kt)) else 1.0
         try:
             assert float(word) * scale == pytest.approx(float(other), rel=1e-9)
         except ValueError:

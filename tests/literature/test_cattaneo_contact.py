@@ -132,19 +132,19 @@ def test_summary(case):
     path = pushed(*CASES[case])
     fields = path.fields(points=[(0.0, 0.0)])
     stored = path.tangential_elastic_energy[-1] + 0.4 * path.normal_force[-1] * path.penetration[-1]
-    found = {
+    by_name = {
         "shift_mm": path.displacement[-1] / MM,
         "approach_mm": path.penetration[-1] / MM,
         "a_mm": path.contact_radius[-1] / MM,
         "pmax": float(fields.pressure[0]) / MPA,
         "elastic_energy_J": stored,
     }
-    for name, value in found.items():
+    for name, value in by_name.items():
         assert value == pytest.approx(numbers[name], rel=2.5e-3, abs=1e-15), name
     lost, work = path.frictional_work[-1], path.tangential_force[-1] * path.displacement[-1]
     assert lost == pytest.approx(-numbers["friction_work_J"], rel=0.0, abs=1e-3 * work)
     if "normal" not in case:
-        assert found["shift_mm"] == pytest.approx(numbers["mindlin_shift_mm"], rel=1e-5)
+        assert by_name["shift_mm"] == pytest.approx(numbers["mindlin_shift_mm"], rel=1e-5)
     size = numbers["grid_dx_mm"]
     for count, radius in (("n_contact", path.contact_radius), ("n_adh", path.stick_radius)):
         same_area = size * math.sqrt(numbers[count] / math.pi)

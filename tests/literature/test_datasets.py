@@ -122,8 +122,8 @@ def test_five_millimetres_are_the_diameter(name):
 def test_spins_follow_from_restitution_as_well_as_the_file_says(name):
     angle, spin, *_ = points(name, "spin_out")
     restitution = at(name, "tangential_restitution", angle)
-    known = {"speed": 3.9, "angle": angle, "tangential_restitution": restitution}
-    excess = -spin + convert_observables(pair(name), known=known, wanted="spin_out")
+    values = {"speed": 3.9, "angle": angle, "tangential_restitution": restitution}
+    excess = -spin + convert_observables(pair(name), known=values, wanted="spin_out")
     rms = math.sqrt(np.nanmean(excess**2))
     assert f"by {rms:.0f} rad/s (rms)" in datasets.load(name).consistency
 
@@ -142,16 +142,16 @@ def test_the_angle_of_the_contact_point_is_not_that_of_the_centre():
     """It follows from v_t'/v_t by momentum alone, to 0.7 deg up to 40 deg, 2.7 deg beyond."""
     name = "kharaz2001_kratos"
     angle, out, *_ = points(name, "contact_rebound_angle")
-    known = {"angle": angle, "normal_restitution": 0.98}
-    known["tangential_restitution"] = at(name, "tangential_restitution", angle)
-    expected = convert_observables(pair(name), known=known, wanted="contact_rebound_angle")
+    values = {"angle": angle, "normal_restitution": 0.98}
+    values["tangential_restitution"] = at(name, "tangential_restitution", angle)
+    expected = convert_observables(pair(name), known=values, wanted="contact_rebound_angle")
     off = np.degrees(out - expected)
     inside = np.isfinite(off)
     below = inside & (angle < math.radians(40))
     assert below.sum() == 6
     assert np.abs(off[below]).max() < 0.7
     assert 0.9 < off[inside & ~below].min() < off[inside & ~below].max() < 2.7
-    centre = convert_observables(pair(name), known=known, wanted="rebound_angle")
+    centre = convert_observables(pair(name), known=values, wanted="rebound_angle")
     beyond = below & (angle > math.radians(9))
     assert np.degrees(centre - out)[beyond].min() > 7.0
 
@@ -176,8 +176,8 @@ def test_the_exact_impact_passes_through_the_scatter(name):
     scatters = (("tangential_restitution", 0.02, 0.03), ("spin_out", 25.0, 40.0))
     for observable, scatter, most in scatters:
         angle, values, *_ = points(name, observable)
-        found = [carom.impact(pair(name), speed=3.9, angle=float(a)) for a in angle]
-        off = values - np.array([getattr(hit, observable) for hit in found])
+        actual = [carom.impact(pair(name), speed=3.9, angle=float(a)) for a in angle]
+        off = values - np.array([getattr(hit, observable) for hit in actual])
         assert math.sqrt(np.mean(off**2)) < scatter
         assert name != "kharaz2001" or np.abs(off).max() < most
 
@@ -185,12 +185,12 @@ def test_the_exact_impact_passes_through_the_scatter(name):
 @pytest.mark.parametrize("name", KHARAZ)
 def test_the_dataset_reads_as_its_file(name):
     """Columns, gaps and bodies come through `load` as they do from the file."""
-    given = read_table(datasets.load(name))
-    again = in_units(given, given.names, gaps=OBSERVABLES)
+    table = read_table(datasets.load(name))
+    again = in_units(table, table.names, gaps=OBSERVABLES)
     for key, values in datasets.table(name).columns.items():
         assert_array_equal(again[key], values)
-    assert given.case == read_table(datasets.path(name)).case
-    assert others(given, with_errors((*BEFORE, *OBSERVABLES))) == ()
+    assert table.case == read_table(datasets.path(name)).case
+    assert others(table, with_errors((*BEFORE, *OBSERVABLES))) == ()
 
 
 def test_storing_and_reading_gives_the_dataset_back(tmp_path):
@@ -218,12 +218,12 @@ def test_glass_on_glass_gives_the_friction_and_restitution_of_its_authors():
     three of the authors' errors to either side.
     """
     bodies = pair("foerster1994")
-    found = carom.fit(datasets.load("foerster1994"), fixed={"kappa": bodies.kappa})
+    result = carom.fit(datasets.load("foerster1994"), fixed={"kappa": bodies.kappa})
     for name, published, error in (("friction", 0.092, 0.006), ("restitution", 0.97, 0.01)):
-        estimate = found[name]
+        estimate = result[name]
         assert estimate.low < published < estimate.high
         assert estimate.high - estimate.low < 6.0 * error
-    walton = found.comparison["Walton"].values
+    walton = result.comparison["Walton"].values
     assert walton["tangential_restitution"] == pytest.approx(0.44, abs=0.07)
     assert walton["friction"] == pytest.approx(0.092, abs=0.006)
 
@@ -232,28 +232,28 @@ def test_velocities_of_glass_are_those_of_the_worksheet():
     """Rows 2 and 200 of the worksheet in full, the first mirrored."""
     data = datasets.table("foerster1994")
     names = ("normal_speed", "tangential_speed", "normal_speed_out", "tangential_speed_out")
-    found = np.array([data[name] for name in names]).T
+    T = np.array([data[name] for name in names]).T
     printed = {
         0: (1.0068817890855133, 0.6230303841600968, 0.9252097372040775, 0.4844291151390543),
         18: (1.2301332716797653, 0.30004685682896015, 1.1809077296351256, 0.1863569002482995),
     }
-    assert found.shape == (24, 4)
+    assert T.shape == (24, 4)
     for row, values in printed.items():
-        assert_allclose(found[row], values, rtol=6e-5)
+        assert_allclose(T[row], values, rtol=6e-5)
 
 
 def test_published_parameters_are_those_of_pairs_that_can_be():
-    known = datasets.parameters()
-    assert known.sizes == {"pair": 11}
-    assert known.diameter.units == "m"
-    assert known.density.units == "kg/m^3"
-    assert ((known.normal_restitution > 0.5) & (known.normal_restitution <= 1.0)).all()
-    assert ((known.beta_0 > 0.0) & (known.beta_0 < 0.6)).all()
-    assert ((known.friction > 0.04) & (known.friction <= 0.8)).all()
-    assert all(len(text) > 50 for text in known.reference.values)
-    same = known.body == known.other
-    assert set(known["shape"].values[same.values]) == {"sphere"}
-    steel = known.isel(pair=known.body.values.tolist().index("steel"))
+    dataset = datasets.parameters()
+    assert dataset.sizes == {"pair": 11}
+    assert dataset.diameter.units == "m"
+    assert dataset.density.units == "kg/m^3"
+    assert ((dataset.normal_restitution > 0.5) & (dataset.normal_restitution <= 1.0)).all()
+    assert ((dataset.beta_0 > 0.0) & (dataset.beta_0 < 0.6)).all()
+    assert ((dataset.friction > 0.04) & (dataset.friction <= 0.8)).all()
+    assert all(len(text) > 50 for text in dataset.reference.values)
+    same = dataset.body == dataset.other
+    assert set(dataset["shape"].values[same.values]) == {"sphere"}
+    steel = dataset.isel(pair=dataset.body.values.tolist().index("steel"))
     assert np.isnan(steel.density)
     assert steel.friction == 0.11
     assert steel.beta_0 == 0.34
@@ -267,8 +267,8 @@ def test_the_largest_beta_of_the_exact_law_is_the_published_one(body, material):
 
     beta = -V_x'/V_x depends on the incidence, while Walton's law has one number where it sticks.
     """
-    known = datasets.parameters()
-    row = known.isel(pair=known.body.values.tolist().index(body))
+    dataset = datasets.parameters()
+    row = dataset.isel(pair=dataset.body.values.tolist().index(body))
     sphere = carom.Sphere(radius=0.5 * row.diameter.item(), material=material)
     both = carom.Pair(sphere, sphere, friction=row.friction.item())
     hits = [carom.impact(both, speed=1.0, angle=angle) for angle in np.radians(range(2, 31, 2))]

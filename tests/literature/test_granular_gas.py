@@ -96,11 +96,11 @@ def test_pairs_that_share_a_sphere_take_their_turn():
     for group in groups:
         spheres = np.concatenate(group)
         assert np.unique(spheres).size == spheres.size
-    found = np.concatenate(groups, axis=1)
+    values = np.concatenate(groups, axis=1)
     for sphere in range(40):
         partners = (
             np.where(a == sphere, b, a)[(a == sphere) | (b == sphere)]
-            for a, b in (found, (one, other))
+            for a, b in (values, (one, other))
         )
         np.testing.assert_array_equal(*partners)
 

@@ -89,8 +89,8 @@ def slips(step):
     return step.touching & (size >= step.state.pressure * (1.0 - 1e-9))
 
 
-def assert_printed(found, rows, name):
-    for value, row in zip(found, rows, strict=True):
+def assert_printed(actual, rows, name):
+    for value, row in zip(actual, rows, strict=True):
         text = row[name]
         assert abs(value - float(text)) <= 1.02 * last_digit(text), (name, row, value)
 
@@ -118,13 +118,13 @@ def test_traction(elements):
 def test_slip(elements):
     """None at the same elements as CONTACT's; elsewhere its size to the last of 3 digits."""
     pushed, rows, places = elements
-    found = np.hypot(*pushed.step.moved)[places] * pushed.friction * pushed.depth
+    actual = np.hypot(*pushed.step.moved)[places] * pushed.friction * pushed.depth
     printed = np.array([float(row["slip_abs_mm"]) for row in rows])
     assert np.array_equal(slips(pushed.step)[places], printed > 0.0)
     held = printed == 0.0
-    assert np.abs(found[held]).max() <= 1e-5 * printed.max()
+    assert np.abs(actual[held]).max() <= 1e-5 * printed.max()
     kept = [row for row, sticks in zip(rows, held, strict=True) if not sticks]
-    for value, row in zip(found[~held], kept, strict=True):
+    for value, row in zip(actual[~held], kept, strict=True):
         allowed = 1.02 * last_digit(row["slip_abs_mm"])
         assert abs(value - float(row["slip_abs_mm"])) <= allowed, (row, value)
 
@@ -132,20 +132,20 @@ def test_slip(elements):
 def test_places(case):
     """Approach, displacement and largest pressure, to the last of 4 printed digits."""
     state = case.step.state
-    for found, name in (
+    for actual, name in (
         (state.depth * case.depth, "approach_mm"),
         (state.displacement[0] * case.friction * case.depth, "shift_mm"),
         (state.pressure.max() * case.stress, "pmax"),
     ):
         text = case.row[name]
-        assert abs(found - float(text)) <= 1.02 * last_digit(text), name
+        assert abs(actual - float(text)) <= 1.02 * last_digit(text), name
 
 
 def test_numbers_of_elements(case):
     """That touch, stick and slip: 177, 45, 132 and 621, 305, 316. All the same."""
     slipping, touching = slips(case.step), case.step.state.pressure > 0.0
-    found = touching.sum(), (touching & ~slipping).sum(), slipping.sum()
-    assert found == tuple(int(case.row[name]) for name in ("n_contact", "n_adh", "n_slip"))
+    values = touching.sum(), (touching & ~slipping).sum(), slipping.sum()
+    assert values == tuple(int(case.row[name]) for name in ("n_contact", "n_adh", "n_slip"))
 
 
 def test_energies(case):

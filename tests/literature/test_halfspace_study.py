@@ -28,7 +28,7 @@ from halfspace_study import TABLE, load  # noqa: E402
 @pytest.fixture(scope="module")
 def judged():
     """Error and estimate of the 200 impacts on 32 elements, with psi_1 - 1."""
-    found = [
+    values = [
         (*one, case[2] - 1.0)
         for kind in ("nu 0", "like", "unlike")
         for one, case in zip(
@@ -37,7 +37,7 @@ def judged():
             strict=True,
         )
     ]
-    return np.array(found).T
+    return np.array(values).T
 
 
 def test_the_estimate_covers_the_error(judged):
@@ -140,7 +140,7 @@ def test_prose_counts_impacts_as_the_table_does():
     comma in their number are no others."""
     judged = {label: len(study.judged(label)) for label in SERIES}
     solved = {impact._replace(label="", case="", elements=0, steps=0) for impact in load(TABLE)}
-    known = {
+    by_name = {
         "impacts were solved and compared": sum(judged.values()),
         "of them with spin": sum(n for label, n in judged.items() if "spin" in label),
         "impacts": len(solved),
@@ -148,7 +148,7 @@ def test_prose_counts_impacts_as_the_table_does():
         "solutions": len(load(TABLE)),
     }
     page = " ".join(PAGE.split())
-    for words, count in known.items():
+    for words, count in by_name.items():
         if words != "impacts":
             assert f"{count:,} {words}" in page, words
     assert f"the study has {len(solved):,} impacts" in page
@@ -156,7 +156,7 @@ def test_prose_counts_impacts_as_the_table_does():
         text = " ".join((STUDIES.parent / name).read_text(encoding="utf-8").split())
         counts = set(re.findall(r"(\d,\d{3}) (?:impacts|full|solutions)", text))
         assert f"{sum(judged.values()):,}" in counts, name
-        allowed = {f"{count:,}" for count in known.values()} if "_study" in name else set()
+        allowed = {f"{count:,}" for count in by_name.values()} if "_study" in name else set()
         assert counts <= allowed | {f"{sum(judged.values()):,}"}, name
 
 
@@ -164,8 +164,8 @@ def test_prose_tells_the_largest_differences_of_the_table():
     """Differences, not bounds, of each kind of bodies without spin: README and pages."""
 
     def largest(*labels):
-        found = [case for label in labels for case in study.cases(label)]
-        return max((abs(study.difference(case).value), case) for case in found)
+        values = [case for label in labels for case in study.cases(label)]
+        return max((abs(study.difference(case).value), case) for case in values)
 
     solid, like, pair, unlike = (
         largest(*labels)
@@ -203,11 +203,11 @@ def poisson(impact):
 def test_the_page_tells_what_the_table_holds():
     """Every row of the tables on docs/halfspace_study.md is computed from it."""
     like = [f"nu {nu:g}" for nu in tables.RATIOS[1:]]
-    found = (
+    values = (
         *(tables.error_table(), tables.bound_table(tables.SERIES)),
         *(tables.bound_table(tables.APART | tables.APART_SPIN), tables.table("solid", like)),
         *(tables.table("pair", list(tables.PAIRS)), tables.normal_table(), tables.slip_table()),
     )
-    lines = [line for table in found for line in table]
+    lines = [line for table in values for line in table]
     assert len(lines) > 60
     assert [line for line in lines if line not in PAGE.splitlines()] == []

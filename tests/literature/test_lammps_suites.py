@@ -46,7 +46,7 @@ def pages(texts, kind):
 def changed(page, name, factor):
     """Return a test of the granular suite in which a coefficient of the law is another one."""
     pattern = re.compile(rf"^({name}) (\S+)$", re.MULTILINE)
-    text = pattern.sub(lambda found: f"{name} {float(found[2]) * factor!r}", page["variables"])
+    text = pattern.sub(lambda actual: f"{name} {float(actual[2]) * factor!r}", page["variables"])
     assert text != page["variables"]
     return page | {"variables": text}
 
@@ -115,13 +115,13 @@ def test_sticking_case_of_lammps_as_recorded():
     energy = drift**2 + speed**2
     for share, velocity, lost in ((1.0, 0.344, 0.046), (0.5, 0.242, 0.041)):
         law = carom.dem.LammpsMindlin(stiffness=share, restitution=e, tangential_damping=0.5)
-        found = law.rebound(drift / unit, pair.chi, kappa=pair.kappa, steps=1394)
-        left = drift - (drift / unit - found) * unit / 3.5
+        actual = law.rebound(drift / unit, pair.chi, kappa=pair.kappa, steps=1394)
+        left = drift - (drift / unit - actual) * unit / 3.5
         after = left**2 + (e * speed) ** 2 + 2.5 * (drift - left) ** 2
         assert left == pytest.approx(velocity, abs=1e-3)
         assert 1.0 - after / energy == pytest.approx(lost, abs=1e-3)
         if share == 1.0:
-            assert found == pytest.approx(recorded, abs=2e-5)
+            assert actual == pytest.approx(recorded, abs=2e-5)
 
 
 @engine
@@ -218,9 +218,9 @@ def test_the_script_tells_what_fails(texts, tmp_path):
 @pytest.mark.slow
 def test_page_shows_what_is_measured(texts):
     """Tables as they would be written; of the errors that rounding makes the order, at most."""
-    found = study.tables(texts)
+    actual = study.tables(texts)
     page = study.blocks(study.PAGE)
-    assert {name: found[name] for name in ("exact", "laws", "breaks")} == {
+    assert {name: actual[name] for name in ("exact", "laws", "breaks")} == {
         name: page[name] for name in ("exact", "laws", "breaks")
     }
     numbers = re.findall(r"\d+e-\d+", page["agreement"])

@@ -51,7 +51,7 @@ def dataset(ranking):
 
 
 def test_by_default_it_is_the_published_comparison(ranking):
-    assert (ranking.chi, ranking.psi) == (CHI, PSI)
+    assert (ranking.chi, ranking.psi_in) == (CHI, PSI)
     assert ranking.kappa == pytest.approx(4 * CHI / 7, rel=1e-15)
     entries = [standing.entry for standing in ranking.standings]
     assert sorted(entries, key=CATALOGUE.index) == [*CATALOGUE]
@@ -99,22 +99,22 @@ def test_rigid_coulomb_friction_is_worst_just_before_all_slide(standings):
 @pytest.mark.parametrize("label", ["mindlin", "mindlin_rescale/force", "rigid Coulomb"])
 def test_what_a_standing_says_is_so(standings, label):
     """The largest error at `worst`, the rms, the worst force, the gain, impact by impact."""
-    found = standings[label]
-    law = found.entry.law
+    value = standings[label]
+    law = value.entry.law
     outs = [law.rebound(psi, CHI) for psi in PSI]
     wrong = [out - carom.rebound(psi, CHI) for out, psi in zip(outs, PSI, strict=True)]
-    assert found.max_error == pytest.approx(max(map(abs, wrong)), rel=1e-9)
-    assert abs(wrong[PSI.index(found.worst)]) == max(map(abs, wrong))
-    assert found.rms_error == pytest.approx((sum(e * e for e in wrong) / len(PSI)) ** 0.5, rel=1e-9)
+    assert value.max_error == pytest.approx(max(map(abs, wrong)), rel=1e-9)
+    assert abs(wrong[PSI.index(value.worst)]) == max(map(abs, wrong))
+    assert value.rms_error == pytest.approx((sum(e * e for e in wrong) / len(PSI)) ** 0.5, rel=1e-9)
     gain = max(abs(out) - psi for out, psi in zip(outs, PSI, strict=True))
-    assert found.energy_gain == pytest.approx(max(0.0, gain), abs=1e-12)
+    assert value.energy_gain == pytest.approx(max(0.0, gain), abs=1e-12)
     if label == "rigid Coulomb":
-        assert np.isnan(found.force_error)
-        assert (found.step, found.fine_step) == (None, None)
+        assert np.isnan(value.force_error)
+        assert (value.step, value.fine_step) == (None, None)
         return
-    assert found.force_error == max(force_error(law, psi, CHI).rms for psi in PSI)
-    assert found.step == advised_steps(law, found.max_error, PSI, CHI)
-    assert found.fine_step == advised_steps(law, 0.01, PSI, CHI)
+    assert value.force_error == max(force_error(law, psi, CHI).rms for psi in PSI)
+    assert value.step == advised_steps(law, value.max_error, PSI, CHI)
+    assert value.fine_step == advised_steps(law, 0.01, PSI, CHI)
 
 
 def test_a_law_that_gains_energy_is_told():
@@ -124,9 +124,9 @@ def test_a_law_that_gains_energy_is_told():
     gain = max(abs(mindlin_out(p, chi)) - p for p in psi)
     assert gain > 0.03
     entries = [Entry("spring", dem.LammpsMindlin(), ""), Entry("hard", dem.HardSphere(1.0), "")]
-    found = {s.entry.label: s for s in rank(entries, chi=chi, psi=psi).standings}
-    assert found["spring"].energy_gain == pytest.approx(gain, abs=1e-3)
-    assert found["hard"].energy_gain == 0.0
+    value = {s.entry.label: s for s in rank(entries, chi=chi, psi=psi).standings}
+    assert value["spring"].energy_gain == pytest.approx(gain, abs=1e-3)
+    assert value["hard"].energy_gain == 0.0
     assert rank(entries[:1], psi=psi).standings[0].energy_gain == 0.0
 
 
@@ -152,8 +152,8 @@ def test_dataset_holds_the_rebounds_and_the_errors(ranking, dataset):
     assert rms == pytest.approx(dataset.rms_error.values, rel=1e-12)
     assert (float(dataset.chi), float(dataset.kappa)) == (ranking.chi, ranking.kappa)
     for standing, steps in zip(ranking.standings, dataset.steps.values, strict=True):
-        told = [step.steps if step else -1 for step in (standing.step, standing.fine_step)]
-        assert list(steps) == told
+        items = [step.steps if step else -1 for step in (standing.step, standing.fine_step)]
+        assert list(steps) == items
     for name in dataset.data_vars:
         assert dataset[name].attrs["units"] == "1", name
         assert dataset[name].attrs["long_name"], name
@@ -181,9 +181,9 @@ def test_table_has_a_row_a_law(ranking):
 
 
 def test_progress_is_told():
-    told = []
-    rank(FEW, psi=[1.0], progress=lambda done, whole: told.append((done, whole)))
-    assert told == [(1, 3), (2, 3), (3, 3)]
+    items = []
+    rank(FEW, psi=[1.0], progress=lambda done, whole: items.append((done, whole)))
+    assert items == [(1, 3), (2, 3), (3, 3)]
 
 
 def test_catalogue_names_each_law_once():
@@ -197,7 +197,7 @@ def test_catalogue_names_each_law_once():
     [
         ({"chi": -1.0}, "chi: -1.0 .*positive"),
         ({"kappa": 0.0}, "kappa: 0.0 .*positive"),
-        ({"psi": [np.nan]}, "psi: .*finite"),
+        ({"psi_1": [np.nan]}, "psi_1: .*finite"),
         ({"entries": []}, "entries: .*at least one law"),
     ],
 )
@@ -227,9 +227,9 @@ def test_damped_laws_are_compared_with_an_impact_of_the_same_restitution() -> No
 
 def test_sliding_impacts_of_damped_laws_have_the_force_of_the_exact_one() -> None:
     """F_x = mu F_n in both; what differs is the shape of F_n, the more the more is lost."""
-    found = [force_error(dem.LammpsMindlin(restitution=e), 9.0, CHI).rms for e in (1, 0.9, 0.7)]
-    assert found[0] < 2e-3
-    assert 0.01 < found[1] < found[2] < 0.2
+    value = [force_error(dem.LammpsMindlin(restitution=e), 9.0, CHI).rms for e in (1, 0.9, 0.7)]
+    assert value[0] < 2e-3
+    assert 0.01 < value[1] < value[2] < 0.2
 
 
 def test_rankings_with_losses() -> None:

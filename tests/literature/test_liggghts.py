@@ -29,7 +29,7 @@ present = pytest.mark.skipif(Liggghts().executable() is None, reason="LIGGGHTS i
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory: pytest.TempPathFactory) -> engines.Results:
+def actual(tmp_path_factory: pytest.TempPathFactory) -> engines.Results:
     """Return all experiments with their outcomes."""
     program, cases = Liggghts(), [*HERTZ, *SPRINGS, *DAMPED, STRONGLY_DAMPED]
     return engines.run_all(
@@ -45,16 +45,16 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> engines.Results:
 @engine
 @present
 @pytest.mark.parametrize("case", HERTZ, ids=engines.PAIRS)
-def test_hertz_with_history(found: engines.Results, case: engines.Case) -> None:
+def test_hertz_with_history(actual: engines.Results, case: engines.Case) -> None:
     """LiggghtsHertz is LIGGGHTS's hertz to 1e-4 for walls and spheres, by speed or by spin."""
-    assert engines.deviation(found, case, steps=None) < 5e-5
+    assert engines.deviation(actual, case, steps=None) < 5e-5
 
 
 @engine
 @present
-def test_is_not_another_variant(found: engines.Results) -> None:
+def test_is_not_another_variant(actual: engines.Results) -> None:
     """LIGGGHTS stores the displacement: a law that stores the force is off by 0.2 and more."""
-    impacts, outcomes = found[HERTZ[0]]
+    impacts, outcomes = actual[HERTZ[0]]
     assert engines.PAIRS["wall"].chi == pytest.approx(1.4412, abs=1e-4)
     other = LammpsMindlin("mindlin/force").rebound(impacts.psi_in, engines.PAIRS["wall"].chi)
     assert np.abs(psi_out(impacts, outcomes) - other).max() > 0.1
@@ -63,37 +63,37 @@ def test_is_not_another_variant(found: engines.Results) -> None:
 @engine
 @present
 @pytest.mark.parametrize("case", DAMPED, ids=str)
-def test_damped_hertz(found: engines.Results, case: engines.Case) -> None:
+def test_damped_hertz(actual: engines.Results, case: engines.Case) -> None:
     """With damping the record agrees step for step, and the limit of small steps with it."""
     _, law, steps = case
-    assert engines.deviation(found, case, steps=steps) < 1e-5
+    assert engines.deviation(actual, case, steps=steps) < 1e-5
     if steps == 40_000:
-        assert engines.deviation(found, case, steps=None) < 1e-4
-        speed = found[case][1].normal_speed
+        assert engines.deviation(actual, case, steps=None) < 1e-4
+        speed = actual[case][1].normal_speed
         assert speed == pytest.approx(law.restitution * engines.SPEED, rel=1e-5)
 
 
 @engine
 @present
-def test_strong_damping_is_run_until_all_have_parted(found: engines.Results) -> None:
+def test_strong_damping_is_run_until_all_have_parted(actual: engines.Results) -> None:
     """At e = 0.06 the contact lasts 1.7 times as long; the step costs 1e-3 of the speed."""
-    assert engines.deviation(found, STRONGLY_DAMPED, steps=2000) < 5e-5
-    speed = found[STRONGLY_DAMPED][1].normal_speed
+    assert engines.deviation(actual, STRONGLY_DAMPED, steps=2000) < 5e-5
+    speed = actual[STRONGLY_DAMPED][1].normal_speed
     assert speed == pytest.approx(0.06 * engines.SPEED, rel=5e-3)
 
 
 @engine
 @present
 @pytest.mark.parametrize("case", SPRINGS, ids=str)
-def test_linear_springs(found: engines.Results, case: engines.Case) -> None:
+def test_linear_springs(actual: engines.Results, case: engines.Case) -> None:
     """LinearSpring is LIGGGHTS's hooke/stiffness step for step, with a dashpot too."""
-    assert engines.deviation(found, case, steps=1000) < 5e-5
+    assert engines.deviation(actual, case, steps=1000) < 5e-5
 
 
 @engine
 @present
-def test_one_run_alone(found: engines.Results) -> None:
-    engines.assert_same_alone(Liggghts(), found, SPRINGS[-1], "3.8.0")
+def test_one_run_alone(actual: engines.Results) -> None:
+    engines.assert_same_alone(Liggghts(), actual, SPRINGS[-1], "3.8.0")
 
 
 def test_what_it_has() -> None:

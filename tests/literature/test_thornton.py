@@ -17,7 +17,7 @@ def closed_form(ratio: Array) -> Array:
     return np.sqrt(1.2 * np.sqrt(3.0)) * np.sqrt(1.0 - ratio**2 / 6.0) * shape**0.25
 
 
-def found(ratio: Array) -> Array:
+def restitution(ratio: Array) -> Array:
     """Return e of an impact."""
     one = np.ones(ratio.size)
     return lossy_rebounds(one, one, LossNumbers(Loss.PLASTIC, ratio**0.4)).restitution
@@ -30,13 +30,13 @@ def test_closed_form_is_one_at_yield() -> None:
 def test_restitution_is_the_closed_form() -> None:
     """From 3e4 times the yield velocity down to it."""
     ratio = np.concatenate([10.0 ** np.linspace(-4.5, -0.01, 60), 1.0 - np.logspace(-2, -4, 20)])
-    assert np.max(np.abs(found(ratio) - closed_form(ratio))) < 1e-10
+    assert np.max(np.abs(restitution(ratio) - closed_form(ratio))) < 1e-10
 
 
 def test_restitution_just_above_yield() -> None:
     """Yielding so short that it is a root of the time left is not lost, and e is not above 1."""
     ratio = 1.0 - np.logspace(-4, -13, 60)
-    values = found(ratio)
+    values = restitution(ratio)
     assert np.max(np.abs(values - closed_form(ratio))) < 3e-10
     assert np.max(values) <= 1.0 + 3e-10
 
@@ -52,7 +52,7 @@ def test_restitution_does_not_depend_on_the_tangential_motion(psi: float) -> Non
 def test_restitution_falls_with_the_fourth_root_of_the_speed() -> None:
     """e -> (6 sqrt(3)/5)^(1/2) (V_y/V_1 / (2 sqrt(6/5)))^(1/4) = 1.185 (V_y/V_1)^(1/4)."""
     ratio = np.array([1e-4, 3e-5])
-    values = found(ratio)
+    values = restitution(ratio)
     slope = np.log(values[1] / values[0]) / np.log(ratio[1] / ratio[0])
     assert slope == pytest.approx(0.25, abs=1e-5)
     assert values[1] / ratio[1] ** 0.25 == pytest.approx(1.185, abs=5e-4)

@@ -108,10 +108,10 @@ def test_ring_cracks_of_ball_and_mckenzie_are_faster_than_the_bound():
     """3 mm steel balls at 10 to 50 m/s cracked float glass (J. Phys. IV 4, C8-783, 1994)."""
     ball = carom.Sphere(radius="1.5 mm", material="bearing steel")
     pair = carom.Pair(ball, carom.HalfSpace(material=GLASS), friction=0.0)
-    found = carom.bearable_speeds(pair, angle=0.0)
-    bound = float(found.crack_speed_second.squeeze())
+    speeds = carom.bearable_speeds(pair, angle=0.0)
+    bound = float(speeds.crack_speed_second.squeeze())
     assert bound < bound * (RHEE / auerbach(GLASS.poisson)) ** (5 / 6) < 10.0
-    assert float(found.tensile_speed_second.squeeze()) < 0.02 * bound, "bending strength misleads"
+    assert float(speeds.tensile_speed_second.squeeze()) < 0.02 * bound, "bending strength misleads"
 
 
 def kharaz():
@@ -132,12 +132,12 @@ def test_friction_takes_what_kharaz_measured_and_rigid_bodies_do_not_tell():
     pair, angle, measured, error = kharaz()
     energy = 0.5 * pair.first.mass * 3.9**2
     many = carom.wear_of_many(pair, speed=3.9, angle=angle, area=1.0)
-    found = many.dissipated_energy.values / energy
+    value = many.dissipated_energy.values / energy
     below = angle < np.radians(55.0)
-    assert np.all(np.abs(found - measured)[below] < 2.0 * error[below])
-    assert found[~below] == pytest.approx(measured[~below], rel=0.07)
+    assert np.all(np.abs(value - measured)[below] < 2.0 * error[below])
+    assert value[~below] == pytest.approx(measured[~below], rel=0.07)
     at = int(np.abs(angle - np.radians(20.0)).argmin())
-    assert (found[at], measured[at]) == pytest.approx((0.02736, 0.0278), abs=2e-4)
+    assert (value[at], measured[at]) == pytest.approx((0.02736, 0.0278), abs=2e-4)
     assert 2.0 / 7.0 * np.sin(angle[at]) ** 2 - measured[at] > 10.0 * error[at]
 
 

@@ -48,7 +48,7 @@ class Otherwise(Yade):
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory: pytest.TempPathFactory) -> engines.Results:
+def actual(tmp_path_factory: pytest.TempPathFactory) -> engines.Results:
     """Return all experiments with their outcomes."""
     cases = [FINE, *ELASTIC, SPRINGS, *DAMPED, LINEAR_SHEAR, DERESIEWITZ]
     return engines.run_all(
@@ -67,30 +67,30 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> engines.Results:
 
 @engine
 @present
-def test_mindlin_on_a_wall(found: engines.Results) -> None:
+def test_mindlin_on_a_wall(actual: engines.Results) -> None:
     """LammpsMindlin("mindlin/force") is YADE's Mindlin to 1e-4 at a step that is fine enough."""
     assert engines.PAIRS["wall"].chi == pytest.approx(1.4412, abs=1e-4)
-    assert engines.deviation(found, FINE, steps=None) < 1e-4
+    assert engines.deviation(actual, FINE, steps=None) < 1e-4
 
 
 @engine
 @present
 @pytest.mark.parametrize("case", ELASTIC, ids=str)
-def test_mindlin_step_for_step(found: engines.Results, case: engines.Case) -> None:
+def test_mindlin_step_for_step(actual: engines.Results, case: engines.Case) -> None:
     """Step for step the record agrees for unlike materials and for unlike spheres."""
-    assert engines.deviation(found, case, steps=2000) < 5e-5
+    assert engines.deviation(actual, case, steps=2000) < 5e-5
 
 
 @engine
 @present
 @pytest.mark.parametrize("case", DAMPED, ids=str)
-def test_damped_mindlin_step_for_step(found: engines.Results, case: engines.Case) -> None:
+def test_damped_mindlin_step_for_step(actual: engines.Results, case: engines.Case) -> None:
     """YadeMindlin is YADE's Mindlin with e_n = e_s = e, and e is what it leaves."""
     name, law, _, _ = case
-    assert engines.deviation(found, case, steps=2000) < (
+    assert engines.deviation(actual, case, steps=2000) < (
         5e-5 if name == "unequal spheres" else 1e-5
     )
-    speed = found[case][1].normal_speed
+    speed = actual[case][1].normal_speed
     assert speed == pytest.approx(law.restitution * engines.SPEED, rel=2e-4)
 
 
@@ -103,30 +103,30 @@ def test_damping_of_thornton() -> None:
 
 @engine
 @present
-def test_linear_springs(found: engines.Results) -> None:
+def test_linear_springs(actual: engines.Results) -> None:
     """LinearSpring is YADE's CundallStrack with k_n and k_s given, here of equal spheres."""
-    assert engines.deviation(found, SPRINGS, steps=2000) < 5e-5
+    assert engines.deviation(actual, SPRINGS, steps=2000) < 5e-5
 
 
 @engine
 @present
-def test_hertz_with_linear_shear(found: engines.Results) -> None:
+def test_hertz_with_linear_shear(actual: engines.Results) -> None:
     """HertzWithLinearShear is the same law as Mindlin if nonLin is 1."""
-    assert engines.deviation(found, LINEAR_SHEAR, steps=1000) < 5e-5
+    assert engines.deviation(actual, LINEAR_SHEAR, steps=1000) < 5e-5
 
 
 @engine
 @present
-def test_known_defect_of_mindlin_deresiewitz(found: engines.Results) -> None:
+def test_known_defect_of_mindlin_deresiewitz(actual: engines.Results) -> None:
     """MindlinDeresiewitz of YADE sets no shear force: no impact changes psi."""
-    impacts, outcomes = found[DERESIEWITZ]
+    impacts, outcomes = actual[DERESIEWITZ]
     assert psi_out(impacts, outcomes) == pytest.approx(impacts.psi_in, abs=1e-12)
 
 
 @engine
 @present
-def test_one_run_alone(found: engines.Results) -> None:
-    engines.assert_same_alone(Yade(), found, DAMPED[1], "2023.02a")
+def test_one_run_alone(actual: engines.Results) -> None:
+    engines.assert_same_alone(Yade(), actual, DAMPED[1], "2023.02a")
 
 
 def test_what_it_has() -> None:

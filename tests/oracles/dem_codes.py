@@ -118,14 +118,14 @@ class Code:
 
 def events(code, slip, loading):
     """Return the instants that end a stretch of motion: parting, turning, sliding or sticking."""
-    found = [
+    actual = [
         lambda t, y: 1.0 if loading else y[0] - LEAST * DEEPEST,
         lambda t, y: y[1] if loading else 1.0,
         (lambda t, y: code.would_grow(y, slip)) if slip else (lambda t, y: code.over(y)),
     ]
-    for event, direction in zip(found, (-1, -1, -1 if slip else 1), strict=True):
+    for event, direction in zip(actual, (-1, -1, -1 if slip else 1), strict=True):
         event.terminal, event.direction = True, direction
-    return found
+    return actual
 
 
 def rebound(code, psi, precision=1e-11):

@@ -128,9 +128,9 @@ class Front:
             self.powers[j].append(mp.fdot(place[1 : k - j + 1], below[k - 1 : j - 1 : -1]))
         if self.double:
             self.root.append(next_root_term(self.root, [c / self.curve for c in limit[2:]]))
-        given = -self.root[-1] if self.double else limit[k]
+        values = -self.root[-1] if self.double else limit[k]
         column = [self.powers[j][k] for j in range(1, k)]
-        place.append((given - mp.fdot(self.law[2 : k + 1], column)) / self.law[1])
+        place.append((values - mp.fdot(self.law[2 : k + 1], column)) / self.law[1])
         return mp.fdot(self.work[1 : k + 1], [place[k], *column])
 
 
@@ -231,10 +231,10 @@ class Solver:
         """End the step at its first event, move the state there and name the event (`last` if
         there is none).
         """
-        found = {name: first_root(series, step.length, fresh) for name, series in events.items()}
-        found = {name: root for name, root in found.items() if root is not None}
-        last = min(found, key=found.__getitem__) if found else last
-        step.length = found.get(last, step.length)
+        by_name = {name: first_root(series, step.length, fresh) for name, series in events.items()}
+        by_name = {name: root for name, root in by_name.items() if root is not None}
+        last = min(by_name, key=by_name.__getitem__) if by_name else last
+        step.length = by_name.get(last, step.length)
         self.impact.steps.append(step)
         self.state = {name: step.at_end(name) for name in STATE}
         return last

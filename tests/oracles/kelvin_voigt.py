@@ -56,5 +56,5 @@ def impact(alpha, stride):
 if __name__ == "__main__":
     with mp.workdps(40):
         for alpha in ALPHAS:
-            found = impact(mp.mpf(alpha), mp.mpf("0.06"))
-            print(alpha, *(mp.nstr(value, 30) for value in found), sep=",")
+            hit = impact(mp.mpf(alpha), mp.mpf("0.06"))
+            print(alpha, *(mp.nstr(value, 30) for value in hit), sep=",")

@@ -151,15 +151,15 @@ def tractions(matrix: Array, wanted: Array, pressure: Array, slips: Signs) -> tu
     signs = np.where(pressure > 0.0, slips, OUTSIDE)
     for _ in range(ROUNDS):
         sticks = signs == 0
-        found = np.where(sticks | (signs == OUTSIDE), 0.0, signs * pressure)
+        actual = np.where(sticks | (signs == OUTSIDE), 0.0, signs * pressure)
         if sticks.any():
-            rest = wanted[sticks] - (matrix @ found)[sticks]
-            found[sticks] = np.linalg.solve(matrix[np.ix_(sticks, sticks)], rest)
-        slip = wanted - matrix @ found
-        beyond = sticks & (np.abs(found) > pressure)
+            rest = wanted[sticks] - (matrix @ actual)[sticks]
+            actual[sticks] = np.linalg.solve(matrix[np.ix_(sticks, sticks)], rest)
+        slip = wanted - matrix @ actual
+        beyond = sticks & (np.abs(actual) > pressure)
         stops = (np.abs(signs) == 1) & (signs * slip < -AT_REST)
-        others = np.where(beyond, np.sign(found), np.where(stops, 0, signs)).astype(np.int64)
+        others = np.where(beyond, np.sign(actual), np.where(stops, 0, signs)).astype(np.int64)
         if np.array_equal(others, signs):
-            return found, np.where(signs == OUTSIDE, 0, signs)
+            return actual, np.where(signs == OUTSIDE, 0, signs)
         signs = others
     raise ArithmeticError("the rings that stick are not found")

@@ -112,8 +112,8 @@ class Stick:
                 speed = mp.mpf(place) if x is None else mp.sqrt(1 - mp.mpf(place))
                 return float(function((1 - speed) / 2))
 
-        found = np.vectorize(value, otypes=[float])(v if x is None else x)
-        return found if found.ndim else float(found)
+        actual = np.vectorize(value, otypes=[float])(v if x is None else x)
+        return actual if actual.ndim else float(actual)
 
     def psi(self, v=None, *, x=None):
         """Return psi = g v, (25)."""

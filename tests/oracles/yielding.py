@@ -95,6 +95,6 @@ def borne(w: Array, y: float) -> Array:
 
 def by_fine_springs(psi: float, chi: float, y: float, count: int) -> float:
     """Return psi_2 of even springs, free of the errors of first and second order."""
-    found = [by_springs(psi, chi, y, times * count) for times in (1, 2, 4)]
-    first = [2.0 * fine - coarse for coarse, fine in pairwise(found)]
+    values = [by_springs(psi, chi, y, times * count) for times in (1, 2, 4)]
+    first = [2.0 * fine - coarse for coarse, fine in pairwise(values)]
     return (4.0 * first[1] - first[0]) / 3.0

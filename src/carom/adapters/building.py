@@ -15,7 +15,7 @@ from carom.quantities.refusals import InputError, refusal
 HERE = Path(__file__).parent
 HEADERS = HERE.parent / "include"
 COMPILERS = ("c++", "g++", "clang++")
-MATHS = ("-fno-math-errno", "-fno-trapping-math")  # without them roots are not vectors
+MATH_FLAGS = ("-fno-math-errno", "-fno-trapping-math")  # without them roots are not vectors
 OWN = ("-march=native",)  # it is built where it runs
 FAILURE = re.compile(r"error:|undefined reference|\*\*\*", re.IGNORECASE)
 LONGEST_COMPLAINT = 400  # characters

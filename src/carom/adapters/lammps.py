@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 from carom.adapters import building
 from carom.adapters.building import Built
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 
 SOURCES = building.HERE / "lammps_plugin"
-FLAGS = ("-std=c++17", "-O3", *building.MATHS, "-fPIC", "-shared", "-fvisibility=hidden")
+FLAGS = ("-std=c++17", "-O3", *building.MATH_FLAGS, "-fPIC", "-shared", "-fvisibility=hidden")
 SIZES = ("smallbig", "bigbig")  # of integers, as LAMMPS was built
 NAME = "caromplugin.so"  # LAMMPS loads *plugin.so
 COMMAND = "lammps build"
@@ -66,8 +66,7 @@ def from_sources(include: tuple[Path, ...], sizes: str = SIZES[0]) -> Lammps:
             "--include (src/STUBS for a LAMMPS without MPI)"
         )
         raise refusal("include", " ".join(map(str, include)), allowed)
-    if sizes not in SIZES:
-        raise refusal("sizes", sizes, f"must be one of {', '.join(SIZES)}")
+    refuse(sizes not in SIZES and refusal("sizes", sizes, f"must be one of {', '.join(SIZES)}"))
     return Lammps(int(date.strftime("%Y%m%d")), include, sizes)
 
 

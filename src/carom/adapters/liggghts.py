@@ -18,7 +18,7 @@ from carom.io.progress import advancing
 from carom.quantities.refusals import InputError, refusal
 
 MODEL = building.HERE / "liggghts_model"
-FLAGS = ("-std=gnu++17", "-O3", "-w", *building.MATHS)
+FLAGS = ("-std=gnu++17", "-O3", "-w", *building.MATH_FLAGS)
 NAME, MACHINE = "liggghts", "serial"  # no MPI
 COMMAND = "liggghts build"
 NEEDED_FILES = ("tangential_model_base.h", "version_liggghts.txt", "utils.h", "finish.cpp")

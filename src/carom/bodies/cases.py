@@ -23,6 +23,7 @@ from carom.quantities.refusals import (
     hint,
     one_of,
     refusal,
+    refuse,
 )
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
@@ -54,9 +55,9 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
 BODY = (*SIZES, "material")
 MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data", "spectrum")
-SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
+SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads
 SWEPT = ("samples", "seed", "table", "columns", "outputs", "axes")
-TABLES = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT, SWEEP: SWEPT}
+TABLES = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT, SWEEP_TABLE: SWEPT}
 KINDS = ("half-space", "sphere", "cup")
 SHAPES = (HalfSpace, Sphere, Cup)
 DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
@@ -166,8 +167,7 @@ def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
 def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
     """Return the law by which the normal motion of a case loses energy, or None."""
     names = [name for name in LOSSES if case.get(name) is not None]
-    if len(names) > 1:
-        raise InputError(f"{names[1]}: give it or {names[0]}, not both; {ONE_LOSS}")
+    refuse(len(names) > 1 and f"{names[1]}: give it or {names[0]}, not both; {ONE_LOSS}")
     refuse_half({*names, *([RATIO] if case.get(RATIO) is not None else [])})
     if not names:
         return None

@@ -1,6 +1,7 @@
 """The approach of two bodies, their motion after two impulses, and the observables of it."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import zip_longest
@@ -10,7 +11,7 @@ from typing import Any, NamedTuple
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.elementwise import arctan2, cos, hypot, quotient, sin, where
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import APPROACH, Value, finite, positive
 
 
@@ -21,16 +22,23 @@ def approach(
     tangential_speed: Value | None,
 ) -> tuple[float, float]:
     """Return normal and tangential speed from either way of giving them, in m/s."""
-    if speed is not None:
-        if normal_speed is not None or tangential_speed is not None:
-            raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
+    motion = {"speed": speed, "angle": angle}
+    motion |= {"normal_speed": normal_speed, "tangential_speed": tangential_speed}
+    if by_angle(motion):
         return components(positive("speed", speed), slope(0.0 if angle is None else angle))
-    if normal_speed is None:
-        raise InputError("speed: missing; give speed and angle, or normal_speed")
-    if angle is not None:
-        raise InputError("angle: give it with speed; with normal_speed give tangential_speed")
     tangential = finite("tangential_speed", 0.0 if tangential_speed is None else tangential_speed)
     return positive("normal_speed", normal_speed), tangential
+
+
+def by_angle(motion: Mapping[str, Any]) -> bool:
+    """Tell whether speed and angle are given, or both velocities; InputError for both or none."""
+    there = {name for name, value in motion.items() if value is not None}
+    angular, either = "speed" in there, "give speed and angle, or normal_speed"
+    missing = not there & {"speed", "normal_speed"} and f"speed: missing; {either}"
+    mixed = there & {"normal_speed", "tangential_speed"} if angular else "angle" in there
+    name = "speed" if angular else "angle"
+    refuse(missing or (mixed and f"{name}: {either} and tangential_speed"))
+    return angular
 
 
 def components(speed: float, angle: float) -> tuple[float, float]:

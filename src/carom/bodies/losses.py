@@ -16,7 +16,7 @@ from carom.io.citations import VISCOUS
 from carom.quantities.arrays import numbers
 from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.shown import Shown
 from carom.quantities.units import Value, not_negative, positive, within
 
@@ -30,6 +30,7 @@ READERS: dict[str, Callable[[str, Any], float]] = {
     "relaxation_time": not_negative,
 }
 LIMIT_PRESSURE = 1.6  # in yield strengths: where a sphere first yields (Johnson 1985, 6.1)
+NO_YIELD_VELOCITY = "yield_velocity: missing; give it, or a yield_strength of a material"
 
 _viscous_loss: Callable[[float], float] = lru_cache(maxsize=4096)(viscous_loss)
 
@@ -109,8 +110,8 @@ class KelvinVoigt(LossLaw):
 
     @known_keywords
     def __init__(self, restitution: Any = None, loss_time: Value | None = None) -> None:
-        if (restitution is None) == (loss_time is None):
-            raise InputError("restitution: give either restitution or loss_time")
+        alone = (restitution is None) != (loss_time is None)
+        refuse(not alone and "restitution: give either restitution or loss_time")
         self._keep(
             **{"loss_time": loss_time} if restitution is None else {"restitution": restitution}
         )
@@ -123,10 +124,9 @@ class KelvinVoigt(LossLaw):
 
     def scale_free(self) -> LossNumbers:
         """Return the kind of loss and alpha; one restitution must have been given."""
-        if self.restitution is None:
-            raise refusal("losses", self, "give a restitution instead of a loss time")
-        if np.ndim(self.restitution):
-            raise refusal("losses", self, "give one restitution, or use carom.sweep")
+        many = np.ndim(self.restitution) and "give one restitution, or use carom.sweep"
+        allowed = "give a restitution instead of a loss time" if self.restitution is None else many
+        refuse(allowed and refusal("losses", self, allowed))
         return LossNumbers(Loss.VISCOUS, float(_alphas(self.restitution)))
 
     def describe(self) -> dict[str, Any]:
@@ -257,8 +257,7 @@ def yield_velocity(pair: Pair) -> float:
     """
     bodies = (pair.first.material, pair.second.material)
     strengths = [body.yield_strength for body in bodies if body.yield_strength is not None]
-    if not strengths:
-        raise InputError("yield_velocity: missing; give it, or a yield_strength of a material")
+    refuse(not strengths and NO_YIELD_VELOCITY)
     strength = reduce(np.fmin, strengths)
     ratio = pi * LIMIT_PRESSURE * strength / (2.0 * pair.effective_modulus)
     length = pair.effective_radius * ratio**2

@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import Any, TypeVar
 
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, checked_type, hint, nearest, refusal
+from carom.quantities.refusals import checked_type, hint, nearest, refusal, refuse
 from carom.quantities.units import Value, number, positive
 
 STRENGTHS = ("yield_strength", "tensile_strength", "fracture_toughness", "flaw_size")
@@ -186,9 +186,8 @@ def material(name: str, **values: Value) -> Material:
     2e-05
     """
     checked_type("material", name, str, "give a name, or carom.Material(young=..., poisson=...)")
-    for key in values:
-        if key not in VALUES:
-            raise InputError(f"{key}: unknown in a material; {hint(key, VALUES)}")
+    unknown = [key for key in values if key not in VALUES]
+    refuse(*(f"{key}: unknown in a material; {hint(key, VALUES)}" for key in unknown))
     wanted = name.strip().lower()
     if wanted == "rigid":
         return Material(**{"young": math.inf, "poisson": 0.0, **values}, name="rigid")

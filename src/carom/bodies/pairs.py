@@ -18,9 +18,9 @@ from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
 LEAST, MOST = 1e-100, 1e100  # of the numbers of an impact
-TINIEST = 1e-300  # of what may vanish: less loses digits
+LEAST_SCALE = 1e-300  # of what may vanish: less loses digits
 OF_FRICTION = ("tangential_length", "tangential_force", "tangential_speed")  # zero without it
-SAME = 1e-6  # part by which numbers of the same bodies may differ: they are written in few digits
+SAME_BODIES = 1e-6  # part by which their numbers may differ, as written in few digits
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def scales_fit(pair: "Pair", scales: Scales, contact_velocity: float = 0.0, *par
     impulse = pair.tangential_mass * contact_velocity
     turning = (impulse * body.radius for body in pair.moving)
     for tiny in (pair.psi(contact_velocity, scales.speed), contact_velocity, impulse, *turning):
-        sizes.append((abs(tiny) >= TINIEST) | (contact_velocity == 0.0))
+        sizes.append((abs(tiny) >= LEAST_SCALE) | (contact_velocity == 0.0))
     return reduce(and_, sizes)
 
 
@@ -109,7 +109,7 @@ def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
     """Tell whether impacts of two pairs are the same, but for the friction unless that counts."""
     names = ("chi", "kappa", "effective_radius", "normal_mass", *(["friction"] * friction))
     values = ((getattr(one, name), getattr(other, name)) for name in names)
-    return all(abs(a - b) <= SAME * abs(b) for a, b in values)
+    return all(abs(a - b) <= SAME_BODIES * abs(b) for a, b in values)
 
 
 def pair_fits(pair: "Pair") -> bool:

@@ -8,7 +8,7 @@ import typer
 import carom
 from carom.cli.cases import check_outputs, require_some, stored
 from carom.cli.options import described, whole_option
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.units import finite, or_none, positive, whole
 
 if TYPE_CHECKING:
@@ -73,8 +73,7 @@ def curve_command(
     values = [positive("chi", value) for value in chi]
     first = finite("from", start, "1")
     last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")
-    if not first < last:
-        raise refusal("to", last, f"must be above --from, {first:g}")
+    refuse(not first < last and refusal("to", last, f"must be above --from, {first:g}"))
     psi = np.linspace(first, last, whole("points", points, 2, MOST_POINTS))
     dataset = carom.curve(values, psi, losses=_losses(restitution))
     if output is not None:
@@ -100,8 +99,7 @@ def _export(
     from carom.io.paths import checked_output, replace_whole
     from carom.laws.header import c_header
 
-    if language != "c":
-        raise refusal("export", language, "must be c, a header for C and C++")
+    refuse(language != "c" and refusal("export", language, "must be c, a header for C and C++"))
     unused = next((name for name, value in others.items() if value), None)
     if unused is not None:
         raise InputError(f"{unused}: has no effect with --export; leave one of them out")

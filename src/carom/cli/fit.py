@@ -87,13 +87,13 @@ def fit_command(
     if template:
         _tell_template(data or dataset, as_json)
         return
-    from carom.fitting.advice import PLAN
+    from carom.fitting.advice import MOST_LISTED
     from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
 
     source = _source(data, dataset)
     if about is not None and advice is None:
         raise refusal("for", about, "it has no effect without --advice; give that, too")
-    count = None if advice is None else whole("advice", advice, 1, PLAN)
+    count = None if advice is None else whole("advice", advice, 1, MOST_LISTED)
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
     outputs = {"plot": plot, "output": output, "posterior": posterior}
     check_outputs(outputs, data=source, case=case)
@@ -135,7 +135,7 @@ def _source(data: str | None, dataset: str | None) -> str | Path:
 def _pair(case: str | None) -> "Pair | None":
     """Return the bodies of a case file, whose friction may be left out."""
     from carom.bodies.cases import LOSSES, RATIO, pair_of
-    from carom.fitting.reading import START
+    from carom.fitting.reading import START_FRICTION
 
     if case is None:
         return None
@@ -144,7 +144,7 @@ def _pair(case: str | None) -> "Pair | None":
         if name in content:
             hint = "a fit finds the restitution; if you know it, leave it out of the case and give"
             raise refusal(name, content[name], f"{hint} --fix, e.g. --fix restitution=0.98")
-    return pair_of({"friction": START, **content})
+    return pair_of({"friction": START_FRICTION, **content})
 
 
 def _sampled(fit: "Fit", target: str, steps: int, seed: int) -> Path:

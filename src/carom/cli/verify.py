@@ -81,7 +81,7 @@ def laws_command(
     ratio = None if kappa is None else positive("kappa", kappa)
     e = None if restitution is None else damped_restitution("restitution", restitution)
     size = positive("chi", chi)
-    ranking = carom.verify.rank(named(law), chi=size, kappa=ratio, psi=incidences, restitution=e)
+    ranking = carom.verify.rank(named(law), chi=size, kappa=ratio, psi_1=incidences, restitution=e)
     store(ranking, output, plot)
     if error_map is not None:
         stored(_store_map(ranking.standings[0].entry.law, error_map))
@@ -316,7 +316,7 @@ def tune_command(
     content = None if case is None else read_case_file(case, losses=True)
     setting = setting_of(content, chi, kappa, start, stop, restitution)
     tuning = carom.verify.tune(
-        chi=setting.chi, kappa=setting.kappa, psi=setting.psi, measure=measure
+        chi=setting.chi, kappa=setting.kappa, psi_1=setting.psi, measure=measure
     )
     inputs = {
         "inputs": _inputs_of_codes(setting, tuning),

@@ -19,9 +19,9 @@ from carom.quantities.arrays import Array
 Flat = Annotated[NDArray[np.floating], ArrayType(np.floating, 1)]
 Panels = Annotated[NDArray[np.int32], ArrayType(np.int32, 1)]
 
-SMALLEST = 2.0**-960  # of |V_t|^2: less has lost digits, so that V_t is enlarged
+SMALLEST_SQUARE = 2.0**-960  # of |V_t|^2: less has lost digits, so that V_t is enlarged
 ENLARGED = 2.0**500
-CHUNK = 256  # pairs whose numbers stay in the nearest cache
+CACHE_PAIRS = 256  # pairs whose numbers stay in the nearest cache
 BLOCK = 65536  # pairs that a thread takes at once
 
 
@@ -49,8 +49,8 @@ class Scratch(NamedTuple):
 
 def new_scratch() -> Scratch:
     """Return room for one chunk."""
-    vectors, numbers = np.empty((4, 3 * CHUNK)), np.empty((3, CHUNK))
-    return Scratch._make((*vectors, *numbers, np.empty(CHUNK, dtype=np.int32)))
+    vectors, numbers = np.empty((4, 3 * CACHE_PAIRS)), np.empty((3, CACHE_PAIRS))
+    return Scratch._make((*vectors, *numbers, np.empty(CACHE_PAIRS, dtype=np.int32)))
 
 
 @kernel
@@ -83,7 +83,7 @@ def contact_velocity(
         scratch.sliding[x], scratch.sliding[y], scratch.sliding[z] = tx, ty, tz
         scratch.closing[i] = closing
         wx, wy, wz = ENLARGED * tx, ENLARGED * ty, ENLARGED * tz
-        held = square >= SMALLEST
+        held = square >= SMALLEST_SQUARE
         root = np.sqrt(square if held else wx * wx + wy * wy + wz * wz)
         root = root if held else root / ENLARGED
         scratch.slope[i] = min(scale * root / closing, LARGEST)
@@ -148,8 +148,8 @@ def collide_block(
 ) -> None:
     """Write the motions after a block of collisions, chunk by chunk; `after` may be `before`."""
     stop = min(start + BLOCK, status.size)
-    for low in range(start, stop, CHUNK):
-        high = min(low + CHUNK, stop)
+    for low in range(start, stop, CACHE_PAIRS):
+        high = min(low + CACHE_PAIRS, stop)
         old, new, code = part(before, low, high), part(after, low, high), status[low:high]
         approach(old, inertia, scratch)
         contact_velocity(normal[3 * low : 3 * high], rule.scale, scratch, code)

@@ -13,7 +13,7 @@ from carom.collisions import records
 from carom.collisions.records import CollisionStatus
 from carom.laws.portable import constants, floating, is_foreign, part_lost
 from carom.laws.rules import Rule
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 
 
 class Approach(NamedTuple):
@@ -68,8 +68,7 @@ def _alike(inputs: tuple[Any, ...]) -> tuple[list[Any], Any]:
             f"arrays: those of {' and '.join(names)} cannot be mixed; give all of one library"
         ) from None
     for name, array in foreign.items():
-        if tuple(array.shape[-1:]) != (3,):
-            raise refusal(name, array, records.VECTORS)
+        refuse(tuple(array.shape[-1:]) != (3,) and refusal(name, array, records.VECTORS))
         foreign[name] = floating(name, array)[0]
     kind = reduce(xp.result_type, (each.dtype for each in foreign.values()))
     alike = {name: xp.astype(each, kind, copy=False) for name, each in foreign.items()}

@@ -16,7 +16,7 @@ from carom.dimensionless import neglected
 from carom.laws.portable import is_floats
 from carom.plots.result import card
 from carom.quantities.arrays import numbers
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.statuses import WordedStatus
 
 TRACED = (TypeError, RuntimeError)  # what jax and torch raise of arrays without values
@@ -184,18 +184,16 @@ def vectors(name: str, values: ArrayLike | None) -> NDArray[np.floating] | None:
         return None
     plain = is_floats(values)  # may be written in place: no copy
     array = np.asarray(values) if plain else numbers(name, values, VECTORS, UNITS[name])
-    if array.shape[-1:] != (3,):
-        raise refusal(name, values, VECTORS)
+    refuse(array.shape[-1:] != (3,) and refusal(name, values, VECTORS))
     return array
 
 
 def common_shape(arrays: Sequence[Any]) -> tuple[int, ...]:
     """Return the shape to which the arrays broadcast, None left out, or raise InputError."""
-    given = ((name, each) for name, each in zip(NAMES, arrays, strict=True) if each is not None)
-    shapes = {name: tuple(each.shape) for name, each in given}
-    for name in ("velocity1", "normal"):
-        if name not in shapes:
-            raise InputError(f"{name}: missing; give an array of shape (..., 3)")
+    present = ((name, each) for name, each in zip(NAMES, arrays, strict=True) if each is not None)
+    shapes = {name: tuple(each.shape) for name, each in present}
+    missing = [name for name in ("velocity1", "normal") if name not in shapes]
+    refuse(*(f"{name}: missing; give an array of shape (..., 3)" for name in missing))
     try:
         shape = np.broadcast_shapes(*shapes.values())
     except ValueError:

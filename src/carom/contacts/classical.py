@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.pairs import Pair, with_friction
 from carom.quantities.arrays import Array, along_the_same, numbers, together
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import refusal, refuse
 
 FREE = "without friction the bodies slide freely"
 
@@ -107,8 +107,7 @@ def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Ar
     True
     """
     share, most = _share(pair, normal_force, amplitude)
-    if np.any(share < 0.0):
-        raise refusal("amplitude", amplitude, "must not be negative")
+    refuse(np.any(share < 0.0) and refusal("amplitude", amplitude, "must not be negative"))
     with np.errstate(divide="ignore"):
         gap = -np.expm1(np.log1p(-share) / 3.0)
     y = 1.0 - gap
@@ -159,20 +158,23 @@ def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array,
     along_the_same(normal_force=normal, tangential_force=tangential)
     load = numbers("normal_force", normal, allowed)
     across = numbers("tangential_force", tangential, allowed)
-    if not np.all((load > 0.0) & np.isfinite(load)):
-        raise refusal("normal_force", normal, "must be positive and finite")
-    if not np.all(np.isfinite(across)):
-        raise refusal("tangential_force", tangential, allowed)
+    pressed = np.all((load > 0.0) & np.isfinite(load))
+    refuse(
+        not pressed and refusal("normal_force", normal, "must be positive and finite"),
+        not np.all(np.isfinite(across)) and refusal("tangential_force", tangential, allowed),
+    )
     shape = together({"normal_force": load, "tangential_force": across})
     most = pair.friction * np.broadcast_to(load, shape)
     with np.errstate(all="ignore"):
         share, moved = np.asarray(across / most), _gross_displacement(pair, most)
         fits = np.isfinite(most) & np.isfinite(share) & np.isfinite(most * moved)
-    if not np.all(fits):
-        allowed = "its results are too large for floating point; check the units"
-        raise refusal("normal_force", normal, allowed)
-    if not np.all(np.abs(share) <= 1.0):
-        raise refusal("tangential_force", tangential, "Coulomb's law allows at most mu P")
+    held, slides = np.all(fits), not np.all(np.abs(share) <= 1.0)
+    allowed = "its results are too large for floating point; check the units"
+    refuse(
+        refusal("normal_force", normal, allowed)
+        if not held
+        else slides and refusal("tangential_force", tangential, "Coulomb's law allows at most mu P")
+    )
     return share, most
 
 

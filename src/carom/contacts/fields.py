@@ -22,7 +22,7 @@ from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.io.labels import flags, labelled_dataset
 from carom.quantities.arrays import Array, places
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import one_of, refusal
+from carom.quantities.refusals import one_of, refusal, refuse
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -215,10 +215,9 @@ def _of_body(contact: Contact, body: str) -> tuple[float, float]:
 
 
 def _refuse_outside(name: str, depth: Array, top: float) -> None:
-    if top and np.any(depth < top):
-        z, what = float(depth.min()), "stresses are infinite at the edge while the load grows"
-        raise refusal(name, f"z = {text(z, 'm')}", f"{what}; give z from {text(top, 'm', 3)} on")
-    if np.any(depth < 0.0):
-        z = float(depth.min())
-        allowed = "z is the depth in the body and must not be negative"
-        raise refusal(name, f"z = {text(z, 'm')}", allowed)
+    lowest = float(depth.min(initial=np.inf))
+    allowed = "z is the depth in the body and must not be negative"
+    if top:
+        what = "stresses are infinite at the edge while the load grows"
+        allowed = f"{what}; give z from {text(top, 'm', 3)} on"
+    refuse(lowest < max(top, 0.0) and refusal(name, f"z = {text(lowest, 'm')}", allowed))

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.pairs import ContactScales, Pair
 from carom.dimensionless.load_paths import paths, turning
-from carom.quantities.arrays import Array, along_the_same, numbers
+from carom.quantities.arrays import Array, along_the_same, numbers, refuse_where
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -74,8 +74,8 @@ def read_steps(
     across = _one_of(1, normal_force=normal, penetration=depth)
     along = _one_of(2, tangential_force=tangential, displacement=moved)
     sizes = {len(values) for _, values in (across, along) if values.ndim} - {1}
+    allowed = f"must have {across[1].size} values as {across[0]}, or a single one"
     if len(sizes) > 1:
-        allowed = f"must have {across[1].size} values as {across[0]}, or a single one"
         raise refusal(along[0], f"an array of {len(along[1])} values", allowed)
     n = max(sizes, default=1)
     control = np.broadcast_to(across[1], n).copy()
@@ -85,9 +85,7 @@ def read_steps(
         with np.errstate(over="ignore"):
             depth, force = control, np.maximum(control, 0.0) ** 1.5 * unit
     else:
-        if np.any(control < 0.0):
-            at = int(np.argmax(control < 0.0))
-            raise refusal("normal_force", float(control[at]), f"step {at}: it must not be negative")
+        _refuse_steps("normal_force", control, control < 0.0, "must not be negative")
         depth, force = np.cbrt(control / unit) ** 2, control
     return Steps(depth, force, target, np.full(n, along[0] == "tangential_force"))
 
@@ -118,10 +116,13 @@ def _values(name: str, control: ArrayLike | str, most: int) -> Array:
     values = numbers(name, control, allowed)
     if values.ndim > most or values.size == 0 or (values.ndim == 2 and values.shape[1] != 2):
         raise refusal(name, values, allowed)
-    if not np.all(np.isfinite(values)):
-        at = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
-        raise refusal(name, float(values[at]), f"step {at[0] if at else 0}: it must be finite")
+    _refuse_steps(name, values, ~np.isfinite(values), "must be finite")
     return values
+
+
+def _refuse_steps(name: str, values: Array, bad: NDArray[np.bool_], allowed: str) -> None:
+    step = int(np.argmax(np.atleast_2d(bad.T).any(axis=0)))
+    refuse_where(name, values, bad, f"step {step}: it {allowed}")
 
 
 def followed(
@@ -152,8 +153,8 @@ def followed(
             "tangential_elastic_energy": rest[:, 1] * energy,
             "frictional_work": rest[:, 2] * energy,
         }
-    if not all(np.all(np.isfinite(values)) for values in columns.values()):
-        raise refusal("penetration", float(steps.penetration.max()), BEYOND)
+    held = all(np.all(np.isfinite(values)) for values in columns.values())
+    refuse(not held and refusal("penetration", float(steps.penetration.max()), BEYOND))
     return scales, columns
 
 
@@ -176,6 +177,5 @@ def _scales(pair: Pair, deepest: float) -> ContactScales:
         fits = all(isfinite(value) and value > 0.0 for value in values)
     except OverflowError:
         fits = False
-    if not fits:
-        raise refusal("penetration", deepest, BEYOND)
+    refuse(not fits and refusal("penetration", deepest, BEYOND))
     return scales

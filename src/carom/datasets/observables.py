@@ -6,14 +6,14 @@ from math import nan, pi
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Rebound, Tangential, components, inertia
 from carom.bodies.pairs import Pair, checked_pair
 from carom.bodies.shapes import Sphere
-from carom.quantities.arrays import Array, along_the_same, numbers, together
+from carom.quantities.arrays import Array, along_the_same, numbers, refuse_where, together
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, checked_type, clipped, hint, refusal
+from carom.quantities.refusals import checked_type, clipped, hint, refusal, refuse
 
 Quantities = Mapping[str, Any]  # arrays by name
 
@@ -114,16 +114,18 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
     shape = together(quantities)
     with np.errstate(all="ignore"):
         result = np.asarray(getattr(_rebound(pair, quantities, wanted), wanted))
-    if np.isinf(result).any():
-        raise InputError("known: the results are too large for floating point; check the units")
+    large = np.isinf(result).any()
+    refuse(large and "known: the results are too large for floating point; check the units")
     return np.broadcast_to(result, shape).copy() if shape else result.item()
 
 
 def _check_name(where: str, name: Any) -> None:
-    if not isinstance(name, str) or name not in NAMES:
-        if isinstance(name, str) and name.strip():
-            raise InputError(f"{clipped(name)}: unknown quantity; {hint(name, NAMES)}")
-        raise refusal(where, name, f"unknown quantity; {hint('', NAMES)}")
+    text = name if isinstance(name, str) else ""
+    words = f"unknown quantity; {hint(text, NAMES)}"
+    refuse(
+        text not in NAMES
+        and (f"{clipped(text)}: {words}" if text.strip() else refusal(where, name, words))
+    )
 
 
 def _values(name: str, value: Any) -> Array:
@@ -131,26 +133,21 @@ def _values(name: str, value: Any) -> Array:
     _check_name("known", name)
     values = numbers(name, value, "must be numbers, or text with a unit", gaps=True)
     if "angle" in name:
-        _refuse(name, values, abs(values) >= 0.5 * pi, "must be below pi/2, '90 deg'")
+        refuse_where(name, values, abs(values) >= 0.5 * pi, "must be below pi/2, '90 deg'")
     elif name in ("speed", "normal_speed", SPEED, *NORMAL):
-        _refuse(name, values, values <= 0.0, "must be positive")
-    _refuse(name, values, np.isinf(values), "must be finite")
+        refuse_where(name, values, values <= 0.0, "must be positive")
+    refuse_where(name, values, np.isinf(values), "must be finite")
     return values
-
-
-def _refuse(name: str, values: Array, bad: NDArray[np.bool_], allowed: str) -> None:
-    if np.any(bad):
-        raise refusal(name, float(np.broadcast_to(values, bad.shape)[bad][0]), allowed)
 
 
 def _check_bodies(pair: Pair, names: set[str]) -> None:
     """Raise InputError for quantities that such bodies do not have."""
-    spins = sorted(names & {"spin2", "spin2_out"})
-    if spins and not isinstance(pair.second, Sphere):
-        raise InputError(f"{spins[0]}: only a second sphere can spin; leave it out")
-    psis = sorted(names & {"psi_in", "psi_out"})
-    if psis and pair.friction == 0.0:
-        raise InputError(f"{psis[0]}: it is infinite without friction; give the pair a friction")
+    spins = names & {"spin2", "spin2_out"} if not isinstance(pair.second, Sphere) else set()
+    psis = names & {"psi_in", "psi_out"} if pair.friction == 0.0 else set()
+    refuse(
+        *(f"{each}: only a second sphere can spin; leave it out" for each in sorted(spins)),
+        *(f"{n}: it is infinite without friction; give the pair a friction" for n in sorted(psis)),
+    )
 
 
 def _resolved(quantities: Quantities) -> Quantities:
@@ -159,8 +156,8 @@ def _resolved(quantities: Quantities) -> Quantities:
     if not quantities.keys() >= set(both):
         return quantities
     twice = [name for name in OBSERVABLES if name in quantities and name not in both]
-    if twice:
-        raise InputError(f"known: {' and '.join(both)} determine the rebound; leave {twice[0]} out")
+    ends = f"known: {' and '.join(both)} determine the rebound"
+    refuse(twice and f"{ends}; leave {' and '.join(twice)} out")
     normal, tangential = components(*(quantities[name] for name in both))
     others = {name: value for name, value in quantities.items() if name not in both}
     return {**others, "normal_speed_out": normal, "tangential_speed_out": tangential}
@@ -175,17 +172,15 @@ def _rebound(pair: Pair, quantities: Quantities, wanted: str) -> Rebound:
         return start
     ways = _one_of("the rebound", quantities, (*IMPULSE, SPEED)) if wanted not in NORMAL else ""
     needing = [name for name in (ways, wanted) if name in RECEDING]
-    if needing and not quantities.keys() & set(NORMAL):
-        raise InputError(f"normal_restitution: missing; {needing[0]} needs it, e.g. 0.98")
+    lacking = needing and not quantities.keys() & set(NORMAL)
+    nothing = ways in RELATIVE and np.any(np.asarray(getattr(start, RELATIVE[ways])) == 0.0)
+    refuse(
+        lacking and f"normal_restitution: missing; {needing[0]} needs it, e.g. 0.98",
+        nothing
+        and f"{ways}: it is undefined where {RELATIVE[ways]} is zero; give another, e.g. spin_out",
+    )
     if not ways:
         return start
-    if ways in RELATIVE:
-        nothing = np.asarray(getattr(start, RELATIVE[ways])) == 0.0
-        if nothing.any():
-            raise InputError(
-                f"{ways}: it is undefined where {RELATIVE[ways]} is zero; give another, "
-                "e.g. spin_out"
-            )
     if ways == SPEED:
         return replace(start, impulse=_slowing(start, quantities[SPEED]))
     return replace(start, impulse=IMPULSE[ways](start, quantities[ways]))
@@ -199,23 +194,22 @@ def _slowing(start: Rebound, speed: Array) -> Any:
     """
     normal, before = start.normal_speed_out, start.tangential_speed
     slow = speed < normal * (1.0 - SPEED_TOLERANCE)
-    _refuse(SPEED, speed, slow, "it is below the normal speed after")
+    refuse_where(SPEED, speed, slow, "it is below the normal speed after")
     along = np.sqrt(np.maximum((speed - normal) * (speed + normal), 0.0))
     ratio = start.pair.tangential_mass / start.pair.normal_mass
     ends = before, before - 2.0 * (ratio * start.contact_velocity)
     low, high = np.minimum(*ends), np.maximum(*ends)
     on, back = (np.maximum(low - x, x - high) for x in (along, -along))  # how far outside
     unsure = (np.maximum(on, back) <= 0.0) & (along > SPEED_TOLERANCE * speed)
-    _refuse(SPEED, speed, unsure, "the centre may go on or turn back; give rebound_angle, too")
+    refuse_where(SPEED, speed, unsure, "the centre may go on or turn back; give rebound_angle, too")
     return start.pair.normal_mass * (before - np.where(on <= back, along, -along))
 
 
 def _one_of(what: str, quantities: Quantities, names: tuple[str, ...]) -> str:
     """Return the one of some names that is given, or raise InputError."""
     there = [name for name in names if name in quantities]
-    if len(there) != 1:
-        problem = f"determined by {' and '.join(there)}" if there else "not determined"
-        raise InputError(f"known: {what} is {problem}; give one of {', '.join(names)}")
+    problem = f"determined by {' and '.join(there)}" if there else "not determined"
+    refuse(len(there) != 1 and f"known: {what} is {problem}; give one of {', '.join(names)}")
     return there[0]
 
 
@@ -224,13 +218,13 @@ def _before(pair: Pair, quantities: Quantities, wanted: str) -> tuple[Any, Tange
     spins = (quantities.get("spin", np.zeros(())), quantities.get("spin2", np.zeros(())))
     way = _one_of("the tangential motion before", quantities, INCIDENCE)
     if "speed" in quantities:
-        if way != "angle" or "normal_speed" in quantities:
-            raise InputError("speed: give it with angle alone, or give normal_speed instead")
+        mixed = way != "angle" or "normal_speed" in quantities
+        refuse(mixed and "speed: give it with angle alone, or give normal_speed instead")
         normal, tangential = components(quantities["speed"], quantities["angle"])
         return normal, Tangential(tangential, *spins)
     scaled = sorted(SCALED & {*quantities, wanted})
-    if scaled and "normal_speed" not in quantities:
-        raise InputError(f"speed: missing; {scaled[0]} needs speed and angle, or normal_speed")
+    lacking = scaled and "normal_speed" not in quantities
+    refuse(lacking and f"speed: missing; {scaled[0]} needs speed and angle, or normal_speed")
     normal = quantities.get("normal_speed", np.ones(()))
     moved = quantities[way]
     if way != "tangential_speed":
@@ -242,8 +236,8 @@ def _before(pair: Pair, quantities: Quantities, wanted: str) -> tuple[Any, Tange
 
 def _restitution(normal: Any, quantities: Quantities) -> Any:
     """Return the normal restitution, NaN if nothing is known of it."""
-    if quantities.keys() >= set(NORMAL):
-        raise InputError(f"known: {' and '.join(NORMAL)} mean the same; give one of them")
+    both = quantities.keys() >= set(NORMAL)
+    refuse(both and f"known: {' and '.join(NORMAL)} mean the same; give one of them")
     if "normal_speed_out" in quantities:
         return quantities["normal_speed_out"] / normal
     return quantities.get("normal_restitution", nan)

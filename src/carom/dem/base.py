@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from carom.dem.adaptive import WORK, rebounds
 from carom.dem.coefficients import Coefficients
 from carom.dem.damping import damped_restitution
-from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped
+from carom.dem.stepping import HISTORY, MOST_DURATIONS, REMEMBERED, stepped
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import answered
 from carom.quantities.arrays import Array
@@ -297,7 +297,7 @@ class ContactLaw(Law):
         counted("steps", steps, FEWEST_STEPS)
         chi, psi_1 = positive("chi", chi), finite("psi_1", psi_1, "1")
         kappa = kappa_or_solid(kappa, chi)
-        record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
+        record = np.empty((MOST_DURATIONS * steps + 2, len(HISTORY)))
         sign = float(np.copysign(1.0, psi_1)) if self.symmetric else 1.0
         count = self._recorded(sign * psi_1, chi, kappa, steps, record)
         if count < 0 or not np.all(np.isfinite(record[:count])):

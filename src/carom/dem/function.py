@@ -15,7 +15,7 @@ from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dem.base import Codes, ContactLaw, Law, LawStatus, status_of
 from carom.dem.coefficients import SPRING
 from carom.dem.damping import damping_ratio, hertz_damping
-from carom.dem.stepping import HISTORY, PATIENCE
+from carom.dem.stepping import HISTORY, MOST_DURATIONS
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, checked_type, clipped, one_of, refusal
@@ -140,7 +140,7 @@ def stepped_by(
     whole = bodies.length / bodies.speed  # unit of time
     dt = DURATION * whole / steps
     d, v, along, f_n, f_t = 0.0, bodies.speed, psi * unit, 0.0, 0.0
-    for i in range(PATIENCE * steps):
+    for i in range(MOST_DURATIONS * steps):
         if i < len(record):
             normal = (i * dt / whole, d / bodies.length, v / bodies.speed)
             record[i] = *normal, along / unit, f_n / bodies.force, -f_t / limit

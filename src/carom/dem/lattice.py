@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.dem.coefficients import ELASTIC_PULL
-from carom.dem.stepping import PATIENCE
+from carom.dem.stepping import MOST_DURATIONS
 from carom.dimensionless.lossy.springs import springs as of
 from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.hertz import DURATION
@@ -266,7 +266,7 @@ def impact(
     d, v, motion = 0.0, 1.0, load[3:]
     late = max(0.25 * dt + alpha, 2.0 * chi * (0.25 * dt + shear_alpha))
     moved = 1.5 * ELASTIC_PULL * dt * late  # by a contact of radius one
-    for i in range(PATIENCE * steps):
+    for i in range(MOST_DURATIONS * steps):
         if i < record.shape[0]:
             record[i, 0], record[i, 1], record[i, 2] = i * dt, d, v
             record[i, 3], record[i, 4], record[i, 5] = psi, load[0], load[1]

@@ -8,7 +8,7 @@ import numpy as np
 from carom.dem import lattice
 from carom.dem.base import ContactLaw
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import flag, refusal
+from carom.quantities.refusals import flag, refusal, refuse
 from carom.quantities.units import counted
 
 FEWEST_SPRINGS, MOST_SPRINGS = 8, 4096
@@ -18,8 +18,7 @@ LOADS = 6  # numbers that a kernel wants for forces and velocities
 def read_springs(name: str, value: Any) -> int:
     """Return a number of springs, or raise InputError."""
     springs = counted(name, value, FEWEST_SPRINGS, MOST_SPRINGS)
-    if springs % 4:
-        raise refusal(name, value, "must be a multiple of 4, e.g. 16, 32 or 64")
+    refuse(springs % 4 and refusal(name, value, "must be a multiple of 4, e.g. 16, 32 or 64"))
     return springs
 
 

@@ -10,7 +10,7 @@ from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.quantities.arrays import Array
 
 HISTORY = ("time", "penetration", "normal_velocity", "psi", "normal_force", "tangential_force")
-PATIENCE = 8  # durations of the elastic contact after which the bodies ought to have parted
+MOST_DURATIONS = 8  # durations of the elastic contact after which the bodies ought to have parted
 FORCE, LIMIT, RADIUS, UPPER, LOWER, BRANCH = range(6)  # what is remembered from step to step
 REMEMBERED = 6
 
@@ -71,7 +71,7 @@ def stepped(
     memory[:] = 0.0
     d, v, f, t = 0.0, 1.0, 0.0, 0.0
     loading, peak = True, 0.0
-    for i in range(PATIENCE * steps):
+    for i in range(MOST_DURATIONS * steps):
         if i < record.shape[0]:
             record[i, 0], record[i, 1], record[i, 2] = i * dt, d, v
             record[i, 3], record[i, 4], record[i, 5] = psi, f, t

@@ -127,12 +127,13 @@ class Solution(Trajectory):
             normal_lost=np.zeros(wanted.size),
         )
 
-    def memory(self, time: float) -> Memory:
+    @known_keywords
+    def memory(self, at: float) -> Memory:
         """Return the memory of the contact at a time, g(s) and q(s), and its annuli.
 
         Parameters
         ----------
-        time : float
+        at : float
             Time in units of d_max/V_1, from 0 to `duration`.
 
         Returns
@@ -153,7 +154,7 @@ class Solution(Trajectory):
         >>> bool(abs(memory.g(0.0)) < 1.0)
         True
         """
-        now = states.now_at(self.at(self._time_within(time)))
+        now = states.now_at(self.at(self._time_within(at)))
         return dense.memory_at(self._record, self._steps, now, self.scale or 1.0)
 
     def _contact_at(self, time: float) -> ContactState:
@@ -183,23 +184,25 @@ class Solution(Trajectory):
     def _slip_borders(self) -> Array:
         return slip.borders(self._steps)
 
-    def slip_rate(self, time: float) -> float:
+    @known_keywords
+    def slip_rate(self, at: float) -> float:
         """Return psi - sigma v, the rate of slip far outside the stick region; zero in stick.
 
         In mu V_1/kappa, at a time in d_max/V_1. Raises InputError as `at`.
         """
-        sign = self.phase_at(time).sign
-        now = states.now_at(self.at(self._time_within(time)))
+        sign = self.phase_at(at).sign
+        now = states.now_at(self.at(self._time_within(at)))
         return now["psi"] - sign * abs(self.scale) * now["speed"] if sign else 0.0
 
-    def slid(self, time: float, radii: ArrayLike) -> Array:
+    @known_keywords
+    def slid(self, at: float, radii: ArrayLike) -> Array:
         """Return the distances that points at given radii have slid since they met.
 
             w_x = w_0 - lambda w_2 cos 2 theta, w_y = -lambda w_2 sin 2 theta
 
         Parameters
         ----------
-        time : float
+        at : float
             Time in units of d_max/V_1, from 0 to `duration`.
         radii : array_like, shape (n,)
             Distances from the centre in units of sqrt(R* d_max).
@@ -221,7 +224,7 @@ class Solution(Trajectory):
         array([[0., 0.],
                [0., 0.]])
         """
-        now = states.now_at(self.at(self._time_within(time)))
+        now = states.now_at(self.at(self._time_within(at)))
         places = states.places_of(radii)
         out = np.empty((places.size, 2))
         last = int(np.searchsorted(self._steps.times, now["time"], side="right")) - 1

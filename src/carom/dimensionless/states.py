@@ -12,8 +12,9 @@ from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.numerics.arrays import Array
-from carom.quantities.arrays import pure_numbers
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.arrays import pure_numbers, refuse_where
+from carom.quantities.keywords import known_keywords
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import counted
 
 KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross slip"}
@@ -110,9 +111,8 @@ class Trajectory(ABC):
         Radii are in sqrt(R* d_max). Raises InputError for one that the contact never reaches.
         """
         places = places_of(radii)
-        if np.any(places > self.max_radius):
-            far, most = float(places.max()), self.max_radius
-            raise refusal("radii", far, f"the largest radius of the contact is {most:.6g}")
+        allowed = f"the largest radius of the contact is {self.max_radius:.6g}"
+        refuse_where("radii", places, places > self.max_radius, allowed)
         return self._touched(places)
 
     @abstractmethod
@@ -146,12 +146,13 @@ class Trajectory(ABC):
         self._check_solved()
         return self._pressed(places_of(radii))
 
-    def phase_at(self, time: float) -> Phase:
+    @known_keywords
+    def phase_at(self, at: float) -> Phase:
         """Return the phase at a given time; an instant of change belongs to the later phase.
 
         Parameters
         ----------
-        time : float
+        at : float
             Time in units of d_max/V_1, from 0 to `duration`.
 
         Returns
@@ -170,16 +171,17 @@ class Trajectory(ABC):
         >>> carom.solve(0.5, 1.44).phase_at(1.0).kind
         'stick'
         """
-        instant = self._time_within(time)
+        instant = self._time_within(at)
         started = [phase for phase in self.phases if phase.start <= instant]
         return started[-1]
 
-    def traction(self, time: float, radii: ArrayLike) -> Array:
+    @known_keywords
+    def traction(self, at: float, radii: ArrayLike) -> Array:
         """Return the tangential traction at given radii and a given time (Barber 1979, (6)).
 
         Parameters
         ----------
-        time : float
+        at : float
             Time in units of d_max/V_1, from 0 to `duration`.
         radii : array_like
             Distances from the centre in units of sqrt(R* d_max).
@@ -204,7 +206,7 @@ class Trajectory(ABC):
         """
         places = places_of(radii)
         out = np.empty(places.size)
-        surface.tractions(self.contact_at(self._time_within(time)).profile, places, out)
+        surface.tractions(self.contact_at(self._time_within(at)).profile, places, out)
         return out
 
     def history(self, n: int = 200) -> History:
@@ -236,24 +238,22 @@ class Trajectory(ABC):
         return self.at(np.linspace(0.0, self.duration, count))
 
     def _check_solved(self) -> None:
-        if self.status is not Status.SOLVED:
-            raise InputError(f"psi: {self.psi_in:g} at chi = {self.chi:g} {self.status.message}")
+        words = f"{self.psi_in:g} at chi = {self.chi:g} {self.status.message}"
+        refuse(self.status is not Status.SOLVED and f"psi_1: {words}")
 
-    def _times_within(self, time: ArrayLike) -> Array:
+    def _times_within(self, times: ArrayLike, name: str = "time") -> Array:
         """Return times as a line of numbers, or raise InputError for one outside the contact."""
         self._check_solved()
-        wanted = pure_numbers("time", time).ravel()
-        within = (wanted >= 0.0) & (wanted <= self.duration)
-        if not np.all(within):
-            outside = float(wanted[~within][0])
-            raise refusal("time", outside, f"the contact lasts from 0 to {self.duration:.6g}")
+        wanted = pure_numbers(name, times).ravel()
+        outside = ~((wanted >= 0.0) & (wanted <= self.duration))
+        allowed = f"the contact lasts from 0 to {self.duration:.6g}"
+        refuse_where(name, wanted, outside, allowed)
         return wanted
 
-    def _time_within(self, time: float) -> float:
+    def _time_within(self, at: float) -> float:
         """Return one time, or raise InputError."""
-        wanted = self._times_within(time)
-        if wanted.size != 1:
-            raise refusal("time", time, "give one time")
+        wanted = self._times_within(at, "at")
+        refuse(wanted.size != 1 and refusal("at", at, "give one time"))
         return float(wanted[0])
 
 
@@ -266,6 +266,5 @@ def places_of(radii: ArrayLike) -> Array:
     """Return distances from the centre as a line of numbers, or raise InputError."""
     places = pure_numbers("radii", radii).ravel()
     bad = ~((places >= 0.0) & (places < np.inf))
-    if bad.any():
-        raise refusal("radii", float(places[bad][0]), "must be zero or positive and finite")
+    refuse_where("radii", places, bad, "must be zero or positive and finite")
     return places

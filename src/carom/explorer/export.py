@@ -1,15 +1,14 @@
 """A copy of the page as a folder of files, which needs neither this program nor a network."""
 
-import os
 import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
 from carom.explorer.page import ASSETS, asset, assets_in, page, plotly_file
 from carom.explorer.tables import SOLVED_IMPACTS, tables
-from carom.io.paths import checked_path
+from carom.io.paths import accessing, checked_folder
 from carom.io.progress import Progress, advancing
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal, refuse
 
 PAGE, PLOTLY = "index.html", "plotly.min.js"
 COPIED = (ASSETS, PLOTLY, PAGE)
@@ -30,29 +29,14 @@ def export(folder: str | Path, progress: Progress = None) -> Copy:
     Once all of it is made it takes its place, or what was there is put back. InputError if the
     folder holds anything else, or cannot be written.
     """
-    target = checked_path("folder", folder, "folder")
-    real = Path(os.path.realpath(target))
-    try:
-        _check(target, real)
+    target, real = checked_folder(folder)
+    with accessing("folder", target, "written"):
+        allowed = "it holds other files; give a new or empty folder"
+        foreign = real.exists() and not _is_ours(real)
+        refuse(foreign and refusal("folder", str(target), allowed))
         parts = _parts(progress)
         _replace(real, parts)
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise InputError(f"folder: {str(target)!r} cannot be written; {reason}") from None
     return Copy(str(target), sum(map(len, parts.values())), len(parts))
-
-
-def _check(target: Path, real: Path) -> None:
-    """Raise InputError if a copy cannot take this place, before any work is done for it."""
-    if real.exists() and not real.is_dir():
-        raise refusal("folder", str(target), "it is a file; give the name of a folder")
-    if not real.parent.is_dir():
-        raise refusal("folder", str(target), "the folder around it must exist; make it first")
-    if not os.access(real if real.exists() else real.parent, os.W_OK):
-        which = "it" if real.exists() else "the folder around it"
-        raise refusal("folder", str(target), f"{which} cannot be written to")
-    if real.exists() and not _is_ours(real):
-        raise refusal("folder", str(target), "it holds other files; give a new or empty folder")
 
 
 def _is_ours(folder: Path) -> bool:

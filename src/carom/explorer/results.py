@@ -45,7 +45,7 @@ def findings_of(findings: Iterable[Finding]) -> tuple[Row, ...]:
     first = {False: 0, None: 1, True: 2}
     ordered = sorted(findings, key=lambda finding: first[finding.holds])
     return tuple(
-        {"mark": MARKS[each.holds].strip(), "text": in_words(f"{each.told}: {each.verdict}")}
+        {"mark": MARKS[each.holds].strip(), "text": in_words(f"{each.label}: {each.verdict}")}
         for each in ordered
     )
 

@@ -16,12 +16,12 @@ from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, nearest
 from carom.quantities.units import counted
 
-DEGREES = np.arange(1.0, 86.0)  # incidences that are considered
-MOST = 10_000  # further measurements at one incidence that are worth a thought
-PLAN = 1000  # measurements that are told one by one, at most
+ANGLES = np.arange(1.0, 86.0)  # of incidence that are considered, in degrees
+WORTHWHILE = 10_000  # measurements at one incidence that are worth a thought
+MOST_LISTED = 1000  # measurements that are said one by one
 ROUNDING = 0.01  # of a measurement
 PRIOR = 1e-2  # information on what nothing is known of, per unit of its coordinate
-HALF = 4.0  # what a variance is divided by where its interval is halved
+HALVED = 4.0  # what a variance is divided by where its interval is halved
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Advice:
 
     def __str__(self) -> str:
         best = f"{np.degrees(self.best.angle):.0f} deg"
-        alone = f"{self.best.needed} more" if self.best.needed else f"more than {MOST}"
+        alone = f"{self.best.needed} more" if self.best.needed else f"more than {WORTHWHILE}"
         lines = [
             f"To halve the interval of {self.parameter}, measure {alone} at {best}"
             f" ({self.best.regime}).",
@@ -76,7 +76,7 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
     One more impact at an angle, at the usual speed, with the responses and errors measured so far,
     adds J^T J to the information.
     """
-    count = counted("n", n, 1, PLAN)
+    count = counted("n", n, 1, MOST_LISTED)
     best = _with_all(fit)
     name = _wanted(fit, best, parameter)
     place = best.model.free.index(name)
@@ -87,9 +87,9 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
     needed = _needed(root, gains, place)
     places = [
         Incidence(
-            float(np.radians(degrees)), regime, None if need > MOST else ceil(need - ROUNDING)
+            float(np.radians(degrees)), regime, None if need > WORTHWHILE else ceil(need - ROUNDING)
         )
-        for degrees, regime, need in zip(DEGREES, regimes, needed, strict=True)
+        for degrees, regime, need in zip(ANGLES, regimes, needed, strict=True)
     ]
     chosen = []
     for _ in range(count):
@@ -135,15 +135,15 @@ def _candidates(best: Best) -> tuple[Array, list[str]]:
     everywhere = np.broadcast_to(sigma, model.problem.measured.shape)
     weights = model.weights(best.at, everywhere, best.scale)
     slopes = information(model, best.at, weights, RobustLoss(inf)).slopes
-    told = gaussian_mean(np.gradient(best.loss.root(NORMAL), NORMAL) ** 2)  # of one more value
-    return np.sqrt(told) * slopes, [REGIMES[index] for index in model.regimes(best.at)]
+    per_value = gaussian_mean(np.gradient(best.loss.root(NORMAL), NORMAL) ** 2)  # of one more value
+    return np.sqrt(per_value) * slopes, [REGIMES[index] for index in model.regimes(best.at)]
 
 
 def _impacts(problem: FitProblem) -> FitProblem:
     """Return impacts at all incidences that are considered, as usual otherwise."""
-    motion, count = problem.motion, len(DEGREES)
+    motion, count = problem.motion, len(ANGLES)
     speed = float(np.median(np.hypot(motion.normal_speed, motion.tangential_speed)))
-    before = {"angle": np.radians(DEGREES), "speed": np.full(count, speed)}
+    before = {"angle": np.radians(ANGLES), "speed": np.full(count, speed)}
     for name in ("spin", "spin2"):
         if name in problem.before:
             before[name] = np.full(count, float(np.median(problem.before[name])))
@@ -178,13 +178,13 @@ def _variance(root: Array, place: int) -> Array:
 
 def _needed(root: Array, gains: Array, place: int) -> Array:
     """Return how many measurements at each incidence divide a variance by four."""
-    wanted = _variance(root, place) / HALF
+    wanted = _variance(root, place) / HALVED
 
     def suffices(times: Array) -> NDArray[np.bool_]:
         more = np.sqrt(times)[:, np.newaxis, np.newaxis] * gains
         return np.asarray(_variance(_joined(root, more), place) <= wanted)
 
-    low, high = np.full(len(gains), -3.0), np.full(len(gains), log10(MOST))
+    low, high = np.full(len(gains), -3.0), np.full(len(gains), log10(WORTHWHILE))
     never = ~suffices(10.0**high)
     for _ in range(40):
         middle = 0.5 * (low + high)

@@ -21,7 +21,7 @@ from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan
 from carom.fitting.intervals import profiled, settle
 from carom.fitting.least_squares import descend
 from carom.fitting.model import EXACT, OFFSET, FittedLaw, Model, Parameter, Values
-from carom.fitting.problem import OUTLYING, FitProblem, RobustLoss
+from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -35,7 +35,7 @@ SQUARES = RobustLoss(inf)
 ALARM = 0.001  # probability of calling a value of a response that has none an outlier
 FEWEST, RANGE = 4, 1.2  # values; of the speeds, largest over smallest: below nothing can be told
 LEAST, MOST = 1e-8, 10.0  # of a loss time, in units of d_max/V_1
-SLOWEST = 1e-5  # yield velocity, in units of the smallest speed
+LEAST_YIELD = 1e-5  # velocity, in units of the smallest speed
 CONSTANT = "constant"
 LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
@@ -177,7 +177,7 @@ def _far(best: Best) -> Mask:
     extreme studentized deviates (Rosner 1983).
     """
     residuals, present = best.residuals, best.model.problem.present
-    far = present & (np.abs(residuals) > OUTLYING)
+    far = present & (np.abs(residuals) > OUTLIER)
     for place in np.flatnonzero(best.estimated):
         sizes = np.where(present[:, place], np.abs(residuals[:, place]), -1.0)
         order = np.argsort(-sizes)
@@ -195,8 +195,8 @@ def _refitted(model: Model, at: Array, common: Best) -> Best:
     """Return least squares of a law with the errors of another one: no outliers are left."""
     weights = model.weights(at, common.sigma, common.scale)
     starts = np.concatenate([at[np.newaxis], scan(model, SQUARES, common.sigma)])
-    found = descend(model.residuals(weights, SQUARES), starts, model.bounds)
-    return fitted(model, SQUARES, found.at[np.argmin(found.sums)], common.sigma, common.scale)
+    minima = descend(model.residuals(weights, SQUARES), starts, model.bounds)
+    return fitted(model, SQUARES, minima.at[np.argmin(minima.sums)], common.sigma, common.scale)
 
 
 def criterion(best: Best) -> float:
@@ -282,8 +282,8 @@ class LossComparison:
         if others[0].excess <= CLEAR:
             how = f"{next_law} is less likely"
         varies = f"depends on the speed as in {first.law}"
-        told = "is the same at all speeds" if first.law == CONSTANT else varies
-        return f"the restitution {told}; {how}"
+        behaviour = "is the same at all speeds" if first.law == CONSTANT else varies
+        return f"the restitution {behaviour}; {how}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as plain numbers, by law; what cannot be computed is None."""
@@ -298,9 +298,9 @@ class LossComparison:
         fitted = [f"{each.law}: {each.parameter.name} {each.parameter}" for each in self.standings]
         wide = max(48, *map(len, fitted))
         lines = [f"{head:{wide}s}AICc excess  weight"]
-        for each, told in zip(self.standings, fitted, strict=True):
+        for each, line in zip(self.standings, fitted, strict=True):
             excess, weight = each.cells
-            lines.append(f"  {told:{wide}s} {excess:>8s}  {weight:>6s}")
+            lines.append(f"  {line:{wide}s} {excess:>8s}  {weight:>6s}")
         return "\n".join([*lines, self.verdict])
 
 
@@ -321,10 +321,10 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
     excess, weights = weighed(criteria)
     standings = []
     for place in np.argsort(criteria):
-        found = profiled(fits[place], confidence)
-        law = found.best.model.law
-        parameter = estimate_of(found, law.names[0])
-        standings.append(LossFit(law.name, excess[place], weights[place], found.best, parameter))
+        profile = profiled(fits[place], confidence)
+        law = profile.best.model.law
+        parameter = estimate_of(profile, law.names[0])
+        standings.append(LossFit(law.name, excess[place], weights[place], profile.best, parameter))
     measured, errors = _restitutions(problem, standings[0].best)
     return LossComparison(tuple(standings), problem.motion.normal_speed, measured, errors)
 
@@ -355,7 +355,7 @@ def _laws(problem: FitProblem) -> tuple[FittedLaw, ...]:
     speeds = problem.motion.normal_speed
     times = _times(problem.pair, speeds)
     loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None)
-    yielding = Parameter("yield_velocity", SLOWEST * speeds.min(), float(speeds.max()), None)
+    yielding = Parameter("yield_velocity", LEAST_YIELD * speeds.min(), float(speeds.max()), None)
     return (
         FittedLaw(CONSTANT, (laws.ANY_RESTITUTION,), laws.untouched),
         FittedLaw("KelvinVoigt", (loss_time,), laws.untouched, viscous),
@@ -385,8 +385,8 @@ def viscous(pair: Pair, normal_speed: Array, values: Values) -> Array:
 def _viscous() -> CubicSpline:
     """Return log(-log e) of log alpha, which is nearly straight at both ends."""
     alphas, work = np.geomspace(1e-7, 90.0, 241), new_work()
-    found = np.array([restitution(float(alpha), work) for alpha in alphas])
-    return CubicSpline(np.log(alphas), np.log(-np.log(found)))
+    restitutions = np.array([restitution(float(alpha), work) for alpha in alphas])
+    return CubicSpline(np.log(alphas), np.log(-np.log(restitutions)))
 
 
 def plastic(pair: Pair, normal_speed: Array, values: Values) -> Array:

@@ -22,8 +22,8 @@ from carom.quantities.units import counted
 if TYPE_CHECKING:
     import xarray as xr
 
-SMOOTH = 241  # points of a curve
-BEYOND = np.radians(4.0)  # how far curves go beyond the data
+CURVE_POINTS = 241
+CURVE_MARGIN = np.radians(4.0)
 STEEPEST = np.radians(88.0)
 OWN = "in the unit of the response"
 WIDE, ALONG = ("row", "response"), ("curve", "response")
@@ -82,7 +82,7 @@ def _rows(best: Best) -> dict[str, Any]:
 
 def _losses(losses: LossComparison) -> dict[str, Any]:
     """Return restitutions against speed, measured and by the laws of losses."""
-    speeds = np.geomspace(losses.speeds.min(), losses.speeds.max(), SMOOTH)
+    speeds = np.geomspace(losses.speeds.min(), losses.speeds.max(), CURVE_POINTS)
     lines = [each.restitution(speeds) for each in losses.standings]
     errors = np.where(np.isfinite(losses.measured), losses.errors, np.nan)
     excess = [each.excess for each in losses.standings]
@@ -119,9 +119,9 @@ def _usual(problem: FitProblem) -> tuple[Array, IncomingMotion]:
     """Return incidences over the range of the data and the motion there, at the usual speed."""
     normal, velocity = problem.motion.normal_speed, problem.contact_velocity
     seen = np.arctan2(velocity, normal)
-    low = float(seen.min()) - BEYOND if np.any(seen < -BEYOND) else 0.0
-    high = float(seen.max()) + BEYOND if np.any(seen > BEYOND) or low == 0.0 else 0.0
-    angles = np.linspace(max(low, -STEEPEST), min(high, STEEPEST), SMOOTH)
+    low = float(seen.min()) - CURVE_MARGIN if np.any(seen < -CURVE_MARGIN) else 0.0
+    high = float(seen.max()) + CURVE_MARGIN if np.any(seen > CURVE_MARGIN) or low == 0.0 else 0.0
+    angles = np.linspace(max(low, -STEEPEST), min(high, STEEPEST), CURVE_POINTS)
     angles = angles[np.abs(angles) > 1e-9]
     speed = np.hypot(normal, velocity)
     if np.std(speed) / np.median(speed) <= np.std(normal) / np.median(normal):
@@ -161,10 +161,10 @@ def _parameters(fit: FitRecord) -> dict[str, Any]:
 
 
 WALKERS = 8  # per parameter
-BURN = 0.25  # part of the steps that is left out
+BURN_IN = 0.25  # part of the steps that is left out
 FEWEST_STEPS, MOST_STEPS = 100, 100_000
 MOST_SEED = 2**63 - 1  # that a file can hold
-LONG = 50.0  # autocorrelation times that a chain should have (emcee's documentation)
+LEAST_TIMES = 50.0  # autocorrelation times of a chain (emcee's documentation)
 
 
 def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> "xr.Dataset":
@@ -203,7 +203,7 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
             if stopped:
                 raise stopped[0]
             advance(1)
-    chain = sampler.get_chain(discard=int(BURN * count), flat=True)
+    chain = sampler.get_chain(discard=int(BURN_IN * count), flat=True)
     times = sampler.get_autocorr_time(tol=0)
     return _dataset(fit, chain, times, count, seed)
 
@@ -217,13 +217,13 @@ def _dataset(
     if "kappa" in model.free:
         variables["chi"] = ("sample", half_ratio(model.problem.pair) * values["kappa"][:, 0])
     longest = float(np.nanmax(times)) if np.isfinite(times).any() else float("nan")
-    told = {
+    attributes = {
         "title": "posterior of parameters from measured rebounds",
         "steps": steps,
         "seed": -1 if seed is None else seed,
         "autocorrelation_time": longest,
-        "converged": int(steps > LONG * longest),
+        "converged": int(steps > LEAST_TIMES * longest),
         "inputs": {name: each.value for name, each in fit.estimates.items()},
     }
     coords = {"sample": ("sample", np.arange(len(chain)), {"long_name": "sample"})}
-    return labelled_dataset(variables, coords, told)
+    return labelled_dataset(variables, coords, attributes)

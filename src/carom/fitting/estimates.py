@@ -78,16 +78,16 @@ class Estimate(Printed):
         return f"{value} ({numbers[0]} to {numbers[2]})"
 
 
-def estimate_of(found: ProfiledFit, name: str) -> Estimate:
+def estimate_of(fit: ProfiledFit, name: str) -> Estimate:
     """Return the estimate of a parameter; without a reason if it has no end."""
-    model = found.best.model
-    value = found.best.values[name]
+    model = fit.best.model
+    value = fit.best.values[name]
     place = model.free.index(name) if name in model.free else None
-    if place is None or found.open[place].all():
+    if place is None or fit.open[place].all():
         return Estimate(name, value)
-    ends = model.values(found.ends[place])[name][:, 0]
-    known = zip(ends, LIMITS[name], found.open[place], strict=True)
-    low, high = (float(limit if is_open else end) for end, limit, is_open in known)
+    ends = model.values(fit.ends[place])[name][:, 0]
+    limits = zip(ends, LIMITS[name], fit.open[place], strict=True)
+    low, high = (float(limit if is_open else end) for end, limit, is_open in limits)
     return Estimate(name, value, low, high)
 
 

@@ -34,8 +34,8 @@ class Information:
     def covariance(self) -> Array:
         """Covariance of the coordinates; one that is not told is uncertain by 1/WEAK."""
         sizes, directions = np.linalg.eigh(self.matrix)
-        known = np.maximum(sizes, 0.0) + WEAK**2 * 1e-2
-        return np.asarray((directions / known) @ directions.T)
+        certain = np.maximum(sizes, 0.0) + WEAK**2 * 1e-2
+        return np.asarray((directions / certain) @ directions.T)
 
     @property
     def used(self) -> Array:
@@ -142,14 +142,14 @@ class Best:
         """
         if self.loss.is_square:
             return 1.0
-        found = self.residuals[self.model.problem.present]
+        deviations = self.residuals[self.model.problem.present]
         used = float(self.information.used.sum())
 
         def ratio(mean: Callable[[Callable[[Array], Array]], float]) -> float:
             return mean(lambda r: self.loss.influence(r) ** 2) / mean(self.loss.slope)
 
         normal = ratio(lambda f: errors.gaussian_mean(f(errors.NORMAL)))
-        return max(normal, ratio(lambda f: errors.mean_over(found, f, used)))
+        return max(normal, ratio(lambda f: errors.mean_over(deviations, f, used)))
 
 
 def likelihood(best: Best) -> float:
@@ -164,7 +164,7 @@ def normalization(model: Model, weights: errors.Weights, loss: errors.RobustLoss
 
 
 STARTS = 6  # starting points that are followed to the end
-FINE = {  # levels of the scan
+LEVELS = {  # of the scan
     "friction": 25,
     "kappa": 12,
     "tangential_restitution": 9,
@@ -205,10 +205,10 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
         for each in begun
         if each.against <= least + HOPELESS
     ]
-    found = min(followed, key=lambda each: each.against)
-    others = [each.at for each in (*followed, *begun) if each is not found]
+    best = min(followed, key=lambda each: each.against)
+    others = [each.at for each in (*followed, *begun) if each is not best]
     elsewhere = np.array([*others, *minima[FOLLOWED:]])
-    return fitted(model, found.loss, found.at, found.sigma, found.scale, elsewhere)
+    return fitted(model, best.loss, best.at, best.sigma, best.scale, elsewhere)
 
 
 def rough_minima(model: Model, loss: errors.RobustLoss, start: Array | None = None) -> Array:
@@ -262,12 +262,12 @@ def _followed(
         if not loss.is_square:
             loss = errors.likeliest(residuals[problem.present])
         used = information(model, at, weights, loss).used
-        found = errors.scattered(problem, residuals * sigma, expected[0], used, loss)
+        scattered = errors.scattered(problem, residuals * sigma, expected[0], used, loss)
         factors = scale * errors.scatter(residuals, problem.present, used, loss)
-        given = np.where(estimated, 1.0, np.maximum(factors, 1.0))
+        widened = np.where(estimated, 1.0, np.maximum(factors, 1.0))
         common = scale * errors.typical_deviation(residuals, problem.present)
-        scale = np.where(errors.too_small(problem.present, given, common), given, 1.0)
-        sigma = np.where(estimated, found, sigma)
+        scale = np.where(errors.too_small(problem.present, widened, common), widened, 1.0)
+        sigma = np.where(estimated, scattered, sigma)
         lowest = descend(
             model.residuals(model.weights(at, sigma, scale), loss), at[np.newaxis], model.bounds
         )
@@ -298,14 +298,14 @@ def polished(
     residuals = model.residuals(weights, loss)
     present = model.problem.present.ravel()
 
-    def of(given: Any) -> Array:
-        at = np.array([list(given.valuesdict().values())])
+    def of(point: Any) -> Array:
+        at = np.array([list(point.valuesdict().values())])
         return np.asarray(residuals(at)[0][present])
 
     result = lmfit.minimize(of, parameters, method="leastsq", xtol=1e-9, ftol=1e-10)
-    found = np.array(list(result.params.valuesdict().values()))
-    before, after = np.square(of(parameters)).sum(), np.square(residuals(found[None])).sum()
-    return (found if after <= before else at), result
+    lowest = np.array(list(result.params.valuesdict().values()))
+    before, after = np.square(of(parameters)).sum(), np.square(residuals(lowest[None])).sum()
+    return (lowest if after <= before else at), result
 
 
 def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
@@ -334,37 +334,37 @@ def _valleys(sums: Array) -> Mask:
 
     Along an axis counts the least of all points with the same place on it.
     """
-    found = np.zeros(sums.size, dtype=bool)
+    valleys = np.zeros(sums.size, dtype=bool)
     places = np.arange(sums.size).reshape(sums.shape)
     for axis, count in enumerate(sums.shape):
         across = np.moveaxis(sums, axis, 0).reshape(count, -1)
         least, at = across.min(axis=1), across.argmin(axis=1)
         beside = np.concatenate([[np.inf], least, [np.inf]])
         low = (least <= beside[:-2]) & (least <= beside[2:])
-        found[np.moveaxis(places, axis, 0).reshape(count, -1)[low, at[low]]] = True
-    return found
+        valleys[np.moveaxis(places, axis, 0).reshape(count, -1)[low, at[low]]] = True
+    return valleys
 
 
 def _levels(model: Model, name: str) -> Array:
     """Return the coordinates of a parameter in the scan."""
     if name == "restitution":
         return _likely_restitutions(model.problem)
-    if name not in FINE:
+    if name not in LEVELS:
         return np.zeros(1)
     place = model.free.index(name)
     low, high = model.bounds.low[place], model.bounds.high[place]
     if name == "friction":
         low, high = np.log(5e-3), np.log(3.0)
-    return np.linspace(low, high, FINE[name] + 2)[1:-1]
+    return np.linspace(low, high, LEVELS[name] + 2)[1:-1]
 
 
 def _likely_restitutions(problem: FitProblem) -> Array:
     """Return normal restitutions to start from: what was measured, or a few."""
     measured = dict(zip(problem.responses, problem.measured.T, strict=True))
     if "normal_restitution" in measured:
-        found = measured["normal_restitution"]
+        ratios = measured["normal_restitution"]
     elif "normal_speed_out" in measured:
-        found = measured["normal_speed_out"] / problem.motion.normal_speed
+        ratios = measured["normal_speed_out"] / problem.motion.normal_speed
     else:
         return np.array([0.6, 0.8, 0.95])
-    return np.clip([float(np.nanmedian(found))], 0.35, 0.999)
+    return np.clip([float(np.nanmedian(ratios))], 0.35, 0.999)

@@ -20,7 +20,7 @@ FIRST = 4.0  # parts of the range in which an open side is searched for, at firs
 ROUNDS, CLOSE = 16, 2e-3  # at most; of the distance at which the loss has risen enough
 HELD_FIRST = (OFFSET, "restitution", "tangential_restitution", "kappa", "friction")
 EXAMPLES = {"restitution": 0.98, "kappa": 0.82, "friction": 0.1, OFFSET: 0.0}
-MEMBER = 0.25  # part of a direction that a parameter of a group has at least
+LEAST_PART = 0.25  # of a direction that a parameter of a group has
 ROUNDED = 1e-10  # of the information: less is that of rounded difference quotients
 WORSE = 0.5  # rise of the loss at which a starting value contradicts the data
 
@@ -45,11 +45,11 @@ def profiled(best: Best, confidence: float) -> ProfiledFit:
     """
     for last in range(TRIES):
         rises = best.spread * (best.caution * rise_of(confidence, best.freedom))
-        found, better = _profile(best, np.repeat(rises, 2), whatever=last == TRIES - 1)
+        profile, better = _profile(best, np.repeat(rises, 2), whatever=last == TRIES - 1)
         if better is None:
             break
         best = estimate(best.model, best.loss, better[np.newaxis])
-    return found
+    return profile
 
 
 def rise_of(confidence: float, freedom: Array) -> Array:
@@ -153,17 +153,17 @@ def settle(model: Model, loss: RobustLoss, start: Mapping[str, float]) -> Settle
     return Settled(best, tuple(groups), whole)
 
 
-def weak_group(told: Information, names: tuple[str, ...]) -> tuple[str, ...]:
+def weak_group(information: Information, names: tuple[str, ...]) -> tuple[str, ...]:
     """Return the parameters of a direction in which the values hardly change, to be held first."""
     if not names:
         return ()
-    alone = np.sqrt(np.diag(told.matrix)) < WEAK
+    alone = np.sqrt(np.diag(information.matrix)) < WEAK
     if alone.any():
         return (names[int(np.argmax(alone))],)
-    sizes, directions = np.linalg.eigh(told.matrix)
+    sizes, directions = np.linalg.eigh(information.matrix)
     if sizes[0] >= max(WEAK**2, ROUNDED * sizes[-1]):
         return ()
-    members = [n for n, part in zip(names, directions[:, 0], strict=True) if abs(part) > MEMBER]
+    members = [n for n, part in zip(names, directions[:, 0], strict=True) if abs(part) > LEAST_PART]
     return tuple(sorted(members, key=HELD_FIRST.index))
 
 
@@ -194,10 +194,10 @@ def reason(group: tuple[str, ...], best: Best) -> str:
             return f"only friction (1 + restitution) matters; {cure}"
         *most, last = sorted(group)
         return f"the data determine {', '.join(most)} and {last} only together; {others}"
-    name, found = group[0], best.model.regimes(best.at)
-    if name == "kappa" and np.all(found == THROUGHOUT):
+    name, regimes = group[0], best.model.regimes(best.at)
+    if name == "kappa" and np.all(regimes == THROUGHOUT):
         return "every row slips throughout, where the stiffness does not matter"
-    if name == "friction" and np.all(found == 0):
+    if name == "friction" and np.all(regimes == 0):
         return "every row sticks from the first touch, where friction hardly matters"
     if name == "restitution":
         return "nothing that was measured depends on it; measure normal_restitution, too"

@@ -10,9 +10,9 @@ from carom.quantities.arrays import Array
 
 Residuals = Callable[[Array], Array]  # coordinates (batch, parameters) -> (batch, residuals)
 
-STEP = 1e-5  # of a difference quotient
+DIFFERENCE_STEP = 1e-5
 ROUNDS, ENOUGH = 60, 1e-7  # steps at most; part of the sum that no longer counts
-LEAST = 1e-12  # damping that keeps equations solvable where coordinates act only together
+LEAST_DAMPING = 1e-12  # keeps equations solvable where coordinates act only together
 FREER, TIGHTER = 0.2, 6.0  # of the damping after a step that helped, or did not
 
 
@@ -33,7 +33,7 @@ class Minimum(NamedTuple):
 def jacobian(residuals: Residuals, at: Array, base: Array, bounds: BoxBounds) -> Array:
     """Return derivatives of residuals, of shape (batch, residuals, parameters), one-sided."""
     batch, count = at.shape
-    steps = np.where(at + STEP <= bounds.high, STEP, -STEP)
+    steps = np.where(at + DIFFERENCE_STEP <= bounds.high, DIFFERENCE_STEP, -DIFFERENCE_STEP)
     moved = np.repeat(at[:, np.newaxis, :], count, axis=1)
     moved[:, np.arange(count), np.arange(count)] += steps
     values = residuals(moved.reshape(batch * count, count)).reshape(batch, count, base.shape[1])
@@ -65,7 +65,7 @@ def descend(
         at = np.where(better[:, np.newaxis], trial, at)
         base = np.where(better[:, np.newaxis], values, base)
         sums = np.where(better, squares, sums)
-        freer = np.maximum(FREER * damping, LEAST)
+        freer = np.maximum(FREER * damping, LEAST_DAMPING)
         damping = np.where(better, freer, TIGHTER * np.maximum(damping, 1e-6))
         if np.all((quiet >= 2) | (damping > 1e8)):
             break

@@ -145,8 +145,8 @@ class Model:
     def parameters(self) -> tuple[Parameter, ...]:
         """The free parameters, in the order of the coordinates."""
         own = (ranged(parameter, self.problem.pair) for parameter in self.law.parameters)
-        known = {parameter.name: parameter for parameter in own}
-        return tuple(known.get(name) or offset_parameter(self.problem) for name in self.free)
+        by_name = {parameter.name: parameter for parameter in own}
+        return tuple(by_name.get(name) or offset_parameter(self.problem) for name in self.free)
 
     @cached_property
     def bounds(self) -> BoxBounds:

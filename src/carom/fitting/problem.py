@@ -14,8 +14,8 @@ from carom.io.user_table import Mask, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 
-ONE = np.radians(0.1)  # incidences that are one
-NOTHING = 1e-9  # part of the speed that is no tangential speed
+SAME_ANGLE = np.radians(0.1)  # of incidence
+NO_SPEED = 1e-9  # along the surface, as a part of the speed
 STEEPEST = np.radians(89.9)
 
 
@@ -75,14 +75,14 @@ class FitProblem:
     @property
     def is_normal(self) -> bool:
         """Whether every impact is a normal one, and nothing moves sideways."""
-        sideways = np.abs(self.contact_velocity) > NOTHING * self.motion.normal_speed
+        sideways = np.abs(self.contact_velocity) > NO_SPEED * self.motion.normal_speed
         return not bool(sideways.any())
 
     @property
     def is_one(self) -> bool:
         """Whether every impact that was measured has the same incidence, to either side."""
         slopes = np.abs(self.contact_velocity / self.motion.normal_speed)
-        return bool(np.ptp(np.arctan(slopes[self.present.any(axis=1)])) < ONE)
+        return bool(np.ptp(np.arctan(slopes[self.present.any(axis=1)])) < SAME_ANGLE)
 
     @cached_property
     def motion(self) -> IncomingMotion:
@@ -108,16 +108,16 @@ class FitProblem:
 
     def moved(self, changes: Mapping[str, Array]) -> IncomingMotion:
         """Return the motion before with some of its columns changed by so much."""
-        known = {name: values + changes.get(name, 0.0) for name, values in self.before.items()}
-        for name in {"angle", "contact_angle"} & set(known):
-            known[name] = np.clip(known[name], -STEEPEST, STEEPEST)
+        quantities = {name: values + changes.get(name, 0.0) for name, values in self.before.items()}
+        for name in {"angle", "contact_angle"} & set(quantities):
+            quantities[name] = np.clip(quantities[name], -STEEPEST, STEEPEST)
         if not self.has_speeds:
-            known["normal_speed"] = np.ones(len(self.measured))
+            quantities["normal_speed"] = np.ones(len(self.measured))
         speeds = (
-            convert_observables(self.pair, known=known, wanted=name)
+            convert_observables(self.pair, known=quantities, wanted=name)
             for name in ("normal_speed", "tangential_speed")
         )
-        spins = (known.get(name, np.zeros(len(self.measured))) for name in ("spin", "spin2"))
+        spins = (quantities.get(name, np.zeros(len(self.measured))) for name in ("spin", "spin2"))
         return IncomingMotion(*speeds, *spins)
 
     @cached_property
@@ -132,9 +132,9 @@ class FitProblem:
 NORMAL = np.linspace(-10.0, 10.0, 2001)  # where means over a normal distribution are taken
 SURE = 3.09  # standard deviations beyond which errors that were given are called too small
 RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
-OUTLYING = 4.0  # standard deviations of an outlier
+OUTLIER = 4.0  # in standard deviations
 LARGER = 10.0  # times the median: larger values are outliers before anything is fitted
-TINY = 1e-2  # of what a response may be: values below are as good as zero
+NEARLY_ZERO = 1e-2  # of what a response may be
 SHARES = (0.0, 0.5, 0.99)  # of a variance that go like the value squared
 LARGEST = 1e70  # residual whose powers do not overflow
 DEGREES = (3.0, 5.0, 10.0, 30.0)  # of freedom of Student's t
@@ -226,7 +226,7 @@ def least_error(problem: FitProblem) -> Array:
     """Return the error of the interpolated curves, by response."""
     sizes = np.abs(problem.measured)
     largest = np.minimum(np.nanmax(sizes, axis=0), LARGER * np.nanmedian(sizes, axis=0))
-    return np.asarray(RESOLVED * np.maximum(largest, TINY * problem.sizes))
+    return np.asarray(RESOLVED * np.maximum(largest, NEARLY_ZERO * problem.sizes))
 
 
 def mean_over(values: Array, function: Callable[[Array], Array], used: float = 0.0) -> float:

@@ -13,7 +13,7 @@ from carom.datasets import observables
 from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged
-from carom.fitting.problem import NOTHING, FitProblem, IncomingMotion
+from carom.fitting.problem import NO_SPEED, FitProblem, IncomingMotion
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
@@ -24,7 +24,7 @@ from carom.quantities.units import WHY_POSITIVE, number
 MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit
 LARGEST = 1e9  # of what has no unit
 NO_LARGER = "must be positive and, apart from scatter, no larger than {}"
-START = 0.3  # friction of bodies of which none is known, to begin with
+START_FRICTION = 0.3  # of bodies of which none is known
 HEIGHTS = {"drop_height": "normal_speed", "rebound_height": "normal_speed_out"}
 TWICE = ("speed", "angle", "tangential_speed", "contact_angle", "psi_in", "normal_restitution")
 GRAVITY = 9.80665  # m/s^2
@@ -47,9 +47,9 @@ def read_measurements(
     table: UserTable, faults: Faults | None = None
 ) -> tuple[UserTable, tuple[str, ...]]:
     """Return measurements in SI units, with speeds of drops, and what the table holds besides."""
-    known = with_errors((*BEFORE, *OBSERVABLES, *HEIGHTS))
-    ignored = others(table, known, faults)
-    rows = in_units(table, known, (*OBSERVABLES, "rebound_height"), faults)
+    names = with_errors((*BEFORE, *OBSERVABLES, *HEIGHTS))
+    ignored = others(table, names, faults)
+    rows = in_units(table, names, (*OBSERVABLES, "rebound_height"), faults)
     return with_speeds(rows), ignored
 
 
@@ -122,8 +122,8 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
             f"pair: a chi of {bodies.chi:.3g} cannot be fitted, only one from {least:.2g} to "
             f"{most:.2g}; check radii and gyration_radius"
         )
-    known = bodies.friction > 0.0
-    return bodies if known else Pair(bodies.first, bodies.second, START), known
+    rubs = bodies.friction > 0.0
+    return bodies if rubs else Pair(bodies.first, bodies.second, START_FRICTION), rubs
 
 
 def _errors(rows: UserTable, name: str) -> Array:
@@ -177,7 +177,7 @@ def _check_responses(pair: Pair, rows: UserTable, motion: IncomingMotion, veloci
     """Raise InputError for responses that contradict the motion before, or are out of range."""
     for name in filter(rows.columns.__contains__, observables.RELATIVE):
         basis = velocity if name.startswith("contact") else motion.tangential_speed
-        rested = np.abs(basis) <= NOTHING * motion.normal_speed
+        rested = np.abs(basis) <= NO_SPEED * motion.normal_speed
         allowed = "the tangential velocity before is zero; write '-', or give tangential_speed_out"
         rows.refuse(name, rested & np.isfinite(rows[name]), allowed)
     most = {
@@ -282,14 +282,14 @@ def read_options(
     return Options(tuple(wanted), {**start, **held})
 
 
-def _refuse_assumed(problem: FitProblem, told: Collection[str]) -> None:
+def _refuse_assumed(problem: FitProblem, named: Collection[str]) -> None:
     """Raise InputError for a parameter that would be held at a value that nobody has given."""
     measured = [name for name in NORMAL if name in problem.responses]
     why = {"restitution": f"{measured[0]} is in the data" if measured else ""}
     if not problem.knows_friction and not problem.is_normal and {*problem.responses} - {*NORMAL}:
         why["friction"] = "the bodies have none"
     for name, reason in why.items():
-        if reason and name not in told:
+        if reason and name not in named:
             example = f"fixed={{'{name}': {EXAMPLES[name]}}}"
             raise InputError(
                 f"{name}: {reason}, but it is neither varied nor fixed; add it to vary, or fix it, "
@@ -310,10 +310,10 @@ def check_count(problem: FitProblem, free: Sequence[str]) -> None:
     least = len(free) + (not problem.all_errors_known)
     if problem.count < least:
         values = f"{problem.count} measured value{'s' * (problem.count != 1)}"
-        told = f"{len(free)} parameters ({', '.join(free)})" if len(free) > 1 else free[0]
+        wanted = f"{len(free)} parameters ({', '.join(free)})" if len(free) > 1 else free[0]
         fewer = ", or fix some, e.g. fixed={'restitution': 0.98}" if len(free) > 1 else ""
         raise InputError(
-            f"data: {values} cannot determine {told}; measure more, at least {least}{fewer}"
+            f"data: {values} cannot determine {wanted}; measure more, at least {least}{fewer}"
         )
 
 
@@ -335,22 +335,23 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
     held: dict[str, float] = {}
     for name, value in fixed.items():
         _check_name("fixed", name)
-        found = number(name, value, "rad/s" if name == OFFSET else "1")
+        si = number(name, value, "rad/s" if name == OFFSET else "1")
         if name == "chi":
             if "kappa" in fixed:
                 raise InputError("kappa and chi: each follows from the other; fix one of them")
-            name, found = "kappa", found / half_ratio(problem.pair)
+            name, si = "kappa", si / half_ratio(problem.pair)
         parameter = ranges.get(name) or offset_parameter(problem)
-        if not parameter.low <= found <= parameter.high:
+        if not parameter.low <= si <= parameter.high:
             low, high = (GLOSSARY[name].text(end) for end in (parameter.low, parameter.high))
             allowed = f"{name} must lie between {low} and {high}"
             raise refusal(f"fixed {name}", value, allowed)
-        held[name] = found
+        held[name] = si
     return held
 
 
 def _check_name(where: str, name: Any) -> None:
-    known = f"parameters are {', '.join(NAMES)}"
-    shown = clipped(checked_type(where, name, str, known))
+    there_are = f"parameters are {', '.join(NAMES)}"
+    shown = clipped(checked_type(where, name, str, there_are))
     if name not in NAMES:
-        raise InputError(f"{where}: {shown!r} is no parameter; {nearest(shown, NAMES) or known}")
+        near = nearest(shown, NAMES) or there_are
+        raise InputError(f"{where}: {shown!r} is no parameter; {near}")

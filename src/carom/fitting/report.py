@@ -12,7 +12,7 @@ from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.model import Model
-from carom.fitting.problem import OUTLYING, FitProblem, RobustLoss, least_error, typical_deviation
+from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, least_error, typical_deviation
 from carom.fitting.reading import HEIGHTS, taken_by_air
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -163,34 +163,34 @@ def _tried(best: Best, trial: Trial) -> tuple[float, str] | None:
     if not _is_promising(model, best.loss, as_given):
         return None
     other = estimate(model, best.loss)
-    kept = present & (np.abs(other.residuals) <= OUTLYING)
-    told = float(np.square(other.residuals[kept]).sum())
+    kept = present & (np.abs(other.residuals) <= OUTLIER)
+    chi2 = float(np.square(other.residuals[kept]).sum())
     size = np.where(present, other.sigma * other.scale, 1.0)
     instead = float(np.square(as_given[kept] / size[kept]).sum())
-    few = kept.sum() * log(max(instead, 1e-300) / max(told, 1e-300)) < FAR
-    if few or instead - told < FAR or told > PART * instead or kept.sum() < LEAST * present.sum():
+    few = kept.sum() * log(max(instead, 1e-300) / max(chi2, 1e-300)) < FAR
+    if few or instead - chi2 < FAR or chi2 > PART * instead or kept.sum() < LEAST * present.sum():
         return None
     changed = 2.0 * float((present.sum(axis=0) * np.log(np.abs(trial.factors))).sum())
-    words = f"these data fit as {trial.words}: chi-square {told:.3g} instead of {instead:.3g}"
+    words = f"these data fit as {trial.words}: chi-square {chi2:.3g} instead of {instead:.3g}"
     return likelihood(other) - changed, words
 
 
 def _is_promising(model: Model, loss: RobustLoss, as_given: Array) -> bool:
     """Tell whether a response may scatter less than as it was given, by a rough fit."""
-    found, present = rough_minima(model, loss)[0], model.problem.present
-    left = model.problem.measured - model.expected(found[np.newaxis])[0]
+    minimum, present = rough_minima(model, loss)[0], model.problem.present
+    left = model.problem.measured - model.expected(minimum[np.newaxis])[0]
     typical = typical_deviation(left, present) < HOPEFUL * typical_deviation(as_given, present)
     return bool(typical.any())
 
 
-AT_END = 1e-6  # of a coordinate from an end of its range
+NEAR_END = 1e-6  # of a coordinate from an end of its range
 APART = 0.1  # of a coordinate between two minima
 COLUMN = 14
 ONE_INCIDENCE = (
     "one incidence determines friction or kappa, not both; fix one, or measure at other angles"
 )
 THIN = 2e-3  # part of a restitution that air may take unsaid
-POSSIBLE = (2.0 / 3.0, 1.0)  # kappa for Poisson's ratios from 1/2 to 0
+ELASTIC_KAPPA = (2.0 / 3.0, 1.0)  # for Poisson's ratios from 1/2 to 0
 
 
 def as_text(fit: FitRecord) -> str:
@@ -216,13 +216,13 @@ def _line(estimate: Estimate) -> str:
     return f"{estimate}; the elastic constants give {estimate.elastic:.3g}"
 
 
-def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
+def notes(fit: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
     """Return what is to be known besides the numbers; `whole` is the fit with nothing held."""
-    best = found.best
+    best = fit.best
     problem = best.model.problem
-    far = np.asarray((np.abs(best.residuals) > OUTLYING).any(axis=1))
+    far = np.asarray((np.abs(best.residuals) > OUTLIER).any(axis=1))
     lines = [*_about_errors(best), *([f"outliers: {problem.rows.named(far)}"] if far.any() else [])]
-    lines += [*_about_regimes(found), *_about_ranges(best)]
+    lines += [*_about_regimes(fit), *_about_ranges(best)]
     if {"friction", "kappa"} <= set(whole.model.free) and problem.is_one:  # all psi_1 are one
         lines.append(ONE_INCIDENCE)
     lines += [*_about_others(whole, estimates), *_about_bodies(estimates["kappa"])]
@@ -242,8 +242,8 @@ def _about_errors(best: Best) -> list[str]:
         if best.estimated[place]:
             unknown = problem.present[:, place] & ~np.isfinite(problem.errors[:, place])
             size = float(np.median(best.sigma[unknown, place]))
-            told = GLOSSARY[name].text(size, 2)
-            lines.append(f"{name}: the scatter gives a standard deviation of {told}")
+            deviation = GLOSSARY[name].text(size, 2)
+            lines.append(f"{name}: the scatter gives a standard deviation of {deviation}")
         elif best.scale[place] > 1.0:
             lines.append(
                 f"{name}: the scatter is {best.scale[place]:.1f} times what the errors allow, so "
@@ -276,7 +276,7 @@ def _about_ranges(best: Best) -> list[str]:
     ):
         ends = {parameter.low: at - low, parameter.high: high - at}
         for end, distance in ends.items():
-            if distance < AT_END and end not in LIMITS[parameter.name]:
+            if distance < NEAR_END and end not in LIMITS[parameter.name]:
                 reach = f"from {GLOSSARY[parameter.name].span(parameter.low, parameter.high, 3)}"
                 lines.append(f"{parameter.name}: the best value is at an end of the range {reach}")
     return lines
@@ -286,18 +286,18 @@ def _about_bodies(kappa: Estimate) -> list[str]:
     """Return what the bodies have to say of a kappa that was fitted."""
     if not kappa.determined or kappa.low <= kappa.elastic <= kappa.high:
         return []
-    told = f"kappa: the interval excludes {kappa.elastic:.3g}, which the elastic constants give"
-    if POSSIBLE[0] <= kappa.value <= POSSIBLE[1]:
-        return [f"{told}; check bodies, units and signs"]
-    return [f"{told}, and kappa is 2/3 to 1 for elastic bodies; check bodies, units and signs"]
+    differs = f"kappa: the interval excludes {kappa.elastic:.3g}, which the elastic constants give"
+    if ELASTIC_KAPPA[0] <= kappa.value <= ELASTIC_KAPPA[1]:
+        return [f"{differs}; check bodies, units and signs"]
+    return [f"{differs}, and kappa is 2/3 to 1 for elastic bodies; check bodies, units and signs"]
 
 
-def _about_regimes(found: ProfiledFit) -> list[str]:
+def _about_regimes(fit: ProfiledFit) -> list[str]:
     """Return which rows may lie in more than one regime, as far as the data can tell."""
-    model = found.best.model
-    at_fit = model.regimes(found.best.at)
+    model = fit.best.model
+    at_fit = model.regimes(fit.best.at)
     unsure = np.zeros(len(at_fit), dtype=bool)
-    for point in found.ends.reshape(-1, len(found.best.at)):
+    for point in fit.ends.reshape(-1, len(fit.best.at)):
         unsure |= model.regimes(point) != at_fit
     unsure &= model.problem.present.any(axis=1)
     if not unsure.any():
@@ -308,15 +308,13 @@ def _about_regimes(found: ProfiledFit) -> list[str]:
 def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
     """Return another minimum that the data do not exclude, outside of the intervals."""
     rivals, model = whole.rivals, whole.model
-    found = model.coordinates({name: estimates[name].value for name in model.free})
+    best = model.coordinates({name: estimates[name].value for name in model.free})
     near = rivals.sums - whole.sum < 4.0 * whole.spread
     for point in rivals.at[near][np.argsort(rivals.sums[near])]:
         values = model.values_at(point)
-        far = [
-            name for name, off in zip(model.free, point - found, strict=True) if abs(off) > APART
-        ]
-        told = [estimates[name] for name in far if estimates[name].determined]
-        if any(not each.low <= values[each.name] <= each.high for each in told):
+        far = [name for name, off in zip(model.free, point - best, strict=True) if abs(off) > APART]
+        determined = [estimates[name] for name in far if estimates[name].determined]
+        if any(not each.low <= values[each.name] <= each.high for each in determined):
             shown = ", ".join(
                 f"{name} {GLOSSARY[name].text(values[name], 3)}" for name in model.free
             )

@@ -252,13 +252,13 @@ class Fit(FitRecord, Result):
 
 def assembled(settled: Settled, confidence: float) -> Fit:
     """Return the result of a fit: intervals, what is not determined, regimes, notes."""
-    found = profiled(settled.best, confidence)
-    best, model = found.best, found.best.model
-    estimates = {name: estimate_of(found, name) for name in best.values}
+    profile = profiled(settled.best, confidence)
+    best, model = profile.best, profile.best.model
+    estimates = {name: estimate_of(profile, name) for name in best.values}
     for name in model.free:
         if not estimates[name].determined:
             estimates[name] = replace(estimates[name], reason=reason((name,), best))
-    estimates |= _undetermined(settled, found, estimates, confidence)
+    estimates |= _undetermined(settled, profile, estimates, confidence)
     pair, kappa = model.problem.pair, estimates["kappa"]
     value, low, high = (half_ratio(pair) * each for each in (kappa.value, kappa.low, kappa.high))
     estimates["chi"] = Estimate("chi", value, low, high, kappa.reason)
@@ -267,11 +267,11 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
         estimates[name] = replace(estimates[name], elastic=elastic)
     ordered = {name: estimates[name] for name in NAMES}
-    return Fit(ordered, confidence, regimes, notes(found, settled.whole, ordered), best)
+    return Fit(ordered, confidence, regimes, notes(profile, settled.whole, ordered), best)
 
 
 def _undetermined(
-    settled: Settled, found: ProfiledFit, estimates: Mapping[str, Estimate], confidence: float
+    settled: Settled, profile: ProfiledFit, estimates: Mapping[str, Estimate], confidence: float
 ) -> dict[str, Estimate]:
     """Return the estimates of parameters that the data do not tell, or tell from one side only."""
     result: dict[str, Estimate] = {}
@@ -283,15 +283,15 @@ def _undetermined(
             if one_sided.determined:
                 result[group[0]] = one_sided
                 continue
-        why = reason(group, found.best) + _product(group, found, estimates)
+        why = reason(group, profile.best) + _product(group, profile, estimates)
         for name in group:
             result[name] = replace(estimates[name], low=nan, high=nan, reason=why)
     return result
 
 
-def _product(group: tuple[str, ...], found: ProfiledFit, estimates: Mapping[str, Estimate]) -> str:
+def _product(group: tuple[str, ...], fit: ProfiledFit, estimates: Mapping[str, Estimate]) -> str:
     """Return what is known of mu (1 + e), where only that is."""
-    if set(group) != {"friction", "restitution"} or "friction" not in found.best.model.free:
+    if set(group) != {"friction", "restitution"} or "friction" not in fit.best.model.free:
         return ""
     friction, factor = estimates["friction"], 1.0 + estimates["restitution"].value
     numbers = (factor * each for each in (friction.value, friction.low, friction.high))

@@ -19,7 +19,7 @@ FORCING = 1e-4  # what they leave of the squared residual
 FINEST = 0.3  # of what ends the whole
 HALVINGS = 30
 ENERGY_ROUNDING = 8.0 * np.finfo(np.float64).eps  # of the work that energies are made of
-DECREASE = 1e-4  # of what the slope promises (Armijo)
+LEAST_DECREASE = 1e-4  # of what the slope promises (Armijo)
 
 
 class SurfaceLoad(NamedTuple):
@@ -106,7 +106,7 @@ def _search(
         if slope > -rounding:
             displacement = operator.displacement(change)
             bent = 0.5 * float(np.sum(change * displacement))
-            if bent <= (1.0 - DECREASE) * slope + rounding:
+            if bent <= (1.0 - LEAST_DECREASE) * slope + rounding:
                 return SurfaceLoad(change, displacement)
         length *= 0.5
     return None

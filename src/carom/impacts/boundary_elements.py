@@ -23,7 +23,7 @@ from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import Value, counted
 
 if TYPE_CHECKING:
@@ -285,18 +285,19 @@ def solve_by_elements(
 ) -> HalfspaceImpact:
     """Return an impact solved by boundary elements, on three grids; see `carom.impact`."""
     with_friction(pair, "without friction the theory is exact; leave method out")
-    if pair.chi > LARGEST_CHI:
-        allowed = f"boundary elements solve chi up to {LARGEST_CHI:g}; leave method out"
-        raise refusal("chi", pair.chi, allowed)
     psi = pair.psi(motion.contact_velocity(pair), scales.speed)
-    if not abs(psi) <= LARGEST_PSI:
-        allowed = f"boundary elements solve psi_1 up to {LARGEST_PSI:g}; leave method out"
-        raise refusal("psi_1", psi, allowed)
     materials = Materials(pair.kappa, pair.dundurs_beta, pair.friction)
     spin = spin_about_normal(pair, scales, normal_spin)
+    words, cure = "boundary elements solve", "leave method out"
+    refuse(
+        pair.chi > LARGEST_CHI
+        and refusal("chi", pair.chi, f"{words} chi up to {LARGEST_CHI:g}; {cure}"),
+        not abs(psi) <= LARGEST_PSI
+        and refusal("psi_1", psi, f"{words} psi_1 up to {LARGEST_PSI:g}; {cure}"),
+    )
     if not abs(spin.speed) <= LARGEST_SPIN:
         most = f"{LARGEST_SPIN * abs(normal_spin / spin.speed):.3g} rad/s here"
-        allowed = f"boundary elements solve up to {most}, {LARGEST_SPIN:g} mu V_1/a_max"
+        allowed = f"{words} up to {most}, {LARGEST_SPIN:g} mu V_1/a_max"
         raise refusal("normal_spin", normal_spin, allowed)
     fine = Resolution(method.elements, method.steps)
     grids = (fine.half.half, fine.half, fine)

@@ -22,7 +22,7 @@ from carom.quantities.refusals import refusal
 if TYPE_CHECKING:
     import xarray as xr
 
-MOST = 10**6  # points, which take a minute on a curve, and several on a map
+MOST_POINTS = 10**6  # a minute on a curve, and several on a map
 SOLID_SPHERE = 2.0 / 7.0  # m_t/m_n of a solid sphere on a fixed body
 
 REGIMES = (
@@ -134,9 +134,9 @@ def curve(
 def _axes(chi: Any, psi_1: Any) -> tuple[Array, Array]:
     """Return the values along both axes, or raise InputError; also if the points are too many."""
     chis, incoming = positive_line("chi", chi), finite_line("psi_1", psi_1)
-    if chis.size * incoming.size > MOST:
+    if chis.size * incoming.size > MOST_POINTS:
         points = f"{chis.size} values of chi times {incoming.size} of psi_1"
-        raise refusal("psi_1", points, f"at most {MOST:,} points are solved at once")
+        raise refusal("psi_1", points, f"at most {MOST_POINTS:,} points are solved at once")
     return chis, incoming
 
 

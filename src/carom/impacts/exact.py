@@ -35,7 +35,7 @@ from carom.quantities.units import Value, not_negative
 if TYPE_CHECKING:
     import xarray as xr
 
-FARTHEST = 100.0  # of the depth from which on peaks are searched for, in contact radii
+DEEPEST = 100.0  # of the depth from which on peaks are searched for, in contact radii
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,7 +194,7 @@ class Impact(ImpactResult, InContact):
         if from_depth == 0.0 and isinstance(self.solution, ViscoelasticSolution):
             allowed = "viscous bodies have infinite stresses at the surface; give a positive depth"
             raise refusal("depth", depth, allowed)
-        deepest = FARTHEST * self.max_radius
+        deepest = DEEPEST * self.max_radius
         if from_depth is not None and from_depth > deepest:
             allowed = f"below {text(deepest, 'm', 3)} hardly any stress is left"
             raise refusal("depth", depth, allowed)

@@ -29,9 +29,9 @@ from carom.quantities.arrays import Array
 Tell: TypeAlias = Callable[[Array, Array], Labels]
 
 FINER = 2.0  # than the tolerance: brackets of borders, which may be slanted
-SHARE = 0.49  # of the way to the next line: halfway, where values may be special
-INSIDE = 0.2  # of the tolerance: how far within the map its image ends
-ENOUGH = 40  # lines on which borders are found
+OFF_LINE = 0.49  # of the way to the next line: halfway, where values may be special
+INSET = 0.2  # of the tolerance: how far within the map its image ends
+ENOUGH_LINES = 40  # lines on which borders are found
 
 
 class Fineness(NamedTuple):
@@ -70,7 +70,7 @@ def border_variables(
 
             with np.errstate(over="ignore", invalid="ignore"):  # values out of all proportion
                 image = Image(x, y, numbers[np.ix_(rows, columns)], tell)
-                image.move_sides(INSIDE * fineness.tolerance)
+                image.move_sides(INSET * fineness.tolerance)
                 image.refine(fineness)
                 places, kept = bisected(image, fineness.tolerance)
                 places[:, [0, -1], 0], places[[0, -1], :, 1] = x[[0, -1]], y[[0, -1], np.newaxis]
@@ -125,7 +125,7 @@ class Image:
     def __init__(self, x: Array, y: Array, labels: Labels, tell: Tell) -> None:
         self.lines, self.labels, self.tell = [x.copy(), y.copy()], labels, tell
         self.solved = np.ones(labels.shape, dtype=np.bool_)
-        self.whole = [np.arange(n) % max(1, n // ENOUGH) == 0 for n in (x.size, y.size)]
+        self.whole = [np.arange(n) % max(1, n // ENOUGH_LINES) == 0 for n in (x.size, y.size)]
 
     def move_sides(self, share: float) -> None:
         """Move the outer lines inside by a share: at psi_1 = 0, or chi = 1/2, all sticks."""
@@ -147,7 +147,7 @@ class Image:
             if not any(part.any() for part in fill):
                 break
             for k in (0, 1):
-                new = self.lines[k][:-1] + SHARE * gaps[k]
+                new = self.lines[k][:-1] + OFF_LINE * gaps[k]
                 self.insert(k, new[fill[k]], whole=any(few))
             self.solve()
         labels = without_specks(self.labels, fineness.smallest)

@@ -157,7 +157,7 @@ def peaks_dataset(
     for body in bodies.values():
         for name, value in _numbers(body):
             columns.setdefault(name, []).append(value)
-    known = {name: values for name, values in columns.items() if not np.all(np.isnan(values))}
+    present = {name: values for name, values in columns.items() if not np.all(np.isnan(values))}
     words = list(bodies)
     yields = any(ratio > 1.0 for ratio in columns["yield_ratio"])
     depth = next(iter(bodies.values())).searched_depth
@@ -165,7 +165,7 @@ def peaks_dataset(
     notes += [UPPER_BOUND] * yields + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
     missing = "; ".join(f"{name} body: {_missing(body)}" for name, body in bodies.items())
     return labelled_dataset(
-        {name: ("body", values) for name, values in known.items()} | {"searched_depth": depth},
+        {name: ("body", values) for name, values in present.items()} | {"searched_depth": depth},
         {"body": ("body", words, {"long_name": "body"})},
         {
             "title": "largest stresses of an impact",

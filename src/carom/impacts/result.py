@@ -329,7 +329,7 @@ def _impact_text(hit: ImpactResult) -> str:
     ]
     columns = f"{f'from ({unit})':>12s} {f'to ({unit})':>12s} {'mean*':>9s} {'max*':>9s}"
     head = f"  {'':14s}{columns}   ended by"
-    findings = [f"  {MARKS[f.holds]} {f.told:38s} {f.verdict}" for f in hit.validity.findings]
+    findings = [f"  {MARKS[f.holds]} {f.label:38s} {f.verdict}" for f in hit.validity.findings]
     parts = ("Rebound", *lines, "Phases", head, *phases, note, "Validity", *findings)
     return "\n".join(parts)
 

@@ -18,8 +18,8 @@ from carom.dimensionless.states import KIND_NAMES
 from carom.quantities.arrays import Array
 
 SIGNS = {0: "", 1: " +", -1: " -"}
-NEAR = 1e-6  # in speed: phases that may be too short to be told
-BLOCK = 64  # impacts that a thread takes at once
+SHORT_IN_SPEED = 1e-6  # phases that may be too short to matter
+AT_ONCE = 64  # impacts that a thread takes
 
 
 class Sequences:
@@ -51,7 +51,7 @@ class Sequences:
             name = _elastic() if self.losses is None else partial(_lossy, self.losses)
             names[part] = map(name, psi[part].tolist(), chi[part].tolist())
 
-        in_blocks(block, psi.size, BLOCK, BLOCK if self.losses is None else 1, None)
+        in_blocks(block, psi.size, AT_ONCE, AT_ONCE if self.losses is None else 1, None)
         return names
 
 
@@ -75,7 +75,7 @@ def _elastic() -> Callable[[float, float], str]:
         phases = [
             (int(row[KIND]), mirror * int(row[KIND_SIGN]))
             for row, after in pairwise(rows)
-            if abs(row[AT_V] - after[AT_V]) >= NEAR or lasts(row, after) > SHORTEST_PHASE
+            if abs(row[AT_V] - after[AT_V]) >= SHORT_IN_SPEED or lasts(row, after) > SHORTEST_PHASE
         ]
         return _elastic_words(tuple(phase for phase, _ in groupby(phases)))
 

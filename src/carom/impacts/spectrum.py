@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 from carom.dimensionless.numerics.spectra import Pulse, corners, sampled, widest
 from carom.impacts.outcome import InTime, Outcome
 from carom.io.labels import attributes, labelled_dataset
-from carom.quantities.arrays import Array, numbers
+from carom.quantities.arrays import Array, numbers, refuse_where
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import Value, counted, positive
 
 if TYPE_CHECKING:
@@ -49,28 +49,23 @@ def read_frequencies(
     if frequencies is None:
         top = WIDTH / duration if highest is None else positive("max_frequency", highest)
         number = COUNT if count is None else counted("n", count, 2, MOST)
-        if top > most:
-            raise refusal("max_frequency", highest, _too_high(most))
+        refuse(top > most and refusal("max_frequency", highest, _too_high(most)))
         return np.linspace(0.0, top, number)
-    if highest is not None or count is not None:
-        raise InputError("frequencies: give them, or max_frequency and n, not both")
+    both = highest is not None or count is not None
+    refuse(both and "frequencies: give them, or max_frequency and n, not both")
     allowed = "must be a list of numbers in Hz, zero or positive and finite"
     values = np.atleast_1d(numbers("frequencies", frequencies, allowed, "Hz"))
-    if values.ndim != 1 or not values.size:
-        raise refusal("frequencies", frequencies, allowed)
-    if values.size > MOST:
-        raise InputError(f"frequencies: {values.size:,} are too many; give at most {MOST:,}")
-    bad = ~((values >= 0.0) & (values < np.inf))
-    if bad.any():
-        raise refusal("frequencies", float(values[bad][0]), allowed)
-    if values.max() > most:
-        raise refusal("frequencies", float(values.max()), _too_high(most))
+    line = values.ndim == 1 and values.size > 0
+    many = f"frequencies: {values.size:,} are too many; give at most {MOST:,}"
+    refuse(not line and refusal("frequencies", frequencies, allowed), values.size > MOST and many)
+    refuse_where("frequencies", values, ~((values >= 0.0) & (values < np.inf)), allowed)
+    refuse_where("frequencies", values, values > most, _too_high(most))
     return values
 
 
 def _too_high(most: float) -> str:
-    known = f"spectra are known up to {text(most, 'Hz', 4)}"
-    return f"{known}, {FARTHEST:g} over the duration of the contact"
+    range_of_spectra = f"spectra are known up to {text(most, 'Hz', 4)}"
+    return f"{range_of_spectra}, {FARTHEST:g} over the duration of the contact"
 
 
 def spectrum_dataset(hit: Outcome, frequencies: Array) -> xr.Dataset:

@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MOST_RADII = 100_000
-EVEN = 101  # radii at least among which the largest wear is sought
-GRID = 101  # points of the map along x and y where none are asked for
+LEAST_RADII = 101  # radii at least among which the largest wear is sought
+MAP_POINTS = 101  # points of the map along x and y where none are asked for
 FRICTIONLESS = 1e-9  # with less friction nothing of it is felt, and psi_1 may be too large
 TRUSTED = 1e-4  # energies that are farther from the work per area are not taken for a volume
-ALIKE = 1e-6  # by which works per area may differ that are one
+SAME_WORK = 1e-6  # by which works per area may differ that are one
 FARTHEST = 8.0  # by which a radius grows over a panel of the integral over the contact
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
@@ -67,7 +67,7 @@ class Rubbing(NamedTuple):
 
 def largest(radii: Array, values: Array) -> tuple[float, float]:
     """Return the largest of values at rising radii and where it is, by a parabola."""
-    i = int(np.argmax(values >= (1.0 - ALIKE) * values.max()))  # of like ones the inmost
+    i = int(np.argmax(values >= (1.0 - SAME_WORK) * values.max()))  # of like ones the inmost
     if not 0 < i < values.size - 1:
         return float(values[i]), float(radii[i])
     r, level = radii[i], values[i]
@@ -85,7 +85,7 @@ def wear_of(
     """Return the wear of an impact as a dataset; arguments and errors as `Impact.wear`."""
     count = counted("n", n, 2, MOST_RADII)
     per_load = None if coefficient is None else read_coefficient(coefficient)
-    side = np.linspace(-hit.max_radius, hit.max_radius, GRID)
+    side = np.linspace(-hit.max_radius, hit.max_radius, MAP_POINTS)
     dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, None)
     r, angle = np.hypot(at[..., 0], at[..., 1]), 2.0 * np.arctan2(at[..., 1], at[..., 0])
     distance = np.linspace(0.0, hit.max_radius, count)
@@ -128,8 +128,8 @@ def rubbing(hit: ImpactResult, radii: Array) -> Rubbing:
     """Return the integral of pressure times slip rate at radii in m, and at more of them."""
     unit = hit.scales.radius
     nodes, areas = _quadrature(cast(Trajectory, hit.solution))
-    inner = np.union1d(nodes * unit, hit.max_radius * np.linspace(0.0, 1.0, EVEN))
-    apart = np.append(np.diff(inner) > ALIKE * hit.max_radius, True)
+    inner = np.union1d(nodes * unit, hit.max_radius * np.linspace(0.0, 1.0, LEAST_RADII))
+    apart = np.append(np.diff(inner) > SAME_WORK * hit.max_radius, True)
     asked = np.union1d(radii, inner)
     mean, lateral = rubbed_at(hit, asked)
     summed = mean[np.searchsorted(asked, nodes * unit)] @ areas * unit**2

@@ -12,11 +12,11 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from carom.io.paths import opened
+from carom.io.paths import accessing, opened
 from carom.io.progress import advancing
 from carom.io.user_table import Column, UserTable
 from carom.quantities.arrays import plain_numbers
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 
 COMMENT = re.compile(r"#\s*([A-Za-z]\w*)\s*:\s*(.*)")
 SPREADSHEET_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
@@ -43,10 +43,9 @@ class _CsvFile:
         """Yield the lines that are neither empty nor comments; of comments the first counts."""
         read_line = partial(self.text.readline, LONGEST_LINE + 1)
         for number, line in enumerate(iter(read_line, ""), 1):
-            if "\0" in line:
-                raise self.refusal("it is not text; give a CSV file")
-            if len(line) > LONGEST_LINE:
-                raise self.refusal(f"a line has more than {LONGEST_LINE} characters")
+            long = len(line) > LONGEST_LINE and f"a line has more than {LONGEST_LINE} characters"
+            if allowed := "it is not text; give a CSV file" if "\0" in line else long:
+                raise self.refusal(allowed)
             text = line.strip()
             if number == 1 and (separator := NAMED_SEPARATOR.fullmatch(line)):
                 self.separator = separator[1]
@@ -87,11 +86,8 @@ def read_csv(what: str, path: Path, fewest: int) -> tuple[list[Column], UserTabl
     or has fewer columns than are allowed.
     """
     try:
-        with opened(path, encoding="utf-8-sig") as text:
+        with accessing(what, path, "read"), opened(path, encoding="utf-8-sig") as text:
             return _read(_CsvFile(what, path, text), fewest)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"{what}: {str(path)!r} cannot be read; {reason}") from None
     except UnicodeDecodeError:
         allowed = "it is not text in UTF-8; give a CSV file"
         raise refusal(what, str(path), allowed) from None
@@ -123,17 +119,15 @@ def _read(file: _CsvFile, fewest: int) -> tuple[list[Column], UserTable]:
 
 def _check_heads(file: _CsvFile, heads: list[str], fewest: int) -> None:
     """Raise InputError for too few or too many names, or for numbers instead."""
-    if len(heads) < fewest:
-        fewer = "" if fewest == 1 else f", at least {fewest}"
-        allowed = f"give columns separated by commas, semicolons or tabs{fewer}"
-        raise file.refusal(f"it is not CSV; {allowed}")
-    if len(heads) > MOST_COLUMNS:
-        raise file.refusal(f"it has {len(heads)} columns; at most {MOST_COLUMNS} are allowed")
-    if plain_numbers(heads) is not None:
-        raise InputError(
-            f"{file.what}: the first line holds numbers; put a line without # before it that "
-            "names the columns, e.g. psi_1,psi_2,chi"
-        )
+    fewer, count = "" if fewest == 1 else f", at least {fewest}", len(heads)
+    names = "put a line without # before it that names the columns, e.g. psi_1,psi_2,chi"
+    allowed = f"give columns separated by commas, semicolons or tabs{fewer}"
+    many = f"it has {count} columns; at most {MOST_COLUMNS} are allowed"
+    refuse(
+        count < fewest and file.refusal(f"it is not CSV; {allowed}"),
+        count > MOST_COLUMNS and file.refusal(many),
+        plain_numbers(heads) is not None and f"{file.what}: the first line holds numbers; {names}",
+    )
 
 
 def _joined(parts: list[Any]) -> Any:

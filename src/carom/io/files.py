@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from carom.io.extras import extra
 from carom.io.netcdf_format import read_netcdf, write_netcdf
-from carom.io.paths import checked_output, checked_path, ending_of, opened, replace_whole
-from carom.quantities.refusals import InputError, refusal
+from carom.io.paths import accessing, checked_output, checked_path, ending_of, opened, replace_whole
+from carom.quantities.refusals import InputError, refusal, refuse
 
 if TYPE_CHECKING:
     import xarray as xr
 
 TABLES = (".nc", ".csv")
-STORE = ".zarr"  # of a sweep
+STORE_ENDING = ".zarr"  # of a sweep
 EXPORTED = (
     "CSV is an export; store a dataset as .nc to read it again, "
     "one of Carom 0.2 there by carom.save(carom.read('x.csv'), 'x.nc')"
@@ -111,23 +111,23 @@ def _table(dataset: "xr.Dataset") -> str:
 def read_dataset(source: Path) -> "xr.Dataset":
     """Return the dataset of a file or store, or raise InputError if it is not one of Carom's."""
     ending = source.suffix.lower()
-    if ending == STORE and source.is_dir():
+    if ending == STORE_ENDING and source.is_dir():
         sweep: xr.Dataset = extra("carom.io.stores", "a store").read_store(source)
         return sweep
+    reason = f"must end in .nc, or be the store of a sweep, {STORE_ENDING}"
     if ending == ".csv":
-        raise refusal("file", str(source), EXPORTED)
-    if ending != ".nc":
-        raise refusal("file", str(source), f"must end in .nc, or be the store of a sweep, {STORE}")
-    if not source.is_file():
-        raise refusal("file", str(source), "there is no such file")
-    try:
-        with warnings.catch_warnings():  # of xarray and h5netcdf, at what is odd
-            warnings.simplefilter("ignore")
-            return read_netcdf(source)
-    except OSError as error:
-        reason = f"cannot be read; {error.strerror or error}"
-    except InputError as error:
-        reason = str(error)
+        reason = EXPORTED
+    elif ending == ".nc" and not source.is_file():
+        reason = "there is no such file"
+    elif ending == ".nc":
+        try:
+            with warnings.catch_warnings():  # of xarray and h5netcdf, at what is odd
+                warnings.simplefilter("ignore")
+                return read_netcdf(source)
+        except OSError as error:
+            reason = f"cannot be read; {error.strerror or error}"
+        except InputError as error:
+            reason = str(error)
     raise refusal("file", str(source), reason)
 
 
@@ -137,12 +137,9 @@ def read_text(what: str, path: str | Path) -> str:
     Raises InputError if it cannot be read or is too long, and UnicodeDecodeError if it is not in
     UTF-8.
     """
-    try:
-        with opened(checked_path(what, path), encoding="utf-8-sig") as file:
-            text: str = file.read(LONGEST_TEXT + 1)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"{what}: {str(path)!r} cannot be read; {reason}") from None
-    if len(text) > LONGEST_TEXT:
-        raise refusal(what, str(path), f"it is longer than {LONGEST_TEXT} characters")
+    file = checked_path(what, path)
+    with accessing(what, path, "read"), opened(file, encoding="utf-8-sig") as content:
+        text: str = content.read(LONGEST_TEXT + 1)
+    long = f"it is longer than {LONGEST_TEXT} characters"
+    refuse(len(text) > LONGEST_TEXT and refusal(what, str(path), long))
     return text

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.io.version import __version__
+from carom.old_names import with_old_fields
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.shown import Printed
 
@@ -24,6 +25,7 @@ AXES = {"x": {"axis": "X"}, "y": {"axis": "Y"}, "z": {"axis": "Z", "positive": "
 MARKS = {True: "ok   ", False: "FAILS", None: "?    "}  # of an assumption
 
 
+@with_old_fields
 class Finding(NamedTuple):
     """One number that tells whether the theory holds: value, limit, and a plain verdict."""
 
@@ -34,7 +36,7 @@ class Finding(NamedTuple):
     verdict: str
 
     @property
-    def told(self) -> str:
+    def label(self) -> str:
         """Name and value, the name alone where no value is known."""
         return self.name if isnan(self.value) else f"{self.name} = {self.value:.3g}"
 
@@ -51,7 +53,7 @@ class Validity(Printed):
         return all(finding.holds is not False for finding in self.findings)
 
     def __str__(self) -> str:
-        return "\n".join(f"{MARKS[f.holds]} {f.told}: {f.verdict}" for f in self.findings)
+        return "\n".join(f"{MARKS[f.holds]} {f.label}: {f.verdict}" for f in self.findings)
 
 
 def flags(meanings: Sequence[str], first: int = 0) -> dict[str, Any]:
@@ -111,9 +113,9 @@ def labelled(
 ) -> "xr.Dataset":
     """Return a history as a dataset: columns along time, more of them along phase, and numbers."""
     along_time = {name: _along("time", name, values) for name, values in columns.items()}
-    known = _rows(phases) | {"phase_cause": [phase.cause for phase in phases]} if phases else {}
-    known |= phase_columns or {}
-    along_phase = {name: _along("phase", name, values) for name, values in known.items()}
+    by_phase = _rows(phases) | {"phase_cause": [phase.cause for phase in phases]} if phases else {}
+    by_phase |= phase_columns or {}
+    along_phase = {name: _along("phase", name, values) for name, values in by_phase.items()}
     time = along_time.pop("time")
     return labelled_dataset(
         along_time | dict(scalars) | along_phase,

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.quantities.refusals import InputError
+from carom.quantities.refusals import InputError, refuse
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -46,8 +46,7 @@ def write_netcdf(dataset: "xr.Dataset", where: Path) -> None:
         content = _netcdf(dataset)
         with xr.open_dataset(BytesIO(content), cache=False, **AS_STORED) as back:
             name = _changed(dataset, back)
-    if name:
-        raise InputError(f"{name}: NetCDF would not give it back as it is; {KEPT}")
+    refuse(name and f"{name}: NetCDF would not give it back as it is; {KEPT}")
     with where.open("wb") as file:
         file.write(content)
         file.write(_seal(content))

@@ -9,14 +9,14 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 from threading import Thread
 from typing import IO, Any
 
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 
 DESCRIPTOR_FOLDERS = ("/dev/fd", "/proc/self/fd")  # in which a name is an open file
 STREAM_FORMATS = (".csv", ".png", ".gif", ".h")  # if it has no ending
@@ -32,17 +32,40 @@ def checked_path(what: str, path: str | Path, kind: str = "file") -> Path:
     """
     if not isinstance(path, str | os.PathLike) or isinstance(os.fspath(path), bytes):
         raise refusal(what, path, f"must be the name of a {kind}")
-    if not str(path).strip():
-        raise refusal(what, str(path), f"it is empty; give the name of a {kind}")
+    allowed = "" if str(path).strip() else f"it is empty; give the name of a {kind}"
     try:
         os.lstat(path)
     except (FileNotFoundError, NotADirectoryError):
         pass
     except OSError as error:
-        raise refusal(what, str(path), f"{_reason(error)}; give another name") from None
+        allowed = f"{_reason(error)}; give another name"
     except ValueError:  # NUL, or half of a character
-        raise refusal(what, str(path), "no file can have such a name; give another") from None
+        allowed = "no file can have such a name; give another"
+    refuse(allowed and refusal(what, str(path), allowed))
     return Path(path)
+
+
+@contextmanager
+def accessing(what: str, path: str | Path, done: str) -> Iterator[None]:
+    """Say in one line that a file or folder cannot be "read" or "written", and why."""
+    try:
+        yield
+    except OSError as error:
+        reason = f"cannot be {done}; {_reason(error)}"
+        raise InputError(f"{what}: {str(path)!r} {reason}") from None
+
+
+def checked_folder(folder: str | Path) -> tuple[Path, Path]:
+    """Return the path of a folder to be written and its real one, or raise InputError."""
+    target = checked_path("folder", folder, "folder")
+    real = Path(os.path.realpath(target))
+    there, which = (real, "it") if real.exists() else (real.parent, "the folder it is in")
+    if not there.is_dir():
+        must = "is a file; give a new folder" if there == real else "must exist; make it first"
+        raise refusal("folder", str(target), f"{which} {must}")
+    locked = not os.access(there, os.W_OK)
+    refuse(locked and refusal("folder", str(target), f"{which} cannot be written to"))
+    return target, real
 
 
 def opened(path: Path, mode: str = "r", **how: Any) -> Any:
@@ -70,13 +93,15 @@ def opened(path: Path, mode: str = "r", **how: Any) -> Any:
 def checked_output(path: str | Path, endings: Sequence[str]) -> Path:
     """Return the path of an output file, or raise InputError if it cannot become one."""
     target = checked_path("output file", path)
-    if target.suffix.lower() not in endings and not (target.suffix == "" and is_stream(target)):
-        raise refusal("output file", str(path), f"must end in {' or '.join(endings)}")
-    real = os.path.realpath(target)
-    if os.path.isdir(real):
-        raise refusal("output file", str(path), "it is a folder; give the name of a file")
-    if not os.path.isdir(os.path.dirname(real)) and not is_stream(target):
-        raise refusal("output file", str(path), "its folder must exist; make it first")
+    real, stream = os.path.realpath(target), is_stream(target)
+    alone = not os.path.isdir(os.path.dirname(real)) and not stream
+    faults = {
+        f"must end in {' or '.join(endings)}": target.suffix.lower() not in endings
+        and not (target.suffix == "" and stream),
+        "it is a folder; give the name of a file": os.path.isdir(real),
+        "its folder must exist; make it first": alone,
+    }
+    refuse(*(there and refusal("output file", str(path), words) for words, there in faults.items()))
     return target
 
 
@@ -102,17 +127,13 @@ def replace_whole(target: Path, write: Callable[[Path], object], ending: str = "
     The temporary file has the ending of the target, or this one.
     """
     ending = ending or target.suffix
-    try:
+    with accessing("output file", target, "written"):
         if is_stream(target):
             with tempfile.TemporaryDirectory() as folder:
                 write(whole := Path(folder, f"output{ending}"))
                 _pour(whole, target)
         else:
             _replace(Path(os.path.realpath(target)), write, ending)
-    except OSError as error:
-        raise InputError(
-            f"output file: {str(target)!r} cannot be written; {_reason(error)}"
-        ) from None
     return target
 
 

@@ -14,7 +14,7 @@ from carom.io.csv_cells import MOST_COLUMNS, read_csv
 from carom.io.paths import checked_path
 from carom.io.user_table import ALIASES, GAP, Column, UserTable, spelled
 from carom.quantities.arrays import along_the_same, floats
-from carom.quantities.refusals import InputError, nearest, refusal
+from carom.quantities.refusals import InputError, nearest, refusal, refuse
 from carom.quantities.texts import LONGEST_TEXT, UNCHANGED
 from carom.quantities.units import REAL_KINDS, factor_of, two_units, without_unit
 
@@ -53,8 +53,7 @@ def read_table(
         if count > 1:
             words = "two columns have this name; leave one of them out"
             raise InputError(f"{spelled(name)!r}: {words}")
-    if not len(table):
-        raise InputError(f"{what}: no rows; give names of columns, and numbers below them")
+    refuse(not len(table) and f"{what}: no rows; give names of columns, and numbers below them")
     cells = {
         name: column._replace(unit=_one_unit(name, unit, column.unit))
         for (name, unit), column in zip(named, source_columns, strict=True)

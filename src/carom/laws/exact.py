@@ -132,7 +132,8 @@ class ReboundLaw(Law):
     def _of(cls, *values: Any) -> Self:
         return object.__new__(cls)._hold(*values)
 
-    def __call__(self, psi: Any, chi: Any = None, *, return_status: bool = False) -> Any:
+    @known_keywords
+    def __call__(self, psi_1: Any, chi: Any = None, *, return_status: bool = False) -> Any:
         """Return psi_2 for an array of any library that follows the array API standard.
 
         Masked elements give NaN, and NaN and infinity are kept. A law over a range needs chi, too,
@@ -141,9 +142,9 @@ class ReboundLaw(Law):
         """
         if chi is None and not return_status:
             rule = self._rule
-            return applied(lambda incoming, xp: incoming - lost(incoming, rule, xp), "psi", psi)
+            return applied(lambda psi, xp: psi - lost(psi, rule, xp), "psi_1", psi_1)
         own = self._one_chi() if chi is None else chi
-        outgoing = self.rebound(psi, own, return_status=return_status)
+        outgoing = self.rebound(psi_1, own, return_status=return_status)
         return outgoing if return_status else np.asarray(outgoing)[()]
 
     def _solved(
@@ -181,7 +182,8 @@ class ReboundLaw(Law):
         """Return the law of another restitution, which is tabulated anew."""
         return ReboundLaw(self.chi, losses=KelvinVoigt(restitution=restitution))
 
-    def impulse(self, psi: Any) -> Any:
+    @known_keywords
+    def impulse(self, psi_1: Any) -> Any:
         """Return the tangential impulse in units of the largest impulse of friction.
 
             J_t/(mu J_n) = (psi_1 - psi_2)/(2 chi (1 + e))
@@ -190,18 +192,18 @@ class ReboundLaw(Law):
 
         Parameters
         ----------
-        psi : array of any library that follows the array API standard
+        psi_1 : array of any library that follows the array API standard
             Dimensionless tangential velocity psi_1.
 
         Returns
         -------
         array
-            The impulse, of the library and shape of `psi`.
+            The impulse, of the library and shape of `psi_1`.
 
         Raises
         ------
         InputError
-            If `psi` is not an array of numbers.
+            If `psi_1` is not an array of numbers.
 
         Examples
         --------
@@ -210,26 +212,27 @@ class ReboundLaw(Law):
         array([0.079, 1.   ])
         """
         bound = self._rule.sliding
-        return applied(lambda incoming, xp: lost(incoming, self._rule, xp) / bound, "psi", psi)
+        return applied(lambda incoming, xp: lost(incoming, self._rule, xp) / bound, "psi_1", psi_1)
 
-    def dissipation(self, psi: Any) -> Any:
+    @known_keywords
+    def dissipation(self, psi_1: Any) -> Any:
         """Return the energy lost to friction, psi_1^2 - psi_2^2.
 
         Parameters
         ----------
-        psi : array of any library that follows the array API standard
+        psi_1 : array of any library that follows the array API standard
             Dimensionless tangential velocity psi_1.
 
         Returns
         -------
         array
-            The energy in units of (m_t/2)(mu V_1/kappa)^2, of the library and shape of `psi`;
+            The energy in units of (m_t/2)(mu V_1/kappa)^2, of the library and shape of `psi_1`;
             infinite where it is too large for floating point.
 
         Raises
         ------
         InputError
-            If `psi` is not an array of numbers.
+            If `psi_1` is not an array of numbers.
 
         Examples
         --------
@@ -242,7 +245,7 @@ class ReboundLaw(Law):
             change = lost(incoming, self._rule, xp)
             return change * (2.0 * incoming - change)
 
-        return applied(energy, "psi", psi)
+        return applied(energy, "psi_1", psi_1)
 
     @property
     def duration(self) -> float:

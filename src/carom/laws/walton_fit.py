@@ -85,8 +85,8 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
         one_plus_beta, ratio = parameters
         return np.asarray(psi - np.minimum(one_plus_beta * psi, limit * ratio) - exact)
 
-    found = least_squares(residual, (1.3, 1.0), bounds=((0.0, 0.0), (2.0, inf)), x_scale=0.1)
-    beta, ratio = float(found.x[0]) - 1.0, float(found.x[1])
+    minimum = least_squares(residual, (1.3, 1.0), bounds=((0.0, 0.0), (2.0, inf)), x_scale=0.1)
+    beta, ratio = float(minimum.x[0]) - 1.0, float(minimum.x[1])
     law = WaltonLaw(friction=ratio * pair.friction, tangential_restitution=beta)
-    error = residual(found.x)
+    error = residual(minimum.x)
     return WaltonFit(law, float(np.sqrt(np.mean(error**2))), float(np.max(np.abs(error))), reach)

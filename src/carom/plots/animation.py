@@ -25,11 +25,11 @@ from carom.plots.drawing import draws
 from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
 from carom.plots.look import Look
 from carom.plots.patch import patch_panel, patch_title
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 
 Progress = bool | Callable[[], object] | None
 
-RATE = 12  # frames a second
+FRAME_RATE = 12  # a second
 RESOLUTION = {".gif": 110, ".mp4": 200}  # in dots per inch
 MARGIN = 1.08  # around the largest contact
 
@@ -80,8 +80,8 @@ def animate(
     target = checked_animation(path)
     ending = ending_of(target, ANIMATIONS)
     total = len(frames) if isinstance(frames, Sized) else None
-    told = (lambda *_: progress()) if callable(progress) else progress
-    with advancing("animation", total, told, unit="frames") as advance:
+    shown_progress = (lambda *_: progress()) if callable(progress) else progress
+    with advancing("animation", total, shown_progress, unit="frames") as advance:
         pictures = _pictures(history, frames, RESOLUTION[ending], advance)
         first = next(pictures, None)
         if first is None:
@@ -203,7 +203,7 @@ def _write_gif(where: Path, pictures: Iterator[Image.Image]) -> None:
     palette = _palette()
     frames = (picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures)
     next(frames).save(
-        where, save_all=True, append_images=frames, duration=round(1000 / RATE), loop=0
+        where, save_all=True, append_images=frames, duration=round(1000 / FRAME_RATE), loop=0
     )
 
 
@@ -228,7 +228,7 @@ def _palette() -> Image.Image:
 def _write_mp4(where: Path, pictures: Iterator[Image.Image]) -> None:
     first = next(pictures)
     command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24"]
-    command += ["-s", f"{first.width}x{first.height}", "-r", str(RATE), "-i", "-"]
+    command += ["-s", f"{first.width}x{first.height}", "-r", str(FRAME_RATE), "-i", "-"]
     command += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p"]
     command.append(str(where))
     pipe = subprocess.PIPE
@@ -238,5 +238,4 @@ def _write_mp4(where: Path, pictures: Iterator[Image.Image]) -> None:
             for picture in chain([first], pictures):
                 into.write(picture.tobytes())
         said = encoder.communicate()[1].decode(errors="replace").strip()
-    if encoder.returncode:
-        raise InputError(f"output file: ffmpeg failed; {said}")
+    refuse(encoder.returncode and f"output file: ffmpeg failed; {said}")

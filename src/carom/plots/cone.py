@@ -23,7 +23,7 @@ PATHS: dict[str, dict[str, Any]] = {
 }
 AHEAD = 0.02  # from the foot to the head of an arrow, as a share of the figure
 APART = 0.1  # between the heads of arrows, likewise
-SHORTEST = 0.15  # of a phase with an arrow
+SHORTEST_PHASE = 0.15  # with an arrow
 ARROWS = 8  # on a path without phases
 
 
@@ -53,8 +53,8 @@ def plot_cone(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     _draw_cone(axis, *edge)
     points = np.column_stack([normal, tangential])
     for kind, part in _parts(dataset, points):
-        known = axis.get_legend_handles_labels()[1]
-        axis.plot(*part.T, **PATHS[kind], label=None if kind in known else kind)
+        labelled = axis.get_legend_handles_labels()[1]
+        axis.plot(*part.T, **PATHS[kind], label=None if kind in labelled else kind)
         for ends in _apart(_arrows(part / edge, 1 if kind != "load path" else ARROWS)):
             _arrow(axis, ends * edge, PATHS[kind]["color"])
         if kind == "load path":
@@ -102,12 +102,12 @@ def _draw_cone(axis: Axes, normal: float, tangential: float) -> None:
 
 def _parts(dataset: xr.Dataset, points: Array) -> Iterator[tuple[str, Array]]:
     """Yield the phases with the points of each, from the last before it on; a load path whole."""
-    known = phases(dataset)
-    if not known:
+    phases_of_path = phases(dataset)
+    if not phases_of_path:
         yield "load path", points
         return
     time = dataset["time"].values
-    for phase in known:
+    for phase in phases_of_path:
         first = max(int(np.searchsorted(time, phase.start, side="right")) - 1, 0)
         last = int(np.searchsorted(time, phase.end, side="right"))
         yield phase.kind, points[first:last]
@@ -117,17 +117,17 @@ def _arrows(points: Array, count: int) -> list[Array]:
     """Return foot and head of arrows, evenly along a path."""
     steps = np.hypot(*np.diff(points, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    if along[-1] <= SHORTEST:
+    if along[-1] <= SHORTEST_PHASE:
         return []
     feet = (np.arange(count) + 0.4) / count * along[-1]
     ends = np.column_stack([feet, feet + AHEAD])
     return list(np.stack([np.interp(ends, along, line) for line in points.T], axis=-1))
 
 
-def _apart(found: list[Array]) -> list[Array]:
+def _apart(arrows: list[Array]) -> list[Array]:
     """Return the arrows that come to lie on no earlier one: a path may be retraced."""
     kept: list[Array] = []
-    for ends in found:
+    for ends in arrows:
         if all(np.hypot(*(ends[1] - other[1])) > APART for other in kept):
             kept.append(ends)
     return kept

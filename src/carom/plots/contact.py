@@ -72,18 +72,18 @@ def plot_contact(
         return _draw(course, shown)
 
 
-def _read(given: Any, frames: Any, count: int | None) -> tuple[xr.Dataset, list[xr.Dataset]]:
+def _read(result: Any, frames: Any, count: int | None) -> tuple[xr.Dataset, list[xr.Dataset]]:
     """Return the history and the frames, those of a result if it is one."""
-    known = not hasattr(given, "data_vars") and hasattr(given, "history")
-    course = given.history() if known else given
+    has_history = not hasattr(result, "data_vars") and hasattr(result, "history")
+    course = result.history() if has_history else result
     needed = (*FORCES, *RADII, "max_pressure")
     checked_dataset(course, f"plot_contact draws {HISTORY}", needed, ("time",))
     if frames is not None:
         if count is not None:
             raise InputError("count: the frames that are given are shown; leave one of both out")
         shown = _frames(frames)
-    elif known:
-        shown = [given.fields(time) for time in _instants(course, _checked(count))]
+    elif has_history:
+        shown = [result.fields(time) for time in _instants(course, _checked(count))]
     else:
         raise InputError(f"plot_contact draws {HISTORY}; give the fields of its instants, too")
     if not 1 <= len(shown) <= MOST:
@@ -94,13 +94,13 @@ def _read(given: Any, frames: Any, count: int | None) -> tuple[xr.Dataset, list[
     return course, shown
 
 
-def _frames(given: Any) -> list[Any]:
+def _frames(frames: Any) -> list[Any]:
     """Return frames as a list; a dataset alone is one."""
-    if hasattr(given, "data_vars"):
-        return [given]
-    if not isinstance(given, Iterable) or isinstance(given, str):
-        raise refusal("frames", given, f"must be the fields of 1 to {MOST} instants")
-    return list(given)
+    if hasattr(frames, "data_vars"):
+        return [frames]
+    if not isinstance(frames, Iterable) or isinstance(frames, str):
+        raise refusal("frames", frames, f"must be the fields of 1 to {MOST} instants")
+    return list(frames)
 
 
 def _checked(count: int | None) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.plots import style
 from carom.plots.look import Look, into, quiet
-from carom.quantities.refusals import InputError, hint
+from carom.quantities.refusals import InputError, hint, refuse
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -61,23 +61,23 @@ def draws(
         name, parameters = getattr(draw, "__name__", ""), signature(draw)
         first = next(iter(parameters.parameters))
 
-        def read(given: Any, at: Any) -> Any:
-            return checked_dataset(_dataset(given, take, at), f"{name} draws {what}", needed, dims)
+        def read(result: Any, at: Any) -> Any:
+            return checked_dataset(_dataset(result, take, at), f"{name} draws {what}", needed, dims)
 
         kind, more = SEVERAL_TEXT if several else ("xarray.Dataset or result", "")
         described = f"{first} : {kind}\n    {what[0].upper()}{what[1:]}.{more}"
 
         @wraps(documented(draw, described))
         def checked(*args: P.args, **kwargs: P.kwargs) -> T:
-            given: dict[str, Any] = parameters.bind(*args, **kwargs).arguments
-            with looking(given.pop("look", {}), name, parameters.parameters):
+            arguments: dict[str, Any] = parameters.bind(*args, **kwargs).arguments
+            with looking(arguments.pop("look", {}), name, parameters.parameters):
                 try:
-                    if several and isinstance(given[first], list | tuple | dict):
-                        pairs = _named(given[first], name)
-                        given[first] = {key: read(one, None) for key, one in pairs}
+                    if several and isinstance(arguments[first], list | tuple | dict):
+                        pairs = _named(arguments[first], name)
+                        arguments[first] = {key: read(one, None) for key, one in pairs}
                     else:
-                        given[first] = read(given[first], given.get("at"))
-                    return draw(**given)  # type: ignore[call-arg]
+                        arguments[first] = read(arguments[first], arguments.get("at"))
+                    return draw(**arguments)  # type: ignore[call-arg]
                 except InputError:
                     raise
                 except (ValueError, LookupError, ArithmeticError) as error:  # of what is in it
@@ -96,9 +96,7 @@ def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
     Keywords that it does not know are refused.
     """
     words = [*(word for word in parameters if word != "look"), *LOOK]
-    for word in look:
-        if word not in LOOK:
-            raise InputError(f"{word}: no keyword of {name}; {hint(word, words)}")
+    refuse(*(f"{w}: no keyword of {name}; {hint(w, words)}" for w in look if w not in LOOK))
     axes = look.get("ax")
     wanted = {word: value for word, value in look.items() if word != "ax" and value is not None}
     if axes is not None and "width" in wanted:
@@ -133,27 +131,26 @@ def documented(draw: Callable[P, T], drawn: str = "") -> Callable[P, T]:
     return draw
 
 
-def _dataset(given: Any, take: str | Take, at: Any) -> Any:
+def _dataset(result: Any, take: str | Take, at: Any) -> Any:
     """Return a dataset, that of a result if it is one; else what was given."""
-    if hasattr(given, "data_vars"):
+    if hasattr(result, "data_vars"):
         if at is not None:
             raise InputError("at: this dataset has its instant; leave it out, or give the result")
-        return given
+        return result
     if callable(take):
-        return take(given, at)
-    method = getattr(given, take, None)
-    return method() if callable(method) else given
+        return take(result, at)
+    method = getattr(result, take, None)
+    return method() if callable(method) else result
 
 
-def _named(given: Any, name: str) -> Iterator[tuple[str, Any]]:
+def _named(results: Any, name: str) -> Iterator[tuple[str, Any]]:
     """Yield results or datasets with their names: those of a dictionary, or numbers."""
-    if not given:
-        raise InputError(f"{name}: there is nothing to draw; give one result or more")
-    items = given.items() if isinstance(given, dict) else enumerate(given, 1)
+    refuse(not results and f"{name}: there is nothing to draw; give one result or more")
+    items = results.items() if isinstance(results, dict) else enumerate(results, 1)
     names = [str(key) for key, _ in items]
     if len(set(names)) < len(names):
         raise InputError(f"{name}: two results have the same name; give each its own")
-    yield from zip(names, given.values() if isinstance(given, dict) else given, strict=True)
+    yield from zip(names, results.values() if isinstance(results, dict) else results, strict=True)
 
 
 def checked_dataset(
@@ -161,22 +158,21 @@ def checked_dataset(
 ) -> Any:
     """Return a dataset in which all is that is needed, or refuse it in words that begin as told."""
     lacks = _lacking(dataset, needed, along)
-    if lacks:
-        raise InputError(f"{drawn}; what was given {lacks}")
+    refuse(lacks and f"{drawn}; what was given {lacks}")
     return dataset
 
 
-def _lacking(given: Any, needed: tuple[str, ...], along: tuple[str, ...]) -> str:
+def _lacking(dataset: Any, needed: tuple[str, ...], along: tuple[str, ...]) -> str:
     """Return what keeps an object from being a dataset of a kind; nothing if it is one."""
-    if not hasattr(given, "data_vars"):
-        return f"is no dataset but of type {type(given).__name__}"
-    missing = [name for name in needed if name not in given.variables]
+    if not hasattr(dataset, "data_vars"):
+        return f"is no dataset but of type {type(dataset).__name__}"
+    missing = [name for name in needed if name not in dataset.variables]
     if missing:
         return f"has no {missing[0]}"
-    lies = given[needed[0]].dims
+    lies = dataset[needed[0]].dims
     if lies != along if along else not lies:
         return f"has no {needed[0]} along {' and '.join(along) or 'a dimension'}"
-    return "" if given[needed[0]].size else f"has no values of {needed[0]}"
+    return "" if dataset[needed[0]].size else f"has no values of {needed[0]}"
 
 
 def at_instant(*methods: str) -> Take:

@@ -18,7 +18,7 @@ from carom.plots.drawing import Drawable, draws
 from carom.plots.legends import legend_outside
 from carom.plots.look import Look
 from carom.plots.regimes import draw_borders
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import pure_number
 
 SKY = "#56B4E9"
@@ -26,13 +26,13 @@ COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, SKY)
 STYLES: Any = [{"color": c, "ls": d} for c, d in zip(COLORS, (*style.DASHES[1:], "-"), strict=True)]
 EXACT: Any = {"color": style.BLACK, "lw": 1.6, "zorder": 2}
 POINT: Any = {"marker": "o", "ms": 1.4}
-SAME = 1e-6  # in psi_2; laws closer than this share a line
+SAME_PSI = 1e-6  # laws closer than this in psi_2 share a line
 SAMPLE = (-0.085, -0.015)  # where a bar shows its line, in widths of its axes
-WORDS = 32  # characters in a line of a law's label
+LABEL_WIDTH = 32  # in characters
 PITCH, EDGE = 5.6, 22.0  # height of a bar and of what is around them, in mm
 NOTED = 0.1  # an error that is outlined
 CONTOURS: Any = {"colors": "0.25", "linewidths": 0.6, "linestyles": ["--", "-"]}
-LARGEST = 1e100  # limit of a map
+LARGEST_LIMIT = 1e100
 LEAST = 1e-3  # a colour scale ends no nearer to zero
 PLAIN = {  # parameters of elastic laws, not worth a mention
     "stiffness": 1.0,
@@ -59,7 +59,7 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     Examples
     --------
     >>> import carom
-    >>> ranking = carom.verify.rank(carom.verify.catalogue()[:2], psi=[0.5, 1.0, 3.0])
+    >>> ranking = carom.verify.rank(carom.verify.catalogue()[:2], psi_1=[0.5, 1.0, 3.0])
     >>> axis = carom.plots.plot_laws(ranking.to_dataset()).axes[1]
     >>> [text.get_text() for text in axis.get_yticklabels()]
     ['linear spring, $k_t/k_n$ = $\\\\kappa$', 'linear spring, $k_t/k_n$ = 2/7']
@@ -87,7 +87,7 @@ def _kinds(curves: Any) -> Any:
     """Return which rebound each law has, counted from 0 in their order; equal ones are one."""
     kinds: list[int] = []
     for row, curve in enumerate(curves):
-        same = (k for k in range(row) if np.allclose(curves[k], curve, rtol=0.0, atol=SAME))
+        same = (k for k in range(row) if np.allclose(curves[k], curve, rtol=0.0, atol=SAME_PSI))
         twin = next(same, None)
         kinds.append(max(kinds, default=-1) + 1 if twin is None else kinds[twin])
     return np.array(kinds)
@@ -124,7 +124,7 @@ def _draw_bars(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any], mo
     names = [str(name).replace("$", r"\$") for name in dataset["law"].values[rows]]
     axis.set_yticks(
         places,
-        [style.with_formulas(textwrap.fill(n, WORDS, break_long_words=False)) for n in names],
+        [style.with_formulas(textwrap.fill(n, LABEL_WIDTH, break_long_words=False)) for n in names],
     )
     axis.tick_params(axis="y", length=0.0, pad=15.0)
     axis.set_ylim(most - 0.5, -0.5)
@@ -139,11 +139,10 @@ def _key(dataset: xr.Dataset) -> Iterator[Any]:
     yield Patch(fc="0.4", label="root mean square")
 
 
-def _read_limit(given: Any) -> float:
-    allowed = f"must be positive, at most {LARGEST:g}"
-    limit = pure_number("limit", given, allowed)
-    if not 0.0 < limit <= LARGEST:
-        raise refusal("limit", given, allowed)
+def _read_limit(value: Any) -> float:
+    allowed = f"must be positive, at most {LARGEST_LIMIT:g}"
+    limit = pure_number("limit", value, allowed)
+    refuse(not 0.0 < limit <= LARGEST_LIMIT and refusal("limit", value, allowed))
     return limit
 
 
@@ -202,10 +201,10 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
 
 def _title(dataset: xr.Dataset) -> str:
     """Return the law with its parameters, as far as the dataset tells them."""
-    given = json.loads(dataset.attrs.get("law_parameters", "{}"))
+    parameters = json.loads(dataset.attrs.get("law_parameters", "{}"))
     values = [
         f"{name.replace('_', ' ')} {value:.4g}" if isinstance(value, float) else str(value)
-        for name, value in given.items()
+        for name, value in parameters.items()
         if value is not None and value != PLAIN.get(name)
     ]
     words = ", ".join([dataset.attrs.get("law", ""), *values])

@@ -14,7 +14,7 @@ from carom.plots.look import AXES, RC, own_figure
 SPARE = 1.03  # letters on a screen are wider than their outlines
 SPACES = ("handlelength", "handletextpad", "columnspacing", "borderpad")  # of a legend
 HINTS = 1.1  # by which text can be wider on a screen than its outlines
-MARGIN = 5.0  # beside axes, for their labels, in sizes of the font
+LABEL_ROOM = 5.0  # beside axes, in sizes of the font
 
 
 def legend_above(axis: Axes, columns: int, **options: Any) -> None:
@@ -25,7 +25,7 @@ def legend_above(axis: Axes, columns: int, **options: Any) -> None:
     handles = options.pop("handles", None) or axis.get_legend_handles_labels()[0]
     grid = axis.get_subplotspec()
     across = grid.get_gridspec().ncols / len(grid.colspan) if grid else 1
-    room = own_figure(axis).get_figwidth() * 72.0 / across - MARGIN * RC["font.size"]
+    room = own_figure(axis).get_figwidth() * 72.0 / across - LABEL_ROOM * RC["font.size"]
     columns = fitting_columns(handles, columns, room, **options)
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (-0.02, 1.0)}
     axis.legend(handles=handles, ncols=columns, **place, **options)

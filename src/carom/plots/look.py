@@ -17,7 +17,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import pure_number
 
 DPI, SCREEN = 300, 110  # in files and on screens
@@ -70,12 +70,11 @@ class Look(TypedDict, total=False):
     ax: Axes | None
 
 
-def _read(name: str, given: Any, limits: tuple[float, float], unit: str) -> float:
+def _read(name: str, value: Any, limits: tuple[float, float], unit: str) -> float:
     """Return a size, or refuse it in one line."""
     allowed = f"must be a number of {unit} from {limits[0]:g} to {limits[1]:g}"
-    size = pure_number(name, given, allowed)
-    if not limits[0] <= size <= limits[1]:
-        raise refusal(name, given, allowed)
+    size = pure_number(name, value, allowed)
+    refuse(not limits[0] <= size <= limits[1] and refusal(name, value, allowed))
     return size
 
 

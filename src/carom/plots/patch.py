@@ -17,13 +17,13 @@ from carom.quantities.refusals import one_of
 
 SLIP = 2  # the zone's number in a fields dataset
 MARGIN = 1.12  # of the map around the contact
-ACROSS = 8  # slip arrows along the diameter of the contact
-FEWEST = 3  # of them, where the contact is small on the map
+ARROWS_ACROSS = 8  # the diameter of the contact
+FEWEST_ARROWS = 3  # where the contact is small on the map
 ROOM = 0.3  # the stick zone with a word in it, in contact radii
-AROUND = 28  # slip arrows along a ring too narrow for that
-NARROW = 1.5  # such a ring, in distances between those arrows
-THIN = 0.06  # ring, in contact radii: none fits in
-LONGEST = 0.8  # arrow, in distances between arrows
+RING_ARROWS = 28  # along a ring too narrow for rows of them
+NARROW_RING = 1.5  # in distances between arrows
+THINNEST_RING = 0.06  # in contact radii: in a thinner one no arrow fits
+LONGEST_ARROW = 0.8  # in distances between arrows
 ROUNDING = 1e-9  # relative, of an arrow that ends on the border
 ZONES = ("contact", "stick")
 MAPPED = ("traction_x", "pressure")
@@ -158,7 +158,7 @@ def arrows(dataset: xr.Dataset, reach: float | None = None) -> Arrows:
     x, y = dataset["x"].values, dataset["y"].values
     contact, stick = (float(dataset[f"{name}_radius"]) for name in ZONES)
     room = min(MARGIN * contact / (reach or _reach(dataset)), 1.0)
-    count = max(FEWEST, round(ACROSS * room))
+    count = max(FEWEST_ARROWS, round(ARROWS_ACROSS * room))
     at_x, at_y, longest = _places(contact, stick, count)
     rows, columns = _nearest(y, at_y), _nearest(x, at_x)
     inside = np.hypot(np.abs(at_x) + 0.5 * longest, at_y) < contact * (1.0 + ROUNDING)
@@ -180,27 +180,27 @@ def _places(contact: float, stick: float, count: int) -> tuple[Array, Array, flo
     Also how long an arrow may be that neither meets the next one nor leaves the ring.
     """
     spacing = 2.0 * contact / count
-    if stick > 0.0 and contact - stick < NARROW * spacing:
-        around = count * AROUND // ACROSS
+    if stick > 0.0 and contact - stick < NARROW_RING * spacing:
+        around = count * RING_ARROWS // ARROWS_ACROSS
         angles = 2.0 * np.pi * (np.arange(around) + 0.5) / around
         middle = 0.5 * (contact + stick)
-        longest = min(LONGEST * middle * 2.0 * np.pi / around, contact - stick)
-        angles = angles if contact - stick > THIN * contact else angles[:0]
+        longest = min(LONGEST_ARROW * middle * 2.0 * np.pi / around, contact - stick)
+        angles = angles if contact - stick > THINNEST_RING * contact else angles[:0]
         return middle * np.cos(angles), middle * np.sin(angles), longest
     line = spacing * (np.arange(count) - 0.5 * (count - 1))
     x, y = np.meshgrid(line, line)
-    return x.ravel(), y.ravel(), LONGEST * spacing
+    return x.ravel(), y.ravel(), LONGEST_ARROW * spacing
 
 
 def _nearest(grid: Array, places: Array) -> Any:
     return np.abs(grid[:, np.newaxis] - places).argmin(axis=0)
 
 
-def _draw_arrows(axis: Axes, found: Arrows, length: float) -> None:
-    if found.fastest == 0.0:
+def _draw_arrows(axis: Axes, arrows: Arrows, length: float) -> None:
+    if arrows.fastest == 0.0:
         return
-    unit = found.longest * length / found.fastest
-    vectors = found.x * length, found.y * length, found.along * unit, found.across * unit
+    unit = arrows.longest * length / arrows.fastest
+    vectors = arrows.x * length, arrows.y * length, arrows.along * unit, arrows.across * unit
     scale: Any = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "pivot": "mid"}
     shape: Any = {"width": 0.01, "headwidth": 3.6, "headlength": 4.0, "headaxislength": 3.6}
     colors: Any = {"fc": "black", "ec": "white", "lw": 0.3, "zorder": 4}

@@ -17,7 +17,7 @@ from carom.plots.look import AXES, Look
 from carom.plots.regimes import draw_borders
 from carom.plots.region_labels import (
     PITCH,
-    SMALLEST,
+    SMALLEST_LABEL,
     Label,
     Labels,
     find_labels,
@@ -44,7 +44,7 @@ ABOVE = 1.1  # where the key to a user's Axes begins, above the names of borders
 UNDER = 0.8  # of the way from the middle of a label to its edge: where a leader line ends
 UNSEEN = 1e-6  # of the area of the largest region: colours that the key leaves out
 LISTED = 40  # sequences below a map, of those that are not marked
-TALL = 0.42  # the map, in widths of the figure
+HEIGHT = 0.42  # of the map, in widths of the figure
 MARGIN = 11.0  # of text beside a figure's edges, in points
 
 
@@ -83,21 +83,21 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     >>> [text.get_text() for text in figure.axes[0].texts][2:4]
     ['$\\\\psi_1 = $$4\\\\chi-1$', 'G+']
     """
-    figure, axis = style.single_axis(width=style.DOUBLE, height=TALL * style.DOUBLE + 30.0)
-    found = regions(dataset)
-    colours = _colours({group_of(region.name) for region in found if region.name})
-    for region in found:
+    figure, axis = style.single_axis(width=style.DOUBLE, height=HEIGHT * style.DOUBLE + 30.0)
+    drawn = regions(dataset)
+    colours = _colours({group_of(region.name) for region in drawn if region.name})
+    for region in drawn:
         face = colours[group_of(region.name)] if region.name else "white"
         hatch = None if region.name else "xxxx"
         axis.add_patch(PathPatch(region.path(), fc=face, hatch=hatch, **EDGE))
     axis.set(xlim=limits(dataset, "psi_in"), ylim=limits(dataset, "chi"))
     axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi"))
     draw_borders(axis, float(dataset.get("restitution", 1.0)))
-    least = UNSEEN * area(found[0].rings[0])
-    shown = {group_of(one.name) for one in found if one.name and area(one.rings[0]) > least}
+    least = UNSEEN * area(drawn[0].rings[0])
+    shown = {group_of(one.name) for one in drawn if one.name and area(one.rings[0]) > least}
     _add_key(figure, sorted(shown), colours)
     lists = [dataset[name].values.tolist() for name in NAMED if name in dataset]
-    _label_regions(figure, axis, found, list(dict.fromkeys(chain.from_iterable(lists))))
+    _label_regions(figure, axis, drawn, list(dict.fromkeys(chain.from_iterable(lists))))
     return figure
 
 
@@ -140,13 +140,13 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
     where.legend(handles=handles, ncols=columns, title=title, **place, **SPACING)
 
 
-def _label_regions(figure: Figure, axis: Axes, found: list[Region], names: list[str]) -> None:
+def _label_regions(figure: Figure, axis: Axes, areas: list[Region], names: list[str]) -> None:
     """Write the sequence of every wide region into it or beside it; list others below the map."""
     lines = [np.asarray(line.get_xydata()) for line in axis.lines]
     _set_height(figure, axis)
     size, to_mm = _laid_out(figure, axis)
-    labels = find_labels(found, lines, to_mm, size)
-    drawn = {region.name for region in found}
+    labels = find_labels(areas, lines, to_mm, size)
+    drawn = {region.name for region in areas}
     labels.narrow.extend(name for name in names if name not in drawn)
     _list(figure, labels)
     for label in labels.placed.values():
@@ -158,7 +158,7 @@ def _set_height(figure: Figure, axis: Axes) -> None:
     """Make a figure as high as its map needs, and what is around it."""
     if AXES.get() is not None:
         return
-    wanted, (_, height) = TALL * figure.get_figwidth(), _laid_out(figure, axis)[0]
+    wanted, (_, height) = HEIGHT * figure.get_figwidth(), _laid_out(figure, axis)[0]
     figure.set_figheight(figure.get_figheight() + wanted - height / 25.4)
 
 
@@ -176,7 +176,7 @@ def _list(figure: Figure, labels: Labels) -> None:
     """Write below the map what numbers mean, and which sequences are not marked, and why."""
     numbered = (f"{k}\u00a0=\u00a0{_tied(name)}" for k, name in enumerate(labels.numbered, 1))
     parts = ["; ".join(numbered)]
-    reasons = {f"narrower than {SMALLEST:g} mm": labels.narrow, "without room": labels.lost}
+    reasons = {f"narrower than {SMALLEST_LABEL:g} mm": labels.narrow, "without room": labels.lost}
     for reason, names in reasons.items():
         counted = [
             _tied(name) + f"\u00a0({k}\u00a0regions)" * (k > 1)

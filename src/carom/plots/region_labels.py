@@ -17,7 +17,7 @@ from carom.quantities.arrays import Array
 Mask: TypeAlias = NDArray[np.bool_]
 
 PIXEL, PIXELS = 0.15, 1000  # mm, and how many across a large map
-SMALLEST = 0.2  # width in mm of a region that has a label
+SMALLEST_LABEL = 0.2  # width in mm of a region that has a label
 APART = 0.6  # of labels and of what is around them, in mm
 LEADER, LONGEST = 2.5, 40.0  # leader lines, in mm
 SPOTS = 2400  # places for labels with leader lines that are compared
@@ -100,7 +100,7 @@ def find_labels(
     wide = [
         n
         for n, (pole, width) in enumerate(poles)
-        if width >= SMALLEST and regions[n].holds([(pole - to_mm[1]) / to_mm[0]])[0]
+        if width >= SMALLEST_LABEL and regions[n].holds([(pole - to_mm[1]) / to_mm[0]])[0]
     ]
     inside = {n: sheet.inside(n, _blocks(names[n])) for n in wide}
     placed = {n: label for n, label in inside.items() if label}

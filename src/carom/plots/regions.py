@@ -42,15 +42,15 @@ def limits(dataset: Any, name: str) -> tuple[float, float]:
 
 def regions(dataset: Any) -> list[Region]:
     """Return the regions of a map of regimes, the largest first."""
-    found: dict[int, Region] = {}
+    by_number: dict[int, Region] = {}
     read = _of_points
     if dataset.sizes.get("outline"):
         read = _stored
     elif "outline_psi" not in dataset and dataset.sizes.get("border_curve"):
         read = _of_borders
     for number, name, points in read(dataset):
-        found.setdefault(number, Region(name, [])).rings.append(points)
-    return sorted(found.values(), key=lambda region: -area(region.rings[0]))
+        by_number.setdefault(number, Region(name, [])).rings.append(points)
+    return sorted(by_number.values(), key=lambda region: -area(region.rings[0]))
 
 
 def area(ring: Array) -> float:

@@ -18,12 +18,12 @@ from carom.quantities.arrays import Array
 
 ALLOWED: Any = {"color": "0.35", "ls": style.DASHES[2], "lw": 0.8, "zorder": 1}
 GIVEN: Any = {"mfc": "white", "mec": style.BLACK, "mew": 0.8, "ls": ""}
-SPARSE = 100  # times; more of them make a line
+MARKED = 100  # more times make a line
 FAR = 2.0  # times the psi_1 from which all slides: beyond it a figure has little to show
 MARGIN, ROOM = 0.03, 0.12  # beyond what is shown, along psi_1 and the error
 MARKERS, EDGES = "os^Dv<>p", (style.BLACK, style.VERMILION, style.GREEN, style.PURPLE)
-LONGEST = 40  # characters of a name in a legend
-ROW = 4.0  # of a legend, in mm
+LONGEST_NAME = 40  # characters, in a legend
+LEGEND_ROW = 4.0  # in mm
 SMALL = 1e-6  # an error that is told as less than that
 
 
@@ -48,7 +48,7 @@ def plot_score(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
 def _points(dataset: xr.Dataset) -> Figure:
     markers = _markers(dataset)
-    height = 98.0 + ROW * (len(markers) - 1)
+    height = 98.0 + LEGEND_ROW * (len(markers) - 1)
     figure, axes = style.new_figure(2, 1, height=height, sharex=True, height_ratios=(1.6, 1.0))
     upper, lower = axes[:, 0]
     whole, dataset = dataset, _near(dataset)
@@ -89,10 +89,10 @@ def _near(dataset: xr.Dataset) -> xr.Dataset:
 
 def _names(dataset: xr.Dataset) -> Any:
     """Return what computed each result, code and law, or "results"."""
-    told = [dataset[name].values.tolist() for name in ("code", "law") if name in dataset]
-    if not told:
+    origins = [dataset[name].values.tolist() for name in ("code", "law") if name in dataset]
+    if not origins:
         return np.full(dataset["psi_in"].size, "results", dtype=object)
-    rows = (", ".join(filter(None, row)) for row in zip(*told, strict=True))
+    rows = (", ".join(filter(None, row)) for row in zip(*origins, strict=True))
     return np.array([row or "results" for row in rows], dtype=object)
 
 
@@ -108,7 +108,7 @@ def _markers(dataset: xr.Dataset) -> dict[str, Any]:
 def _label(dataset: xr.Dataset, name: str) -> str:
     """Return the name of results for a legend, and how far they are off at most."""
     error = float(np.abs(dataset["error"].values[_names(dataset) == name]).max())
-    short = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
+    short = name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}…"
     plain = short.replace("$", r"\$")  # no formula of matplotlib's
     off = f"{error:.2g}" if error >= SMALL else f"less than {SMALL:g}"
     return rf"{' ' * plain.startswith('_')}{plain} ($\psi_2$ off by {off})"
@@ -179,10 +179,10 @@ def _force(axis: Axes, dataset: xr.Dataset, name: str) -> Array:
     axis.set_xlabel("")
     style.zero_line(axis)
     exact = dataset[f"{name}_exact"].values
-    given, unit, scale = style.scaled(dataset, name, like=exact)
+    force, unit, scale = style.scaled(dataset, name, like=exact)
     axis.plot(time, exact * scale, color=style.BLUE, label="exact")
-    how = {"marker": "o", "ms": 2.0, "ls": ""} if time.size <= SPARSE else {"ls": style.DASHES[1]}
-    axis.plot(time, given, color=style.VERMILION, label=_label(dataset, _names(dataset)[0]), **how)
+    how = {"marker": "o", "ms": 2.0, "ls": ""} if time.size <= MARKED else {"ls": style.DASHES[1]}
+    axis.plot(time, force, color=style.VERMILION, label=_label(dataset, _names(dataset)[0]), **how)
     if name == "tangential_force":
         limit = float(dataset["friction"]) * dataset["normal_force_exact"].values * scale
         style.limit_lines(axis, time, limit, r"$\pm\mu F_z$, exact")

@@ -13,11 +13,11 @@ from carom.plots import style
 from carom.plots.drawing import Drawable, draws
 from carom.plots.look import Look
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import InputError
+from carom.quantities.refusals import InputError, refuse
 
 MOST_LINES = len(style.LINES)  # more coefficients of friction than this make a map
 LEVELS = 24  # of a map
-SHOWN = (1.0, 2.0, 5.0)  # of each decade, labelled on axes and curves
+TICKS = (1.0, 2.0, 5.0)  # of each decade, labelled on axes and curves
 TITLES = {
     "yield_speed": "{} body yields",
     "tensile_speed": "{} body, tensile strength",
@@ -45,8 +45,7 @@ def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     2
     """
     names = [name for name in SPEEDS if name in dataset and _finite(dataset, name).size]
-    if not names:
-        raise InputError("plot_strength: no speed in this dataset is finite; there is no limit")
+    refuse(not names and "plot_strength: no speed in this dataset is finite; there is no limit")
     if dataset.sizes["angle"] < 2:
         raise InputError("plot_strength: one angle makes no curve; give two or more")
     columns = min(len(names), 2)
@@ -81,7 +80,7 @@ def _lines(axis: Axes, dataset: xr.Dataset, name: str) -> None:
         text = f"{style.label('friction')} = {mu:g}"
         axis.plot(angle, row, color=style.LINES[i], ls=style.DASHES[i], label=text)
     axis.set_yscale("log")
-    axis.yaxis.set_major_locator(LogLocator(subs=SHOWN))
+    axis.yaxis.set_major_locator(LogLocator(subs=TICKS))
     axis.yaxis.set_major_formatter("{x:g}")
     axis.yaxis.set_minor_formatter("")
     axis.set_ylabel(style.label(name))
@@ -96,7 +95,7 @@ def _map(axis: Axes, dataset: xr.Dataset, name: str) -> None:
     shades = np.geomspace(low, high * (1.0 + 1e-9), LEVELS)
     axis.contourf(angle, friction, values, shades, cmap=style.MAP, norm=LogNorm(low, high))
     decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
-    levels = np.outer(decades, SHOWN).ravel()
+    levels = np.outer(decades, TICKS).ravel()
     levels = levels[(levels > low) & (levels < high)]
     if levels.size:
         curves = axis.contour(angle, friction, values, levels, colors="white", linewidths=0.7)

@@ -14,7 +14,7 @@ from carom.plots.bands import MINUS, moment
 from carom.plots.drawing import Drawable, at_instant, draws
 from carom.plots.look import Look
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import InputError, one_of
+from carom.quantities.refusals import one_of, refuse
 
 CONTOURS, TICKS = 9, 8
 NEAR = 1e-6  # relative: a largest stress that lies in the plane drawn
@@ -48,10 +48,9 @@ def plot_stress(
     """
     if dataset["von_mises"].ndim == 2:
         style.check_grid(dataset, "von_mises", "z", "x")
-    known = [str(name) for name, item in dataset.items() if item.dims == ("z", "x")]
-    if not known:
-        raise InputError("stress: a map needs it on a grid of z and x, not at points")
-    one_of("variable", variable, known)
+    mapped = [str(name) for name, item in dataset.items() if item.dims == ("z", "x")]
+    refuse(not mapped and "stress: a map needs it on a grid of z and x, not at points")
+    one_of("variable", variable, mapped)
     figure, axis = style.single_axis(height=66.0)
     x, unit, length = style.scaled(dataset, "x")
     z = dataset["z"].values * length

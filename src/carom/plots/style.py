@@ -67,8 +67,8 @@ def check_grid(dataset: Any, name: str, *dims: str) -> None:
     """Refuse fields that do not lie on a grid with two rising positions or more along each side."""
     coords = getattr(dataset, "coords", ())
     places = [np.asarray(dataset[dim].values) for dim in dims if dim in coords]
-    known = name in getattr(dataset, "data_vars", ()) and dataset[name].dims == dims
-    if not known or any(line.size < 2 or np.any(np.diff(line) <= 0.0) for line in places):
+    on_grid = name in getattr(dataset, "data_vars", ()) and dataset[name].dims == dims
+    if not on_grid or any(line.size < 2 or np.any(np.diff(line) <= 0.0) for line in places):
         wanted = " and ".join(reversed(dims))
         raise InputError(f"{name}: a map needs it on a grid of rising {wanted}, two or more each")
 
@@ -252,7 +252,7 @@ def with_formulas(text: str) -> str:
     >>> print(with_formulas("linear spring, k_t/k_n = kappa"))
     linear spring, $k_t/k_n$ = $\\kappa$
     """
-    return FORMULA.sub(lambda found: "$" + GREEK.sub(r"\\\g<0>", found[0]) + "$", text)
+    return FORMULA.sub(lambda match: "$" + GREEK.sub(r"\\\g<0>", match[0]) + "$", text)
 
 
 class Scaled(NamedTuple):

@@ -12,7 +12,7 @@ from carom.plots import style
 from carom.plots.drawing import Drawable, draws
 from carom.plots.look import Look
 
-CENTRE = 1e-3  # of the contact: nearer than that to it is in it
+AT_CENTRE = 1e-3  # of the contact: nearer than that to it is in it
 MARGIN = 1.05  # of the map around the contact
 WORK, DEPTH = "friction_work", "wear_depth"
 
@@ -54,7 +54,7 @@ def _profile(axis: Axes, dataset: xr.Dataset, name: str) -> None:
     if values.any():
         axis.axvline(most * length, color=style.BLACK, ls=style.DASHES[1], lw=0.8)
         where = f"{style.label('max_wear_radius', '1')} = {most * length:.3g}\u00a0{unit}"
-        beside = most > CENTRE * float(dataset["distance"].max())
+        beside = most > AT_CENTRE * float(dataset["distance"].max())
         axis.set_title(f"largest at {where}" if beside else "largest in the centre")
     style.span(axis, distance)
     axis.set_ylim(bottom=0.0)

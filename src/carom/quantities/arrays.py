@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.texts import CANNOT_HOLD, UNCHANGED, Factor, Unreadable, split
 from carom.quantities.units import REAL_KINDS, as_float, factor_of, is_real, number, without_unit
 
@@ -83,9 +83,20 @@ def floats(name: str, values: NDArray[Any]) -> Array:
     """Return a contiguous copy of real numbers in double precision, or raise if one overflows."""
     with np.errstate(all="ignore"):
         doubles = values.astype(np.float64, order="C")
-    if values.dtype.itemsize > doubles.itemsize and np.any(np.isinf(doubles) & np.isfinite(values)):
-        raise refusal(name, values, CANNOT_HOLD)
-    return doubles
+    return _held(name, values, doubles) if values.dtype.itemsize > doubles.itemsize else doubles
+
+
+def _held(name: str, values: NDArray[Any], converted: Array) -> Array:
+    """Return what has become of numbers, or raise InputError if one overflows."""
+    lost = np.any(np.isinf(converted) & np.isfinite(values))
+    refuse(lost and refusal(name, values, CANNOT_HOLD))
+    return converted
+
+
+def refuse_where(name: str, values: Array, bad: NDArray[np.bool_], allowed: str) -> None:
+    """Raise InputError with the first of the numbers that are bad, if any is."""
+    if np.any(bad):
+        raise refusal(name, float(np.broadcast_to(values, bad.shape)[bad][0]), allowed)
 
 
 def in_unit(name: str, values: Array, own: Factor) -> Array:
@@ -93,10 +104,7 @@ def in_unit(name: str, values: Array, own: Factor) -> Array:
     if own == UNCHANGED:
         return values
     with np.errstate(over="ignore"):
-        converted = values * own.times / own.over
-    if np.any(np.isinf(converted) & np.isfinite(values)):
-        raise refusal(name, values, CANNOT_HOLD)
-    return converted
+        return _held(name, values, values * own.times / own.over)
 
 
 def _bare(values: Any, reading: _Reading) -> Any:
@@ -217,14 +225,12 @@ def plain_numbers(texts: Sequence[str]) -> Array | None:
 def scattered(name: str, values: ArrayLike, columns: int) -> Array:
     """Return points as an array of shape (n, columns), or raise InputError."""
     allowed = f"must be finite numbers in m, of shape (n, {columns})"
-    if isinstance(values, str):
-        raise refusal(name, values, allowed)
-    points = numbers(name, values, allowed, "m")
-    if points.ndim != 2 or points.shape[1] != columns or points.shape[0] == 0:
-        raise refusal(name, points, allowed)
-    if not np.all(np.isfinite(points)):
-        row = int(np.argwhere(~np.isfinite(points))[0, 0])
-        raise refusal(name, points[row].tolist(), f"row {row} is not finite; {allowed}")
+    points = None if isinstance(values, str) else numbers(name, values, allowed, "m")
+    if points is None or points.ndim != 2 or points.shape[1] != columns or points.shape[0] == 0:
+        raise refusal(name, values if points is None else points, allowed)
+    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    rows = [(int(row), points[row].tolist()) for row in bad[:1]]
+    refuse(*(refusal(name, at, f"row {row} is not finite; {allowed}") for row, at in rows))
     return points
 
 
@@ -259,9 +265,9 @@ def places(
     Raises InputError if both are given, or one cannot be used.
     """
     if points is not None:
-        if any(values is not None for values in grid.values()):
-            wanted = " and ".join(grid)
-            raise refusal("points", f"points with {wanted}", f"give a grid by {wanted}, or points")
+        both, wanted = any(values is not None for values in grid.values()), " and ".join(grid)
+        allowed = f"give a grid by {wanted}, or points"
+        refuse(both and refusal("points", f"points with {wanted}", allowed))
         at = scattered("points", points, len(space))
         return Places(("point",), {name: ("point", at[:, i]) for i, name in enumerate(space)}, at)
     lines = {

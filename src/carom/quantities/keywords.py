@@ -29,17 +29,18 @@ def known_keywords(function: Callable[Parameters, Result]) -> Callable[Parameter
     carom.InputError: slide: takes these by name; write friction=0.2
     """
     parameters = signature(function).parameters.values()
-    known = [each.name for each in parameters if each.kind is not Parameter.POSITIONAL_ONLY]
+    keywords = [each.name for each in parameters if each.kind is not Parameter.POSITIONAL_ONLY]
     named = [each.name for each in parameters if each.kind is Parameter.KEYWORD_ONLY]
     most = sum(each.kind is Parameter.POSITIONAL_OR_KEYWORD for each in parameters)
-    title = function.__qualname__.removesuffix(".__init__").rpartition(".")[2]
+    title = function.__qualname__.removesuffix(".__init__").removesuffix(".__call__")
+    title = title.rpartition(".")[2]
 
     @wraps(function)
     def called(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
         for name in list(kwargs):
-            new = renamed(name, title, known)
-            if new not in known:
-                words = hint(name, [word for word in known if word != "self"])
+            new = renamed(name, title, keywords)
+            if new not in keywords:
+                words = hint(name, [word for word in keywords if word != "self"])
                 raise InputError(f"{name}: no keyword of {title}; {words}")
             if new != name and new in kwargs:
                 raise InputError(

@@ -33,6 +33,21 @@ def refusal(name: str, value: Any, allowed: str) -> InputError:
     return InputError(f"{clipped(name)}: {_shown(value)} cannot be used; {allowed}")
 
 
+def refuse(*faults: object) -> None:
+    """Raise InputError with all texts and errors among these; what is false is no fault.
+
+    Examples
+    --------
+    >>> from carom.quantities.refusals import refuse
+    >>> mass, speed = 1.0, -2.0
+    >>> refuse(mass < 0.0 and "mass: must be positive", speed < 0.0 and "speed: must be positive")
+    Traceback (most recent call last):
+    carom.InputError: speed: must be positive
+    """
+    if messages := list(map(str, filter(None, faults))):
+        raise InputError(_together(messages))
+
+
 def clipped(text: str) -> str:
     """Return a text of users for a refusal: in one line, its end left out if it is long."""
     line = " ".join(text.split())
@@ -75,9 +90,9 @@ def checked_type(
 
 def flag(name: str, value: Any) -> bool:
     """Return True or False as it is given, or raise InputError."""
-    if isinstance(value, bool) or type(value).__name__ in ("bool", "bool_"):  # NumPy's, too
-        return bool(value)
-    raise refusal(name, value, "must be True or False")
+    truth = isinstance(value, bool) or type(value).__name__ in ("bool", "bool_")  # NumPy's, too
+    refuse(not truth and refusal(name, value, "must be True or False"))
+    return bool(value)
 
 
 def _shown(value: Any) -> str:
@@ -113,26 +128,25 @@ class Faults:
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self._collecting = False
-        if isinstance(error, InputError) and str(error) != self._message():
+        if isinstance(error, InputError) and str(error) != _together(self._messages):
             self._messages.append(str(error))
         if self._messages and (error is None or isinstance(error, Exception)):
-            raise InputError(self._message()) from None
+            raise InputError(_together(self._messages)) from None
 
     def add(self, message: str) -> None:
         """Collect a fault; outside of the context raise InputError."""
-        if not self._collecting:
-            raise InputError(message)
+        refuse(not self._collecting and message)
         self._messages.append(message)
 
     def settle(self) -> None:
         """Raise InputError if there are faults so far, before costly work."""
-        if self._messages:
-            raise InputError(self._message())
+        refuse(*self._messages)
 
-    def _message(self) -> str:
-        messages = list(dict.fromkeys(self._messages))
-        if len(messages) == 1:
-            return messages[0]
-        listed = "; ".join(f"({i}) {text}" for i, text in enumerate(messages[:MOST_LISTED], 1))
-        more = f"; and {len(messages) - MOST_LISTED} more" if len(messages) > MOST_LISTED else ""
-        return f"{len(messages)} faults: {listed}{more}"
+
+def _together(faults: Iterable[str]) -> str:
+    messages = list(dict.fromkeys(faults))
+    if len(messages) == 1:
+        return messages[0]
+    listed = "; ".join(f"({i}) {text}" for i, text in enumerate(messages[:MOST_LISTED], 1))
+    more = f"; and {len(messages) - MOST_LISTED} more" if len(messages) > MOST_LISTED else ""
+    return f"{len(messages)} faults: {listed}{more}"

@@ -9,7 +9,7 @@ from numbers import Integral, Real
 from typing import Any
 
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, clipped, refusal
+from carom.quantities.refusals import InputError, clipped, refusal, refuse
 from carom.quantities.texts import (
     CANNOT_HOLD,
     UNCHANGED,
@@ -116,8 +116,7 @@ def as_float(name: str, value: Any) -> float:
         held = False
     except Exception:  # whatever other libraries raise, and Decimal("sNaN")
         raise refusal(name, value, "give one real number") from None
-    if not held:
-        raise refusal(name, value, CANNOT_HOLD)
+    refuse(not held and refusal(name, value, CANNOT_HOLD))
     return real
 
 
@@ -254,10 +253,10 @@ def whole(name: str, text: str, least: int, most: int = MOST_COUNTED) -> int:
 
 
 def _within(name: str, value: Any, count: int | None, least: int, most: int) -> int:
-    if count is None or count < least:
-        raise refusal(name, value, f"must be a whole number of at least {least}")
-    if count > most:
-        raise refusal(name, value, f"must be a whole number from {least} to {most}")
+    if count is None or not least <= count <= most:
+        few = count is None or count < least
+        reach = f"of at least {least}" if few else f"from {least} to {most}"
+        raise refusal(name, value, f"must be a whole number {reach}")
     return count
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from carom.io.extras import extra
 from carom.io.progress import Progress, advancing
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, flag
+from carom.quantities.refusals import flag, refuse
 from carom.sweeps.designs import Design, points_in
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import MemoryRecord, SweepStopped
@@ -107,8 +107,7 @@ def _record(
         stores = extra("carom.sweeps.stores", "a store")
         record: AbstractContextManager[StoreRecord] = stores.opened(store, problem, resume)
         return record
-    if resume:
-        raise InputError("resume: there is no store to continue; give the store, too")
+    refuse(resume and "resume: there is no store to continue; give the store, too")
     return nullcontext(MemoryRecord(problem))
 
 

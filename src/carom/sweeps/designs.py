@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.plausibility import doubts_of_values
 from carom.dimensionless.numerics.permutation import fractions, secrets
-from carom.quantities.arrays import Array, numbers
-from carom.quantities.refusals import InputError, one_of, refusal
+from carom.quantities.arrays import Array, numbers, refuse_where
+from carom.quantities.refusals import checked_type, one_of, refusal, refuse
 from carom.quantities.shown import Shown
 from carom.quantities.units import counted, number, without_unit
 from carom.sweeps.inputs import (
@@ -31,7 +31,7 @@ Box = tuple[slice, ...]
 Values = dict[str, NDArray[Any]]
 
 FEWEST, MOST = 1024, 2**14  # points of a block
-BLOCKS = 32  # that a sweep of middling size is cut into
+USUAL_BLOCKS = 32  # that a sweep of middling size is cut into
 
 
 def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
@@ -39,7 +39,7 @@ def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
 
     Blocks have fewer points where each point costs more.
     """
-    room = min(max(prod(shape) // BLOCKS, FEWEST // cost), MOST // cost)
+    room = min(max(prod(shape) // USUAL_BLOCKS, FEWEST // cost), MOST // cost)
     chunks = []
     for length in reversed(shape):
         pieces = ceil(length / max(1, min(length, room)))
@@ -82,30 +82,29 @@ class Range(NamedTuple):
         return np.asarray(self.start + (self.stop - self.start) * fraction)
 
 
-def read_values(name: str, given: ArrayLike) -> Array:
+def read_values(name: str, axis: ArrayLike) -> Array:
     """Return the values of an axis in SI units, or raise InputError."""
     key, allowed = leaf(name), "must be a list of finite numbers or texts with units"
-    values = np.atleast_1d(numbers(key, given, allowed))
-    if values.ndim != 1 or values.size == 0:
-        raise refusal(name, given, f"{allowed}, at least one")
+    values = np.atleast_1d(numbers(key, axis, allowed))
+    line = values.ndim == 1 and values.size > 0
+    refuse(not line and refusal(name, axis, f"{allowed}, at least one"))
     fits = np.isfinite(values) | ((key == "young") & (values == np.inf))
-    if not np.all(fits):
-        raise refusal(name, float(values[~fits][0]), allowed)
-    if key == "angle" and np.abs(values).max() > pi and not _has_text(given):
-        raise refusal(name, given, "bare angles are in radians; write '30 deg'")
+    refuse_where(name, values, ~fits, allowed)
+    bare = key == "angle" and np.abs(values).max() > pi and not _has_text(axis)
+    refuse(bare and refusal(name, axis, "bare angles are in radians; write '30 deg'"))
     return values
 
 
-def _has_text(given: Any) -> bool:
-    return isinstance(given, str) or any(isinstance(value, str) for value in np.atleast_1d(given))
+def _has_text(values: Any) -> bool:
+    return isinstance(values, str) or any(isinstance(value, str) for value in np.atleast_1d(values))
 
 
-def read_axis(name: str, given: Any) -> Array:
+def read_axis(name: str, axis: Any) -> Array:
     """Return the values of an axis from a list, or from a range with its number of points."""
-    if not isinstance(given, Mapping):
-        return read_values(name, given)
-    points = counted(f"{name}.points", given.get("points"), 1, MOST_VALUES)
-    ends = {key: value for key, value in given.items() if key != "points"}
+    if not isinstance(axis, Mapping):
+        return read_values(name, axis)
+    points = counted(f"{name}.points", axis.get("points"), 1, MOST_VALUES)
+    ends = {key: value for key, value in axis.items() if key != "points"}
     reach = read_range(name, ends, apart=points > 1)
     values = reach.at(np.linspace(0.0, 1.0, points))
     if points > 1:
@@ -113,45 +112,41 @@ def read_axis(name: str, given: Any) -> Array:
     return values
 
 
-def read_range(name: str, given: Any, *, apart: bool = True) -> Range:
+def read_range(name: str, reach: Any, *, apart: bool = True) -> Range:
     """Return a range from (first, last), or from a mapping with from, to and spacing."""
-    whole = _as_table(name, given)
+    whole = _as_table(name, reach)
     start, stop = _end(name, "from", whole.get("from")), _end(name, "to", whole.get("to"))
     spacing = whole.get("spacing", SPACINGS[0])
     one_of(f"{name}.spacing", spacing, SPACINGS)
-    if apart and start == stop:
-        raise refusal(name, start, "a range must not end where it starts")
-    if spacing == "log" and min(start, stop) <= 0.0:
-        raise refusal(name, min(start, stop), "logarithmic spacing needs positive ends")
-    log = spacing == "log"
+    least, log = min(start, stop), spacing == "log"
+    refuse(
+        apart and start == stop and refusal(name, start, "a range must not end where it starts"),
+        log and least <= 0.0 and refusal(name, least, "logarithmic spacing needs positive ends"),
+    )
     if not isfinite(stop - start) or (log and not 0.0 < stop / start < inf):
         raise refusal(name, [start, stop], "these ends are too far apart for floating point")
     return Range(start, stop, log)
 
 
-def _as_table(name: str, given: Any) -> Mapping[str, Any]:
-    ends = np.atleast_1d(without_unit(name, given)[0]) if isinstance(given, np.ndarray) else given
+def _as_table(name: str, reach: Any) -> Mapping[str, Any]:
+    ends = np.atleast_1d(without_unit(name, reach)[0]) if isinstance(reach, np.ndarray) else reach
     ends = ends.tolist() if isinstance(ends, np.ndarray) else ends
     if isinstance(ends, list | tuple) and len(ends) == 2:
         return dict(zip(RANGE, ends, strict=False))
-    if not isinstance(given, Mapping):
-        raise refusal(name, given, "must be a range: (first, last), or {from, to, spacing}")
-    for key in given:
-        if key not in RANGE:
-            allowed = f"a range has {', '.join(RANGE)} and, on a grid, points"
-            raise InputError(f"{name}.{key}: unknown; {allowed}")
-    return given
+    allowed = "must be a range: (first, last), or {from, to, spacing}"
+    table = checked_type(name, reach, Mapping, allowed)
+    words = f"a range has {', '.join(RANGE)} and, on a grid, points"
+    refuse(*(f"{name}.{key}: unknown; {words}" for key in table if key not in RANGE))
+    return table
 
 
 def _end(name: str, which: str, value: Any) -> float:
-    if value is None:
-        raise InputError(f"{name}.{which}: missing; a range needs from and to")
+    refuse(value is None and f"{name}.{which}: missing; a range needs from and to")
     result = number(leaf(name), value)
-    if not isfinite(result):
-        raise refusal(f"{name}.{which}", value, "must be finite")
-    if leaf(name) == "angle" and abs(result) > pi and not isinstance(value, str):
-        allowed = f"a bare angle is in radians; write '{value} deg'"
-        raise refusal(f"{name}.{which}", value, allowed)
+    bare = leaf(name) == "angle" and abs(result) > pi and not isinstance(value, str)
+    allowed = bare and f"a bare angle is in radians; write '{value} deg'"
+    allowed = allowed if isfinite(result) else "must be finite"
+    refuse(allowed and refusal(f"{name}.{which}", value, allowed))
     return result
 
 
@@ -169,11 +164,11 @@ class Design(Shown, ABC):
 
     names: tuple[str, ...]
     choices: Choices
-    _given: Mapping[str, Any] = field(repr=False)
+    _by_input: Mapping[str, Any] = field(repr=False)
     sampled: ClassVar[bool] = True
 
-    def __init__(self, choices: Choices, given: Mapping[str, Any], **more: Any) -> None:
-        fields = {"names": tuple(given), "choices": choices, "_given": given, **more}
+    def __init__(self, choices: Choices, by_input: Mapping[str, Any], **more: Any) -> None:
+        fields = {"names": tuple(by_input), "choices": choices, "_by_input": by_input, **more}
         for name, value in fields.items():
             object.__setattr__(self, name, value)
 
@@ -202,8 +197,8 @@ class Design(Shown, ABC):
     def doubts(self) -> tuple[str, ...]:
         """Return what is hardly meant among the inputs, in words."""
         numbers = [
-            (leaf(name), given[:2] if isinstance(given, Range) else given)
-            for name, given in self._given.items()
+            (leaf(name), values[:2] if isinstance(values, Range) else values)
+            for name, values in self._by_input.items()
             if name not in self.choices
         ]
         for choice in chain.from_iterable(self.choices.values()):
@@ -215,8 +210,8 @@ class Design(Shown, ABC):
         return {
             name: [choice.description() for choice in self.choices[name]]
             if name in self.choices
-            else describe(given)
-            for name, given in self._given.items()
+            else describe(values)
+            for name, values in self._by_input.items()
         }
 
 
@@ -265,17 +260,17 @@ class Grid(Design):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        return tuple(values.size for values in self._given.values())
+        return tuple(values.size for values in self._by_input.values())
 
     def coords(self) -> dict[str, Any]:
         labels = {name: [one.label for one in self.choices[name]] for name in self.choices}
         return {
             dim: (dim, labels.get(name, values), input_attributes(name, self.choices))
-            for dim, (name, values) in zip(self.dims, self._given.items(), strict=True)
+            for dim, (name, values) in zip(self.dims, self._by_input.items(), strict=True)
         }
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        parts = [values[part] for values, part in zip(self._given.values(), box, strict=True)]
+        parts = [values[part] for values, part in zip(self._by_input.values(), box, strict=True)]
         lattice = np.meshgrid(*parts, indexing="ij")
         return {name: at.ravel() for name, at in zip(self.names, lattice, strict=True)}
 
@@ -337,20 +332,19 @@ class LatinHypercube(Design):
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
         index = np.arange(*box[0].indices(self.samples), dtype=np.uint64)
         words = secrets(self.seed, len(self.names))
-        found: dict[str, NDArray[Any]] = {}
-        for (name, reach), secret in zip(self._given.items(), words, strict=True):
+        inputs: dict[str, NDArray[Any]] = {}
+        for (name, reach), secret in zip(self._by_input.items(), words, strict=True):
             values = reach.at(fractions(index, self.samples, secret))
-            found[name] = values.astype(CODE) if name in self.choices else values
-        return found
+            inputs[name] = values.astype(CODE) if name in self.choices else values
+        return inputs
 
     def description(self) -> dict[str, Any]:
         whole = {"samples": self.samples, "seed": self.seed, "order": list(self.names)}
         return {"kind": "latin hypercube", **whole, "ranges": self._described(Range._asdict)}
 
 
-def _choices(what: str, given: Any) -> Choices:
+def _choices(what: str, values: Any) -> Choices:
     """Return the choices of the inputs that have names; InputError for what is not an input."""
-    if not isinstance(given, Mapping):
-        raise refusal(what, given, "must be a mapping from names of inputs to values")
-    named = (name for name in checked_names(given) if name in CHOSEN)
-    return {name: read_choices(name, given[name]) for name in named}
+    inputs = checked_type(what, values, Mapping, "must be a mapping from names of inputs to values")
+    named = (name for name in checked_names(inputs) if name in CHOSEN)
+    return {name: read_choices(name, inputs[name]) for name in named}

@@ -10,7 +10,7 @@ import numpy as np
 from carom.bodies import cases
 from carom.bodies.materials import STRENGTHS
 from carom.io.labels import attributes
-from carom.quantities.refusals import InputError, clipped, hint, one_of, refusal
+from carom.quantities.refusals import clipped, hint, one_of, refusal, refuse
 from carom.quantities.symbols import meant, remark
 
 CODE = np.int8
@@ -36,7 +36,7 @@ for _body in BODIES:
     _inertia = ({f"{_body}.gyration_radius"}, {f"{_body}.inner_radius"}, "both give its inertia")
     EXCLUSIVE += [_inertia, ({f"{_body}.material"}, _values, "both tell what it is made of")]
 UNREADABLE = -1  # code of a choice
-MOST = np.iinfo(CODE).max  # choices
+MOST_NAMES = np.iinfo(CODE).max
 
 
 class Choice(NamedTuple):
@@ -74,18 +74,18 @@ def input_attributes(name: str, choices: Choices) -> dict[str, Any]:
     body = f" of the {name.partition('.')[0]} body" if "." in name else ""
     if name in choices:
         return {"long_name": f"{leaf(name)}{body}"}
-    known = attributes(leaf(name))
-    return known | {"long_name": f"{known['long_name']}{body}"}
+    entry = attributes(leaf(name))
+    return entry | {"long_name": f"{entry['long_name']}{body}"}
 
 
-def checked_names(given: Iterable[Any]) -> tuple[str, ...]:
+def checked_names(inputs: Iterable[Any]) -> tuple[str, ...]:
     """Return names of inputs, or raise InputError for one that is unknown or contradicts others."""
-    names = tuple(given)
-    if not names:
-        raise InputError("design: no inputs; give at least one, e.g. 'angle'")
-    for name in names:
-        if name not in INPUTS:
-            raise InputError(f"{clipped(str(name))}: not an input of an impact; {_hint(name)}")
+    names = tuple(inputs)
+    unknown = [name for name in names if name not in INPUTS]
+    refuse(
+        not names and "design: no inputs; give at least one, e.g. 'angle'",
+        *(f"{clipped(str(n))}: not an input of an impact; {_hint(n)}" for n in unknown),
+    )
     refuse_contradictions(names)
     return names
 
@@ -94,7 +94,7 @@ def _hint(name: Any) -> str:
     """Return a hint at the inputs that a name stands for, at the nearest, or at all."""
     last = leaf(str(name))
     if stands := meant(last, map(leaf, INPUTS)):
-        places = [known for known in INPUTS if leaf(known) == stands]
+        places = [each for each in INPUTS if leaf(each) == stands]
         half = ", half of it" if "half" in remark(last, stands) else ""
         return f"write {' or '.join(places)}{half}"
     return hint(name, INPUTS)
@@ -102,28 +102,27 @@ def _hint(name: Any) -> str:
 
 def refuse_contradictions(names: Iterable[str]) -> None:
     """Raise InputError if one thing is given in two ways."""
-    given = set(names)
+    there = set(names)
     for some, others, why in EXCLUSIVE:
-        if given & some and given & others:
-            one, other = min(given & some), min(given & others)
-            raise InputError(f"{one}: give it or {other}, not both; {why}")
+        one, other = sorted(there & some), sorted(there & others)
+        refuse(one and other and f"{one[0]}: give it or {other[0]}, not both; {why}")
 
 
-def read_choices(name: str, given: Any) -> tuple[Choice, ...]:
+def read_choices(name: str, values: Any) -> tuple[Choice, ...]:
     """Return the choices of an input that has names, or raise InputError."""
-    plain = np.atleast_1d(given).tolist() if isinstance(given, np.ndarray) else given
+    plain = np.atleast_1d(values).tolist() if isinstance(values, np.ndarray) else values
     listed = plain if isinstance(plain, list | tuple) else [plain]
     return checked_choices(name, [read_choice(name, value) for value in listed])
 
 
 def checked_choices(name: str, choices: list[Choice]) -> tuple[Choice, ...]:
     """Return choices, or raise InputError if there are none, too many, or some are alike."""
-    if not 0 < len(choices) <= MOST:
-        raise refusal(name, f"{len(choices)} names", f"give 1 to {MOST}")
-    labels = [choice.label for choice in choices]
-    for label in labels:
-        if labels.count(label) > 1:
-            raise refusal(name, label, "it is given twice; names must differ")
+    labels, count = [choice.label for choice in choices], len(choices)
+    twice = dict.fromkeys(label for label in labels if labels.count(label) > 1)
+    refuse(
+        not 0 < count <= MOST_NAMES and refusal(name, f"{count} names", f"give 1 to {MOST_NAMES}"),
+        *(refusal(name, label, "it is given twice; names must differ") for label in twice),
+    )
     return tuple(choices)
 
 
@@ -133,8 +132,8 @@ def read_choice(name: str, value: Any) -> Choice:
         return Choice(one_of("kind", value, cases.KINDS), {})
     stuff = cases.read_material(value)
     values = cases.material_values(stuff)
-    known = {key: number for key, number in values.items() if key in ELASTIC}
-    unnamed = ", ".join(f"{key}={number:g}" for key, number in known.items())
+    elastic = {key: number for key, number in values.items() if key in ELASTIC}
+    unnamed = ", ".join(f"{key}={number:g}" for key, number in elastic.items())
     label = value if isinstance(value, str) else stuff.name or unnamed
     strengths = {key: number for key, number in values.items() if key in STRENGTHS}
-    return Choice(label, known, strengths)
+    return Choice(label, elastic, strengths)

@@ -39,7 +39,7 @@ class Wanted(NamedTuple):
 WANTED = {
     f"{quantity}_{body}": Wanted(quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES
 }
-SPEEDS: dict[str, Callable[[StruckBody], float]] = {  # as a multiple of the speed of the impact
+BEARABLE: dict[str, Callable[[StruckBody], float]] = {  # as a multiple of the speed of the impact
     "yield_speed": lambda body: growth(body.yield_ratio()),
     "tensile_speed": lambda body: growth(body.tension_ratio()),
     "crack_speed": StruckBody.cracking,
@@ -61,7 +61,7 @@ def strength_values(
     outcome: Outcome, size: int, solved: NDArray[np.bool_], names: Sequence[str]
 ) -> dict[str, Array]:
     """Return these outputs of so many impacts, NaN where they are not solved or cannot be told."""
-    found = {name: np.full(size, nan) for name in names}
+    outputs = {name: np.full(size, nan) for name in names}
     for i in np.flatnonzero(solved).tolist():
         psi, chi = _number(outcome.psi_in, i), _number(outcome.pair.chi, i)
         solution = solve(psi if np.isfinite(psi) else 0.0, chi)
@@ -70,13 +70,13 @@ def strength_values(
         for name in names:
             quantity, body = WANTED[name]
             if body in bodies:
-                found[name][i] = _value(quantity, bodies[body], speed)
-    return found
+                outputs[name][i] = _value(quantity, bodies[body], speed)
+    return outputs
 
 
 def _value(quantity: str, body: StruckBody, speed: float) -> float:
-    if quantity in SPEEDS:
-        return float(speed * SPEEDS[quantity](body))
+    if quantity in BEARABLE:
+        return float(speed * BEARABLE[quantity](body))
     return body.peak(quantity).value if quantity in MEASURES else body.intensity().value
 
 
@@ -177,12 +177,13 @@ def evaluate(
         solve_block(outcome, law, status, threads)
         solved = status == PointStatus.SOLVED
         searched = [name for name in outputs if name in WANTED]
-        told = strength_values(outcome, size, solved, searched) if searched else {}
-        plain = (name for name in outputs if name not in WANTED)
-        found = {name: getattr(outcome.pair if name in PAIR else outcome, name) for name in plain}
-        unknown = np.logical_or.reduce([solved & np.isnan(values) for values in told.values()])
+        strengths = strength_values(outcome, size, solved, searched) if searched else {}
+        others = (name for name in outputs if name not in WANTED)
+        results = {n: getattr(outcome.pair if n in PAIR else outcome, n) for n in others}
+        unknown = np.logical_or.reduce([solved & np.isnan(values) for values in strengths.values()])
         status[unknown & solved] = PointStatus.STRENGTH_NOT_KNOWN
-        values = {name: np.where(solved, value, np.nan) for name, value in (found | told).items()}
+        results |= strengths
+        values = {name: np.where(solved, value, np.nan) for name, value in results.items()}
     return values, status
 
 
@@ -190,13 +191,13 @@ def solve_block(outcome: Outcome, law: LossLaw | None, status: Codes, threads: i
     """Fill in the solution of the impacts whose status is SOLVED, and what became of them."""
     solution = cast(BlockSolution, outcome.solution)
     loss, *numbers = (None,) if law is None else law.loss(outcome.pair, outcome.scales)
-    given = (outcome.psi_in, outcome.pair.chi, *numbers)
-    psi, chi, *parameters = (np.broadcast_to(x, status.shape) for x in given)
+    arguments = (outcome.psi_in, outcome.pair.chi, *numbers)
+    psi, chi, *parameters = (np.broadcast_to(x, status.shape) for x in arguments)
     run = status == PointStatus.SOLVED
     if loss is None:
         run &= np.isfinite(psi)  # without friction psi is infinite
-        found, ended = rebound(psi[run], chi[run], threads=threads, return_status=True)
-        solution.psi_out[run], status[run] = found, FROM_SOLVER[ended]
+        psi_out, ended = rebound(psi[run], chi[run], threads=threads, return_status=True)
+        solution.psi_out[run], status[run] = psi_out, FROM_SOLVER[ended]
         return
     unknown = np.logical_or.reduce(np.isnan(parameters))
     status[run & unknown] = PointStatus.NOT_A_NUMBER

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from carom.bodies import cases
 from carom.bodies.cases import FROM_STRENGTH
+from carom.bodies.losses import NO_YIELD_VELOCITY
 from carom.bodies.materials import STRENGTHS
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.io.labels import attributes, flags
-from carom.quantities.refusals import InputError, hint, one_of, refusal
+from carom.quantities.refusals import checked_type, hint, one_of, refusal, refuse
 from carom.quantities.units import not_negative
 from carom.sweeps.designs import Box, Design, Values, chunk_shape
 from carom.sweeps.inputs import (
@@ -52,10 +53,10 @@ class Common:
     yields: bool  # whether the yield velocity is that of the yield strengths
     strengths: tuple[str, ...]  # on which the outputs depend
 
-    def columns(self, given: Mapping[str, Any], kind: str) -> dict[str, Any]:
+    def columns(self, inputs: Mapping[str, Any], kind: str) -> dict[str, Any]:
         """Return the inputs of impacts on a body of this kind: numbers, or an array of them."""
         columns: dict[str, Any] = {name: np.float64(v) for name, v in self.fixed.items()}
-        for name, values in given.items():
+        for name, values in inputs.items():
             if leaf(name) == "material":
                 columns |= self._taken_apart(name, values)
             elif leaf(name) != "kind":
@@ -70,11 +71,11 @@ class Common:
         """Return the numbers of materials that are given by name; the last code, -1, has none."""
         numbers = {}
         for key in self.numbers:
-            known = [
+            values = [
                 {**choice.strengths, **choice.values}.get(key, np.nan)
                 for choice in self.design.choices[name]
             ]
-            numbers[f"{name}.{key}"] = np.array([*known, np.nan])[codes]
+            numbers[f"{name}.{key}"] = np.array([*values, np.nan])[codes]
         return numbers
 
     @property
@@ -86,19 +87,19 @@ class Common:
         """Tell whether a number of a material is given, for every impact or for some."""
         body = name.partition(".")[0]
         places = [body, *(["first"] if body == "second" and self.inherits else [])]
-        given = (*self.fixed, *self.design.names)
+        inputs = (*self.fixed, *self.design.names)
         return any(
-            f"{place}.{name.partition('.')[2]}" in given or f"{place}.material" in given
+            f"{place}.{name.partition('.')[2]}" in inputs or f"{place}.material" in inputs
             for place in places
         )
 
-    def groups(self, given: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    def groups(self, inputs: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
         """Yield the kinds of second bodies, and the points of each."""
-        if "second.kind" not in given:
+        if "second.kind" not in inputs:
             yield self.kinds[0], slice(None)
             return
         for code, kind in enumerate(self.kinds):
-            where = np.flatnonzero(given["second.kind"] == code)
+            where = np.flatnonzero(inputs["second.kind"] == code)
             if where.size:
                 yield kind, where
 
@@ -167,24 +168,24 @@ def _belongs(name: str, kind: str) -> bool:
 
 
 def _refuse_foreign(whole: Common) -> None:
-    for name in (*whole.design.names, *whole.fixed):
-        chosen = name in ("second.kind", "second.material")
-        if not (chosen or any(_belongs(name, kind) for kind in whole.kinds)):
-            raise InputError(f"{name}: a {' or '.join(whole.kinds)} has none; leave it out")
+    names = {*whole.design.names, *whole.fixed} - {"second.kind", "second.material"}
+    foreign = {name for name in names if not any(_belongs(name, kind) for kind in whole.kinds)}
+    bodies = " or ".join(whole.kinds)
+    refuse(*(f"{name}: a {bodies} has none; leave it out" for name in sorted(foreign)))
 
 
 def _refuse_missing(whole: Common) -> None:
-    given = whole.design.inputs(tuple(slice(0, 1) for _ in whole.design.shape))
+    first_point = whole.design.inputs(tuple(slice(0, 1) for _ in whole.design.shape))
     for kind in whole.kinds:
-        columns = whole.columns(given, kind)
+        columns = whole.columns(first_point, kind)
         needed = ["friction", "first.radius", *(f"first.material.{name}" for name in ELASTIC)]
         needed += [f"second.{name}" for name in OF_SECOND[kind] if name not in OPTIONAL]
         needed += ["normal_speed" if "normal_speed" in columns else "speed"]
-        for name in needed:
-            if name not in columns:
-                raise InputError(f"{name}: missing; give it in the case or in the design")
-        if whole.yields and not any(leaf(name) == YIELD for name in columns):
-            raise InputError("yield_velocity: missing; give it, or a yield_strength of a material")
+        missing = [name for name in needed if name not in columns]
+        refuse(
+            *(f"{name}: missing; give it in the case or in the design" for name in missing),
+            whole.yields and YIELD not in map(leaf, columns) and NO_YIELD_VELOCITY,
+        )
 
 
 OUTPUTS = (
@@ -208,8 +209,8 @@ OUTPUTS = (
 OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")
 # By what tells the losses: blocks are smaller by so much, as impacts cost more, and take seconds.
 COSTLIER = {None: 1, "yield_velocity": 50, "relaxation_time": 100}
-VISCOUS = 16
-SEARCHED = 500  # where the largest stresses are wanted
+VISCOUS_COST = 16
+STRESS_COST = 500  # where the largest stresses are wanted
 
 
 class VariableInfo(NamedTuple):
@@ -229,17 +230,15 @@ class SweepProblem:
     def __init__(
         self, case: Mapping[str, Any], design: Design, outputs: Sequence[str] | None = None
     ) -> None:
-        if not isinstance(design, Design):
-            raise refusal("design", design, "must be a Grid, LatinHypercube or Table")
-        if not isinstance(case, Mapping):
-            raise refusal("case", case, "must be a mapping like a case file, {'friction': 0.2}")
+        checked_type("design", design, Design, "must be a Grid, LatinHypercube or Table")
+        checked_type("case", case, Mapping, "must be a mapping like a case file, {'friction': 0.2}")
         wanted = None if outputs is None else _checked(outputs, design.names)
         needed = needed_strengths(wanted or ())
         self.design, self._common = design, common(dict(case), design, needed)
         usual = tuple(n for n in OUTPUTS if n != "spin2_out" or "sphere" in self._common.kinds)
         usual += OF_LOSSES if self.loses else ()
         self.outputs = usual if wanted is None else wanted
-        self._refuse_unknown()
+        refuse(*self._unknown())
 
     @property
     def loses(self) -> bool:
@@ -249,7 +248,7 @@ class SweepProblem:
     def chunks(self) -> tuple[int, ...]:
         """Return the shape of the blocks into which the sweep is cut."""
         searched = any(name in WANTED for name in self.outputs)
-        cost = SEARCHED if searched else COSTLIER.get(self._common.loss, VISCOUS)
+        cost = STRESS_COST if searched else COSTLIER.get(self._common.loss, VISCOUS_COST)
         return chunk_shape(self.design.shape, cost)
 
     def block(self, box: Box, threads: int | None = 1) -> Values:
@@ -258,29 +257,29 @@ class SweepProblem:
         The numbers of a point do not depend on the box. NaN where the status is not SOLVED.
         """
         shape = tuple(part.stop - part.start for part in box)
-        size, given = prod(shape), self.design.inputs(box)
+        size, inputs = prod(shape), self.design.inputs(box)
         status = np.full(size, PointStatus.NOT_A_NUMBER, dtype=np.int8)
-        found = {name: np.full(size, np.nan) for name in self.outputs}
-        for kind, where in self._common.groups(given):
-            part = {name: values[where] for name, values in given.items()}
+        outputs = {name: np.full(size, np.nan) for name in self.outputs}
+        for kind, where in self._common.groups(inputs):
+            part = {name: values[where] for name, values in inputs.items()}
             columns, loss = self._common.columns(part, kind), self._common.loss
             values, status[where] = evaluate(
                 columns, kind, loss, status[where].size, self.outputs, threads
             )
             for name in self.outputs:
-                found[name][where] = values[name]
-        inputs = {variable(name): given[name] for name in given} if self.design.sampled else {}
-        whole = {**inputs, **found, "status": status}
+                outputs[name][where] = values[name]
+        sampled = inputs.items() if self.design.sampled else ()
+        whole = {**{variable(n): v for n, v in sampled}, **outputs, "status": status}
         return {name: values.reshape(shape) for name, values in whole.items()}
 
     def variables(self) -> dict[str, VariableInfo]:
         """Return type and attributes of everything that `block` returns."""
         sampled = self.design.names if self.design.sampled else ()
         inputs = {variable(name): self._input_info(name) for name in sampled}
-        found = {name: VariableInfo("float64", dict(attributes(name))) for name in self.outputs}
+        outputs = {name: VariableInfo("float64", dict(attributes(name))) for name in self.outputs}
         meanings = flags([status.message for status in PointStatus], first=PointStatus.NOT_RUN)
         status = VariableInfo("int8", {"long_name": "what became of the point", **meanings})
-        return {**inputs, **found, "status": status}
+        return {**inputs, **outputs, "status": status}
 
     def description(self) -> dict[str, Any]:
         """Return what tells this sweep from others, as JSON can hold it, in SI units."""
@@ -306,41 +305,41 @@ class SweepProblem:
             for strength in self._common.strengths
         }
 
-    def _refuse_unknown(self) -> None:
-        """Raise InputError if outputs need strengths that nothing tells, or losses do without."""
-        for output in self.outputs:
-            if output not in WANTED:
-                continue
+    def _unknown(self) -> Iterator[object]:
+        """Yield what keeps outputs from being known: losses, rigid bodies, missing strengths."""
+        for output in filter(WANTED.__contains__, self.outputs):
             if self.loses:
                 allowed = "a sweep with losses does not compute stresses; leave them out"
-                raise refusal("outputs", output, allowed)
+                yield refusal("outputs", output, allowed)
+                continue
             body = WANTED[output].body
             if self._common.fixed.get(f"{body}.material.young") == inf:
-                raise refusal("outputs", output, f"the {body} body is rigid and has no stress")
+                yield refusal("outputs", output, f"the {body} body is rigid and has no stress")
+                continue
             for name in needed_by(output):
-                if not self._common.tells(f"{body}.material.{name}"):
-                    raise InputError(
-                        f"{name}: missing for the {body} body, which {output} needs; give it in "
-                        "its material"
-                    )
+                what = f"missing for the {body} body, which {output} needs"
+                missing = not self._common.tells(f"{body}.material.{name}")
+                yield missing and f"{name}: {what}; give it in its material"
 
     def _input_info(self, name: str) -> VariableInfo:
-        known = input_attributes(name, self.design.choices)
+        meaning = input_attributes(name, self.design.choices)
         if name not in self.design.choices:
-            return VariableInfo("float64", known)
+            return VariableInfo("float64", meaning)
         labels = ["unreadable", *(choice.label for choice in self.design.choices[name])]
-        return VariableInfo(np.dtype(CODE).name, {**known, **flags(labels, first=UNREADABLE)})
+        return VariableInfo(np.dtype(CODE).name, {**meaning, **flags(labels, first=UNREADABLE)})
 
 
 def _checked(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
-    known = tuple(dict.fromkeys((*RESULTS, *PAIR, *WANTED)))
-    if not isinstance(outputs, list | tuple) or not outputs:
-        raise refusal("outputs", outputs, "must be a list of names, e.g. ['rebound_angle']")
-    for name in outputs:
-        if not isinstance(name, str):
-            raise refusal("outputs", name, "must be the name of a result, e.g. 'rebound_angle'")
-        if name not in known:
-            raise InputError(f"outputs: {name!r} is not a result of an impact; {hint(name, known)}")
-        if name in names or list(outputs).count(name) > 1:
-            raise InputError(f"outputs: {name!r} is there already, as an input or an output")
-    return tuple(outputs)
+    results = tuple(dict.fromkeys((*RESULTS, *PAIR, *WANTED)))
+    listed = list(outputs) if isinstance(outputs, list | tuple) else []
+    allowed = "must be a list of names, e.g. ['rebound_angle']"
+    refuse(not listed and refusal("outputs", outputs, allowed))
+    for name in listed:
+        checked_type("outputs", name, str, "must be the name of a result, e.g. 'rebound_angle'")
+    unknown = [name for name in listed if name not in results]
+    twice = [name for name in listed if name in names or listed.count(name) > 1]
+    refuse(
+        *(f"outputs: {n!r} is not a result of an impact; {hint(n, results)}" for n in unknown),
+        *(f"outputs: {n!r} is there already, as an input or an output" for n in twice),
+    )
+    return tuple(listed)

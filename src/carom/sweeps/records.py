@@ -19,8 +19,8 @@ from carom.sweeps.problem import SweepProblem
 if TYPE_CHECKING:
     import xarray as xr
 
-MOST = 50_000_000  # points in memory: some GB
-LONG = 1000  # values of an axis; the dataset has them as its coordinate
+MOST_IN_MEMORY = 50_000_000  # points: some GB
+LONG_AXIS = 1000  # values of an axis; the dataset has them as its coordinate
 
 
 class SweepStopped(RuntimeError):
@@ -34,7 +34,7 @@ class MemoryRecord:
         self._problem = problem
         shape = problem.design.shape
         try:
-            if prod(shape) > MOST:
+            if prod(shape) > MOST_IN_MEMORY:
                 raise MemoryError
             self._arrays = {
                 name: np.empty(shape, info.dtype) for name, info in problem.variables().items()
@@ -62,9 +62,9 @@ def blank_dataset(
     problem: SweepProblem, arrays: Mapping[str, NDArray[Any]] | None = None
 ) -> "xr.Dataset":
     """Return the dataset of a sweep with its coordinates, and with these arrays as variables."""
-    known = problem.variables()
+    infos = problem.variables()
     variables = {
-        name: (problem.design.dims, values, known[name].attributes)
+        name: (problem.design.dims, values, infos[name].attributes)
         for name, values in (arrays or {}).items()
     }
     title = f"sweep of oblique impacts of {spheres(problem.loses)}"
@@ -81,7 +81,7 @@ def identity(problem: SweepProblem) -> dict[str, Any]:
 def _condensed(value: Any) -> Any:
     if isinstance(value, dict):
         return {name: _condensed(part) for name, part in value.items()}
-    if isinstance(value, list) and len(value) > LONG:
+    if isinstance(value, list) and len(value) > LONG_AXIS:
         digest = sha256(json.dumps(value).encode()).hexdigest()
         return {"length": len(value), "first": value[0], "last": value[-1], "sha256": digest}
     return value
@@ -124,11 +124,11 @@ def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summar
         counts.update(dict(zip(values.tolist(), numbers.tolist(), strict=True)))
         for name in shown:
             values = dataset[name][box].values
-            if (found := values[np.isfinite(values)]).size:
+            if (finite := values[np.isfinite(values)]).size:
                 least, most = ranges[name]
                 ranges[name] = (
-                    float(np.fmin(least, found.min())),
-                    float(np.fmax(most, found.max())),
+                    float(np.fmin(least, finite.min())),
+                    float(np.fmax(most, finite.max())),
                 )
     statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
     solved = counts[PointStatus.SOLVED] + counts[PointStatus.STRENGTH_NOT_KNOWN]

@@ -19,9 +19,9 @@ from carom.sweeps.designs import Box, Values
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped
 
-ANSWER = 5.0  # seconds a scheduler, and its first worker, have to answer
+ANSWER_SECONDS = 5.0  # that a scheduler, and its first worker, have to answer
 CLUSTER = "a scheduler"
-AHEAD = 2  # blocks in flight for each thread
+BLOCKS_AHEAD = 2  # in flight for each thread
 
 
 class Team(NamedTuple):
@@ -37,7 +37,7 @@ class Team(NamedTuple):
         flying: dict[futures.Future[Values], Box] = {}
         try:
             while True:
-                for box in islice(queue, AHEAD * self.size - len(flying)):
+                for box in islice(queue, BLOCKS_AHEAD * self.size - len(flying)):
                     flying[self.submit(box)] = box
                 if not flying:
                     return
@@ -86,7 +86,7 @@ def _client(address: str) -> Iterator[Any]:
     distributed = extra("distributed", CLUSTER)
     try:
         extra("distributed.comm.addressing", CLUSTER).parse_address(address, strict=True)
-        client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
+        client = distributed.Client(address, timeout=ANSWER_SECONDS, set_as_default=False)
     except OSError:
         raise InputError(
             f"scheduler: {address!r} does not answer; start one with 'dask scheduler', and workers "
@@ -107,13 +107,13 @@ def _client(address: str) -> Iterator[Any]:
 def _checked_threads(client: Any, address: str) -> int:
     """Return the number of threads of a cluster; raise InputError if it cannot be used."""
     try:
-        client.wait_for_workers(1, timeout=ANSWER)
+        client.wait_for_workers(1, timeout=ANSWER_SECONDS)
     except TimeoutError:
         raise refusal(
             "scheduler", address, f"it has no workers; start one with: dask worker {address}"
         ) from None
-    for worker, found in client.run(versions, on_error="return").items():
-        _require_same(worker, found, versions())
+    for worker, there in client.run(versions, on_error="return").items():
+        _require_same(worker, there, versions())
     return sum(client.nthreads().values())
 
 
@@ -124,14 +124,14 @@ def versions() -> dict[str, str]:
     return own | {"a solver compiled by": compiled_by()}
 
 
-def _require_same(worker: str, found: Any, expected: dict[str, str]) -> None:
+def _require_same(worker: str, there: Any, expected: dict[str, str]) -> None:
     """Raise InputError if a worker does not have the versions of this process."""
-    if not isinstance(found, dict):
-        raise InputError(f"scheduler: worker {worker} cannot load this version of carom ({found})")
+    if not isinstance(there, dict):
+        raise InputError(f"scheduler: worker {worker} cannot load this version of carom ({there})")
     for name, wanted in expected.items():
-        if found.get(name) != wanted:
+        if there.get(name) != wanted:
             raise InputError(
-                f"scheduler: worker {worker} has {name} {found.get(name)}, not {wanted} as here; "
+                f"scheduler: worker {worker} has {name} {there.get(name)}, not {wanted} as here; "
                 "install the same"
             )
 

@@ -29,11 +29,11 @@ from zarr.core.buffer import Buffer
 from zarr.storage import MemoryStore
 
 from carom.dimensionless.numerics.threads import available_cores
-from carom.io.files import STORE
+from carom.io.files import STORE_ENDING
 from carom.io.paths import checked_path
 from carom.io.stores import CHUNK, STATUS, SealedStore, freeze, read_store
 from carom.io.version import __version__
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.sweeps.designs import Box, Values, boxes
 from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import SweepProblem
@@ -46,7 +46,7 @@ LOCK = f"{STATUS}/.lock"  # a place that zarr does not list
 COMPRESSOR = ZstdCodec(level=1)  # floating-point numbers gain nothing from more
 BLANK = {"float64": np.nan, "int8": PointStatus.NOT_RUN.value}  # of points that have not been run
 FULL = (errno.ENOSPC, errno.EDQUOT)
-SHOWN = 3  # differences in a refusal
+MOST_DIFFERENCES = 3  # in a refusal
 
 
 class StoreRecord:
@@ -111,12 +111,15 @@ def opened(folder: str | Path, problem: SweepProblem, resume: bool) -> Iterator[
 
 
 def _checked(folder: str | Path) -> Path:
-    kind = f"folder that ends in {STORE}"
+    kind = f"folder that ends in {STORE_ENDING}"
     path = checked_path("store", folder, kind)
-    if path.suffix.lower() != STORE:
-        raise refusal("store", str(folder), f"must be the name of a {kind}")
-    if not os.path.isdir(os.path.dirname(os.path.realpath(path))):
-        raise refusal("store", str(path), "the folder that holds it must exist; make it first")
+    there = os.path.isdir(os.path.dirname(os.path.realpath(path)))
+    refuse(
+        path.suffix.lower() != STORE_ENDING
+        and refusal("store", str(folder), f"must be the name of a {kind}"),
+        not there
+        and refusal("store", str(path), "the folder that holds it must exist; make it first"),
+    )
     return path
 
 
@@ -125,10 +128,10 @@ def _locked(path: Path) -> Iterator[None]:
     lock = filelock.FileLock(path / LOCK, blocking=False)
     try:
         lock.acquire()
-    except filelock.Timeout:
-        raise refusal("store", str(path), "another process is writing it; wait for it") from None
-    except OSError as error:
-        raise refusal("store", str(path), f"cannot be written; {error.strerror}") from None
+    except OSError as error:  # Timeout is one
+        busy = isinstance(error, filelock.Timeout) and "another process is writing it; wait for it"
+        allowed = busy or f"cannot be written; {error.strerror}"
+        raise refusal("store", str(path), allowed) from None
     try:
         yield
     finally:
@@ -184,13 +187,12 @@ def _check(path: Path, problem: SweepProblem) -> None:
     """Raise InputError unless this is a store of this sweep."""
     dataset = read_store(path)
     version = str(dataset.attrs["source"]).removeprefix("carom ")
-    if version != __version__:
-        raise refusal(
-            "store", str(path), f"carom {version} has written it, and this is carom {__version__}"
-        )
-    found = islice(_differences(json.loads(dataset.attrs["inputs"]), identity(problem), ""), SHOWN)
-    if words := "; ".join(found):
-        raise refusal("store", str(path), f"it holds another sweep: {words}")
+    words = f"carom {version} has written it, and this is carom {__version__}"
+    if version == __version__:
+        other = _differences(json.loads(dataset.attrs["inputs"]), identity(problem), "")
+        listed = "; ".join(islice(other, MOST_DIFFERENCES))
+        words = listed and f"it holds another sweep: {listed}"
+    refuse(words and refusal("store", str(path), words))
 
 
 def _differences(there: Any, here: Any, name: str) -> Iterator[str]:

@@ -18,13 +18,13 @@ from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
-from carom.sweeps.points import SPEEDS, WANTED, needed_by
+from carom.sweeps.points import BEARABLE, WANTED, needed_by
 
 if TYPE_CHECKING:
     import xarray as xr
 
 BOUNDS = "speeds above the lower yield speed hold for elastic bodies, and so are lower bounds"
-ANGLES = np.linspace(0.0, 85.0, 18) * (pi / 180.0)  # where none are given
+USUAL_ANGLES = np.linspace(0.0, 85.0, 18) * (pi / 180.0)
 
 
 @known_keywords
@@ -90,28 +90,28 @@ def bearable_speeds(
     outputs = _speeds_known(pair)
     axes = {
         "friction": pair.friction if friction is None else friction,
-        "angle": ANGLES if angle is None else angle,
+        "angle": USUAL_ANGLES if angle is None else angle,
     }
     case = {**case_of(pair), "speed": 1.0}  # the speeds that bodies bear are multiples of it
     lists = {n: [v] if isinstance(v, int | float | str) else v for n, v in axes.items()}
-    found = sweep(case, Grid(lists), outputs=outputs, workers=workers, progress=progress)
+    speeds = sweep(case, Grid(lists), outputs=outputs, workers=workers, progress=progress)
     notes = [BOUNDS] + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
-    return found.assign_attrs(title="speeds that bodies bear", notes="; ".join(notes))
+    return speeds.assign_attrs(title="speeds that bodies bear", notes="; ".join(notes))
 
 
 def _speeds_known(pair: Pair) -> list[str]:
     """Return which speeds the strengths of a pair give, or raise InputError if none."""
-    known = [
+    names = [
         name
         for name, (quantity, body) in WANTED.items()
-        if quantity in SPEEDS and _bears(getattr(pair, body).material, needed_by(name))
+        if quantity in BEARABLE and _bears(getattr(pair, body).material, needed_by(name))
     ]
-    if not known:
+    if not names:
         raise InputError(
             "strength: no strength of either body is known; give yield_strength, tensile_strength, "
             "or fracture_toughness with flaw_size, to carom.Material or carom.material(name, ...)"
         )
-    return known
+    return names
 
 
 def _bears(material: Any, needed: Sequence[str]) -> bool:

@@ -12,11 +12,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from carom.bodies.cases import SWEEP, Case
+from carom.bodies.cases import SWEEP_TABLE, Case
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, column_in_si
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import Faults, InputError, clipped, refusal
+from carom.quantities.refusals import Faults, InputError, checked_type, clipped, refusal, refuse
 from carom.quantities.texts import Unreadable, factor
 from carom.sweeps.designs import Box, Design, Grid, LatinHypercube
 from carom.sweeps.inputs import (
@@ -68,14 +68,14 @@ class Table(Design):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        return (self._given[self.names[0]].size,)
+        return (self._by_input[self.names[0]].size,)
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        return {name: values[box[0]] for name, values in self._given.items()}
+        return {name: values[box[0]] for name, values in self._by_input.items()}
 
     def description(self) -> dict[str, Any]:
         digest = hashlib.sha256()
-        for values in self._given.values():
+        for values in self._by_input.values():
             digest.update(np.ascontiguousarray(values).tobytes())
         choices = {name: [one.description() for one in self.choices[name]] for name in self.choices}
         whole = {"inputs": list(self.names), "rows": self.shape[0], "choices": choices}
@@ -156,40 +156,34 @@ def plan(
     case: Case, path: Path, columns: Mapping[str, str] | None = None
 ) -> tuple[Design, list[str] | None]:
     """Return the design and the outputs that a case file asks for."""
-    given = case.get(SWEEP)
-    if not isinstance(given, Mapping):
-        raise InputError(f"{SWEEP}: missing in {path}; add [sweep.axes] with {EXAMPLE}")
-    outputs = given.get("outputs")
-    if "outputs" in given and not isinstance(outputs, list):
-        raise refusal("outputs", outputs, 'must be a list of names, e.g. ["rebound_angle"]')
-    return _design(given, path, columns or {}), outputs
+    table = case.get(SWEEP_TABLE)
+    if not isinstance(table, Mapping):
+        raise InputError(f"{SWEEP_TABLE}: missing in {path}; add [sweep.axes] with {EXAMPLE}")
+    outputs = table.get("outputs")
+    if "outputs" in table:
+        checked_type("outputs", outputs, list, 'must be a list of names, e.g. ["rebound_angle"]')
+    return _design(table, path, columns or {}), outputs
 
 
-def _design(given: Mapping[str, Any], path: Path, columns: Mapping[str, str]) -> Design:
-    if "table" in given:
-        _refuse(given, ("samples", "seed", "axes"), "a table of cases")
-        if not isinstance(given["table"], str):
-            raise refusal("table", given["table"], "must be the name of a CSV file")
-        own = given.get("columns", {})
-        if not isinstance(own, Mapping):
-            raise refusal("columns", own, 'must be a table, e.g. {omega = "spin"}')
-        return Table(path.parent / given["table"], {**own, **columns})
-    if columns or "columns" in given:
-        shown = columns or given["columns"]
-        raise refusal("columns", shown, "they are those of a table of cases; leave them out")
-    axes = given.get("axes")
-    if not isinstance(axes, Mapping):
-        raise refusal("axes", axes, f"must be a table, [sweep.axes], with {EXAMPLE}")
-    if "samples" in given:
-        return LatinHypercube(_flat(axes), samples=given["samples"], seed=given.get("seed", 0))
-    _refuse(given, ("seed",), "a grid")
+def _design(table: Mapping[str, Any], path: Path, columns: Mapping[str, str]) -> Design:
+    if "table" in table:
+        _refuse(table, ("samples", "seed", "axes"), "a table of cases has none; leave it out")
+        name = checked_type("table", table["table"], str, "must be the name of a CSV file")
+        words = 'must be a table, e.g. {omega = "spin"}'
+        own = checked_type("columns", table.get("columns", {}), Mapping, words)
+        return Table(path.parent / name, {**own, **columns})
+    its_columns = {"columns": columns} if columns else table
+    _refuse(its_columns, ("columns",), "they are those of a table of cases; leave them out")
+    allowed = f"must be a table, [sweep.axes], with {EXAMPLE}"
+    axes = checked_type("axes", table.get("axes"), Mapping, allowed)
+    if "samples" in table:
+        return LatinHypercube(_flat(axes), samples=table["samples"], seed=table.get("seed", 0))
+    _refuse(table, ("seed",), "a grid has none; leave it out")
     return Grid(_flat(axes))
 
 
-def _refuse(given: Mapping[str, Any], names: Iterable[str], kind: str) -> None:
-    for name in names:
-        if name in given:
-            raise refusal(name, given[name], f"{kind} has none; leave it out")
+def _refuse(table: Mapping[str, Any], names: Iterable[str], allowed: str) -> None:
+    refuse(*(refusal(name, table[name], allowed) for name in names if name in table))
 
 
 def _flat(axes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -197,9 +191,8 @@ def _flat(axes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     flat: dict[str, Any] = {}
     for name, axis in axes.items():
         nested = isinstance(axis, Mapping) and axis and not axis.keys() & {"from", "to", "points"}
-        found = _flat(axis, f"{prefix}{name}.") if nested else {prefix + name: axis}
-        for twice in flat.keys() & found.keys():
-            words = "it is given twice in [sweep.axes]; leave one of them out"
-            raise InputError(f"{clipped(twice)}: {words}")
-        flat |= found
+        more = _flat(axis, f"{prefix}{name}.") if nested else {prefix + name: axis}
+        words = "it is given twice in [sweep.axes]; leave one of them out"
+        refuse(*(f"{clipped(twice)}: {words}" for twice in sorted(flat.keys() & more.keys())))
+        flat |= more
     return flat

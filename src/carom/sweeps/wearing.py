@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.kinematics import Tangential
+from carom.bodies.kinematics import Tangential, by_angle
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair, check_second_spin, checked_pair
 from carom.bodies.shapes import Sphere, describe
@@ -19,7 +19,7 @@ from carom.io.labels import flags, labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted, positive
 from carom.sweeps.points import (
     BlockSolution,
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 REALS = "give real numbers, one or an array of them"
-HUGE = 1e250  # N m; per area it is more
-BLOCK = 20_000  # impacts that are solved before progress is told
-FINE = 201  # distances at least among which the largest wear of a spot is sought
+LARGEST_WORK = 1e250  # in N m; per area it is more
+IMPACTS_AT_ONCE = 20_000  # that are solved before progress is said
+FEWEST_DISTANCES = 201  # distances at least among which the largest wear of a spot is sought
 STATUS = {
     "long_name": "what became of the impact",
     **flags([status.message for status in PointStatus], first=PointStatus.NOT_RUN),
@@ -76,17 +76,12 @@ class Many(NamedTuple):
 
 def _read_columns(pair: Pair, motion: dict[str, ArrayLike | None]) -> dict[str, Array]:
     """Return what was given as lines of one length, by name, or raise InputError."""
-    by_speed = motion["speed"] is not None
-    if by_speed == (motion["normal_speed"] is not None):
-        raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
-    for name in ("normal_speed", "tangential_speed") if by_speed else ("angle",):
-        if motion.pop(name) is not None:
-            raise InputError(f"{name}: give speed and angle, or normal_speed and tangential_speed")
-    motion.pop("normal_speed" if by_speed else "speed", None)
-    given = {name: 0.0 if value is None else value for name, value in motion.items()}
-    along_the_same(**given)
-    read = {name: numbers(name, value, REALS, gaps=True) for name, value in given.items()}
-    check_second_spin(pair, given["spin2"], spins=bool(read["spin2"].any()))
+    others = ("normal_speed", "tangential_speed") if by_angle(motion) else ("speed", "angle")
+    used = {name: value for name, value in motion.items() if name not in others}
+    columns = {name: 0.0 if value is None else value for name, value in used.items()}
+    along_the_same(**columns)
+    read = {name: numbers(name, value, REALS, gaps=True) for name, value in columns.items()}
+    check_second_spin(pair, columns["spin2"], spins=bool(read["spin2"].any()))
     shape = together(read)
     if not isinstance(pair.second, Sphere):
         del read["spin2"]
@@ -109,8 +104,8 @@ def _solve_all(
     nothing = np.full(counts.size, np.nan)
     many = Many(columns, counts, status, nothing, nothing.copy())
     with advancing("solving the impacts", counts.size, progress, unit="impacts") as advance:
-        for start in range(0, counts.size, BLOCK):
-            part = slice(start, start + BLOCK)
+        for start in range(0, counts.size, IMPACTS_AT_ONCE):
+            part = slice(start, start + IMPACTS_AT_ONCE)
             with np.errstate(all="ignore"):
                 _fill(pair, losses, many.part(part))
             advance(many.status[part].size)
@@ -126,9 +121,9 @@ def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
     outcome = Outcome(pair, normal, tangential, spin, spin2, solution, scales=scales)
     block.status[:] = _status(block.columns, block.counts, outcome)
     solve_block(outcome, losses, block.status, None)
-    found = np.asarray(rubbed(outcome), dtype=np.float64)
-    block.status[block.solved & ~(found < HUGE)] = PointStatus.BEYOND_FLOATING_POINT
-    block.rubbed[block.solved] = found[block.solved]
+    rubbed_now = np.asarray(rubbed(outcome), dtype=np.float64)
+    block.status[block.solved & ~(rubbed_now < LARGEST_WORK)] = PointStatus.BEYOND_FLOATING_POINT
+    block.rubbed[block.solved] = rubbed_now[block.solved]
     block.radii[block.solved] = np.asarray(outcome.max_radius)[block.solved]
 
 
@@ -233,25 +228,25 @@ def wear_of_many(
     motion = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
     motion |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2, "counts": counts}
     many = _solve_all(pair, _read_columns(pair, motion), losses, progress)
-    found = {"friction": pair.friction, **_of_all(many, pair.friction, per_load)}
+    columns = {"friction": pair.friction, **_of_all(many, pair.friction, per_load)}
     coords: dict[str, Any] = {}
     if spread is None:
         distance = np.linspace(0.0, float(many.radii[many.solved].max(initial=0.0)), count)
         coords["distance"] = distance
-        found |= _on_spot(pair, many, losses, distance, per_load, progress)
+        columns |= _on_spot(pair, many, losses, distance, per_load, progress)
     else:
-        found |= {"area": spread, "spread_friction_work": pair.friction * many.total / spread}
-        found |= {} if per_load is None else {"spread_wear_depth": per_load * many.total / spread}
+        columns |= {"area": spread, "spread_friction_work": pair.friction * many.total / spread}
+        columns |= {} if per_load is None else {"spread_wear_depth": per_load * many.total / spread}
     inputs: dict[str, Any] = {"first": describe(pair.first), "second": describe(pair.second)}
     inputs |= {"friction": pair.friction}
     inputs |= {} if losses is None else {"losses": losses.describe()}
-    return labelled_dataset(found, coords, {"title": "wear by many impacts", "inputs": inputs})
+    return labelled_dataset(columns, coords, {"title": "wear by many impacts", "inputs": inputs})
 
 
 def _of_all(many: Many, friction: float, per_load: float | None) -> dict[str, Any]:
     """Return what was given, and what comes of each impact and of all."""
-    given = {name: ("impact", values) for name, values in many.columns.items()}
-    found: dict[str, Any] = given | {
+    inputs = {name: ("impact", values) for name, values in many.columns.items()}
+    columns: dict[str, Any] = inputs | {
         "counts": ("impact", many.counts),
         "status": ("impact", many.status, STATUS),
         "dissipated_energy": ("impact", friction * many.rubbed),
@@ -259,9 +254,9 @@ def _of_all(many: Many, friction: float, per_load: float | None) -> dict[str, An
         "unsolved_impacts": int(np.count_nonzero(~many.solved)),
     }
     if per_load is not None:
-        found["wear_coefficient"] = per_load
-        found["total_worn_volume"] = per_load * many.total
-    return found
+        columns["wear_coefficient"] = per_load
+        columns["total_worn_volume"] = per_load * many.total
+    return columns
 
 
 def _on_spot(
@@ -273,7 +268,7 @@ def _on_spot(
     progress: Progress,
 ) -> dict[str, Any]:
     """Return what all impacts on one spot rub and wear, at these distances and at the deepest."""
-    inner = np.linspace(0.0, distance[-1], FINE)
+    inner = np.linspace(0.0, distance[-1], FEWEST_DISTANCES)
     radii = np.union1d(distance, inner)
     mean, lateral, (normal, motion) = *np.zeros((2, radii.size)), _motion_of(many.columns)
     which = np.flatnonzero(many.solved & (many.counts > 0.0))
@@ -288,9 +283,9 @@ def _on_spot(
     at = np.searchsorted(radii, inner)
     most, place = largest(inner, mean[at] + np.abs(lateral[at]))
     around = mean[np.searchsorted(radii, distance)]
-    found: dict[str, Any] = {"max_wear_radius": place}
+    columns: dict[str, Any] = {"max_wear_radius": place}
     for name, factor in (("friction_work", pair.friction), ("wear_depth", per_load)):
         if factor is not None:
-            found[f"mean_{name}"] = ("distance", factor * around)
-            found[f"max_{name}"] = factor * most
-    return found
+            columns[f"mean_{name}"] = ("distance", factor * around)
+            columns[f"max_{name}"] = factor * most
+    return columns

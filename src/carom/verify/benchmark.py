@@ -14,8 +14,10 @@ from carom.dem.base import ContactLaw, Law
 from carom.dem.function import steel_on_steel
 from carom.io.progress import Progress, advancing
 from carom.io.user_table import CASE
+from carom.old_names import with_old_fields
 from carom.quantities.arrays import finite_line
-from carom.quantities.refusals import InputError, checked_type, refusal
+from carom.quantities.keywords import known_keywords
+from carom.quantities.refusals import checked_type, refusal, refuse
 from carom.verify import errors
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
@@ -23,7 +25,7 @@ from carom.verify.entries import CATALOGUE, EXACT, Entry, as_entry, listed
 from carom.verify.errors import INCIDENCES, Impacts
 from carom.verify.tables import text_table
 
-STEPS = 2000  # per duration of Hertz's contact
+STEPS_PER_CONTACT = 2000
 OVERLAP = 1e-6  # d_max/R*: so small that the turning of a normal costs some 2e-5 in psi_2
 COLUMNS = ":<32s max:7.3f at:5.2f rms:7.3f law:8.1e seconds:8.2f"
 
@@ -50,6 +52,7 @@ class Measured(NamedTuple):
         return {"law": self.entry.label, **dict(zip(self._fields[1:-1], self[1:-1], strict=True))}
 
 
+@with_old_fields
 @dataclass(frozen=True)
 class Bench:
     """Impacts in a DEM program against the exact impact, the best law first; made by `bench`."""
@@ -57,7 +60,7 @@ class Bench:
     engine: str
     version: str
     pair: Pair
-    psi: tuple[float, ...]
+    psi_in: tuple[float, ...]
     steps: int
     measured: tuple[Measured, ...]
     outcomes: dict[str, tuple[Experiment, Outcomes]]
@@ -83,7 +86,7 @@ class Bench:
             "engine": self.engine,
             "version": self.version or None,
             "chi": self.pair.chi,
-            "psi_in": list(self.psi),
+            "psi_in": list(self.psi_in),
             "steps": self.steps,
             "laws": [one.to_dict() for one in self.measured],
         }
@@ -96,7 +99,7 @@ class Bench:
         return "\n".join(
             [
                 f"|error in psi_2| of {what} at chi = {self.pair.chi:.5g},"
-                f" {errors.in_words(self.psi)}, with {self.steps} steps per contact",
+                f" {errors.in_words(self.psi_in)}, with {self.steps} steps per contact",
                 *table,
                 *(f"  {one.entry.label:32s} {one.failure}" for one in failed),
                 "max, at: largest error, and its psi_1",
@@ -105,13 +108,14 @@ class Bench:
         )
 
 
+@known_keywords
 def bench(
     engine: Engine,
     entries: Sequence[Entry | Law] = CATALOGUE,
     *,
     pair: Pair | None = None,
-    psi: ArrayLike = INCIDENCES,
-    steps: int = STEPS,
+    psi_1: ArrayLike = INCIDENCES,
+    steps: int = STEPS_PER_CONTACT,
     time_limit: float = 120.0,
     progress: Progress = None,
 ) -> Bench:
@@ -125,7 +129,7 @@ def bench(
         Laws; those that the program lacks, and repeated ones, are left out.
     pair : Pair, optional
         By default a steel ball on a steel half-space, chi = 1.4412.
-    psi : array_like
+    psi_1 : array_like
         Incidences psi_1.
     steps : int
         Time steps per duration of Hertz's contact.
@@ -140,8 +144,8 @@ def bench(
     Bench
         `measured` has one item per law, the best first: its `entry`, max_error and rms_error in
         psi_2, `worst`, the psi_1 of the largest error, law_error, the largest difference from the
-        same law in Carom, seconds, and the `failure` or None. Also `version` of the program, `psi`,
-        `steps` and `outcomes`.
+        same law in Carom, seconds, and the `failure` or None. Also `version` of the program,
+        `psi_in`, `steps` and `outcomes`.
 
     Raises
     ------
@@ -156,9 +160,8 @@ def bench(
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
     """
     checked_type("engine", engine, Engine, "must be a DEM program, e.g. carom.verify.Lammps()")
-    bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
-    if engine.executable() is None:
-        raise InputError(f"{engine.name}: {engine.remedy}")
+    bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi_1", psi_1)
+    refuse(engine.executable() is None and f"{engine.name}: {engine.remedy}")
     supported = _supported(engine, [as_entry(each) for each in listed("entries", entries)])
     slow = (OVERLAP * bodies.effective_radius / bodies.scales(1.0).length) ** 1.25
     speeds = tuple((psis * bodies.scales(slow).tangential_speed).tolist())

@@ -17,7 +17,7 @@ from carom.dem.damping import (
     tsuji_damping,
 )
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.quantities.refusals import checked_type, one_of, refusal
+from carom.quantities.refusals import checked_type, one_of, refusal, refuse
 from carom.quantities.units import Value, not_negative, positive
 
 SPRING, MINDLIN = dem.LinearSpring(), dem.LammpsMindlin("mindlin_rescale/force")
@@ -116,8 +116,7 @@ def poisson_from_kappa(kappa: float) -> float:
     0.3
     """
     value = positive("kappa", kappa)
-    if value >= 2.0:
-        raise refusal("kappa", kappa, "must be below 2")
+    refuse(value >= 2.0 and refusal("kappa", kappa, "must be below 2"))
     return (2.0 - 2.0 * value) / (2.0 - value)
 
 

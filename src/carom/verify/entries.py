@@ -28,7 +28,7 @@ class Entry(NamedTuple):
     --------
     >>> import carom
     >>> stiff = carom.verify.Entry("stiff", carom.dem.LinearSpring(1.0), "nobody")
-    >>> carom.verify.rank([stiff], psi=[1.0]).standings[0].entry.label
+    >>> carom.verify.rank([stiff], psi_1=[1.0]).standings[0].entry.label
     'stiff'
     """
 

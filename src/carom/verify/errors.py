@@ -12,8 +12,9 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset, pure
-from carom.quantities.arrays import Array, finite_line, positive_line
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.arrays import Array, finite_line, positive_line, refuse_where
+from carom.quantities.keywords import known_keywords
+from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.units import counted, finite, positive
 from carom.verify.entries import LawOrFunction, as_law, parameters
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
-CHI = 1.4412  # of solid spheres with nu = 0.3
+SOLID_CHI = 1.4412  # of solid spheres with nu = 0.3
 LARGEST_PSI, LARGEST_CHI = 1e9, 1e4
 FORCE_INSTANTS = 400
 RESTITUTION_MISSED = 1e-3  # less is rounding
@@ -44,14 +45,13 @@ class Impacts(NamedTuple):
     kappa: Any
 
     @classmethod
-    def of(cls, psi: ArrayLike, chi: Any, kappa: Any) -> "Impacts":
+    def of(cls, psi_1: ArrayLike, chi: Any, kappa: Any) -> "Impacts":
         """Return impacts of one chi as a user gives them, or raise InputError."""
         ratio = positive("chi", chi)
-        if ratio > LARGEST_CHI:
-            raise refusal("chi", chi, f"must be at most {LARGEST_CHI:g}; spheres have 0.5 to 3")
-        values = psi_line(psi)
-        if not np.any(values):
-            raise refusal("psi", psi, "must not all be zero")
+        allowed = f"must be at most {LARGEST_CHI:g}; spheres have 0.5 to 3"
+        refuse(ratio > LARGEST_CHI and refusal("chi", chi, allowed))
+        values = psi_line(psi_1)
+        refuse(not np.any(values) and refusal("psi_1", psi_1, "must not all be zero"))
         return cls(values, ratio, kappa_or_solid(kappa, ratio))
 
     def rebound(self, law: Law, steps: int | None = None) -> Array:
@@ -85,12 +85,11 @@ class Impacts(NamedTuple):
         return np.asarray(exact)
 
 
-def psi_line(psi: ArrayLike) -> Array:
+def psi_line(psi_1: ArrayLike) -> Array:
     """Return psi_1 as an array, or raise InputError beyond which rounding hides errors."""
-    values = finite_line("psi", psi)
-    if np.max(np.abs(values)) > LARGEST_PSI:
-        allowed = f"must be at most {LARGEST_PSI:g}; beyond it rounding hides the error"
-        raise refusal("psi", float(np.max(np.abs(values))), allowed)
+    values = finite_line("psi_1", psi_1)
+    allowed = f"must be at most {LARGEST_PSI:g}; beyond it rounding hides the error"
+    refuse_where("psi_1", values, np.abs(values) > LARGEST_PSI, allowed)
     return values
 
 
@@ -131,9 +130,10 @@ def energy_gain(psi: Array, psi_out: Array) -> float:
     return float(np.max(gain[np.isfinite(gain)], initial=0.0))
 
 
+@known_keywords
 def error_map(
     law: LawOrFunction,
-    psi: ArrayLike | None = None,
+    psi_1: ArrayLike | None = None,
     chi: ArrayLike | None = None,
     *,
     kappa: float | None = None,
@@ -148,7 +148,7 @@ def error_map(
     ----------
     law : Law or callable
         A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
-    psi, chi : array_like, optional
+    psi_1, chi : array_like, optional
         Values along both axes, chi positive. By default chi goes over solid spheres, from 7/6
         (nu = 1/2) to 7/4 (nu = 0), and psi_1 up to where all of these slide throughout.
     kappa, steps : optional
@@ -163,7 +163,7 @@ def error_map(
     Raises
     ------
     InputError
-        If the law is not a law, a chi is not positive, or a psi is not finite.
+        If the law is not a law, a chi is not positive, or a psi_1 is not finite.
 
     Examples
     --------
@@ -175,7 +175,7 @@ def error_map(
     rule = as_law(law)
     chis = np.linspace(7.0 / 6.0, 7.0 / 4.0, 15) if chi is None else positive_line("chi", chi)
     top = 4.0 * float(chis.max())
-    psis = np.linspace(0.0, top, 121) if psi is None else psi_line(psi)
+    psis = np.linspace(0.0, top, 121) if psi_1 is None else psi_line(psi_1)
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
     met = Impacts(psis, rows, kappa_or_solid(kappa, rows))
     exact = rebound(psis, rows, losses=losses_of(met.restitution(rule)))
@@ -201,8 +201,9 @@ def error_map(
     )
 
 
+@known_keywords
 def force_error(
-    law: LawOrFunction, psi: float, chi: float, *, kappa: float | None = None
+    law: LawOrFunction, psi_1: float, chi: float, *, kappa: float | None = None
 ) -> ForceError:
     """Return the error of the tangential force through an impact, at equal parts of its duration.
 
@@ -215,7 +216,7 @@ def force_error(
     ----------
     law : Law or callable
         A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
-    psi : float
+    psi_1 : float
         Incidence psi_1.
     chi : float
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
@@ -241,7 +242,7 @@ def force_error(
     law = as_law(law)
     if not isinstance(law, ContactLaw):
         return ForceError(np.nan, np.nan)
-    psi, chi = finite("psi", psi, "1"), positive("chi", chi)
+    psi, chi = finite("psi_1", psi_1, "1"), positive("chi", chi)
     kappa = kappa_or_solid(kappa, chi)
     history = law.history(psi, chi, kappa=kappa)
     parts = np.linspace(0.0, 1.0, FORCE_INSTANTS)
@@ -266,11 +267,12 @@ def steps_record(step: TimeSteps | None) -> dict[str, Any]:
     return {"steps": steps, "step_error": error}
 
 
+@known_keywords
 def step_error(
     law: LawOrFunction,
     steps: int,
-    psi: ArrayLike = INCIDENCES,
-    chi: float = CHI,
+    psi_1: ArrayLike = INCIDENCES,
+    chi: float = SOLID_CHI,
     *,
     kappa: float | None = None,
 ) -> float:
@@ -285,7 +287,7 @@ def step_error(
         A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     steps : int
         Time steps per t_c, from 10 to two million.
-    psi : array_like
+    psi_1 : array_like
         Incidences psi_1.
     chi : float
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
@@ -309,15 +311,16 @@ def step_error(
     True
     """
     counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
-    law, met = as_law(law), Impacts.of(psi, chi, kappa)
+    law, met = as_law(law), Impacts.of(psi_1, chi, kappa)
     return largest(met.rebound(law, steps) - met.rebound(law))
 
 
+@known_keywords
 def advised_steps(
     law: LawOrFunction,
     allowed: float,
-    psi: ArrayLike = INCIDENCES,
-    chi: float = CHI,
+    psi_1: ArrayLike = INCIDENCES,
+    chi: float = SOLID_CHI,
     *,
     kappa: float | None = None,
 ) -> TimeSteps | None:
@@ -333,7 +336,7 @@ def advised_steps(
         A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     allowed : float
         Largest |error in psi_2| that the steps may cause.
-    psi : array_like
+    psi_1 : array_like
         Incidences psi_1.
     chi : float
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
@@ -357,7 +360,7 @@ def advised_steps(
     28
     """
     bound = positive("allowed", allowed, "1")
-    law, met = as_law(law), Impacts.of(psi, chi, kappa)
+    law, met = as_law(law), Impacts.of(psi_1, chi, kappa)
     converged = met.rebound(law)
     if not np.all(np.isfinite(converged)):
         return None

@@ -13,12 +13,14 @@ from carom.dem.damping import damped_restitution
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
+from carom.old_names import with_old_fields
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import or_none
 from carom.verify import errors
 from carom.verify.entries import CATALOGUE, Entry, LawOrFunction, as_entry, damped, listed
-from carom.verify.errors import CHI, INCIDENCES, Impacts, TimeSteps
+from carom.verify.errors import INCIDENCES, SOLID_CHI, Impacts, TimeSteps
 from carom.verify.tables import text_table
 
 if TYPE_CHECKING:
@@ -69,6 +71,7 @@ class Standing(NamedTuple):
         }
 
 
+@with_old_fields
 @dataclass(frozen=True)
 class Ranking(Result):
     """Contact laws by their largest error in psi_2, the best first; made by `rank`.
@@ -80,14 +83,14 @@ class Ranking(Result):
     --------
     >>> import carom
     >>> laws = [carom.dem.LinearSpring(), carom.dem.HardSphere()]
-    >>> ranking = carom.verify.rank(laws, psi=[1.0, 6.0])
+    >>> ranking = carom.verify.rank(laws, psi_1=[1.0, 6.0])
     >>> [round(one.max_error, 2) for one in ranking.standings]
     [0.06, 0.18]
     """
 
     chi: float
     kappa: float
-    psi: tuple[float, ...]
+    psi_in: tuple[float, ...]
     standings: tuple[Standing, ...]
 
     def __str__(self) -> str:
@@ -108,7 +111,7 @@ class Ranking(Result):
             chi, kappa, psi_in and laws, a record each.
         """
         laws = [standing.to_dict() for standing in self.standings]
-        return {"chi": self.chi, "kappa": self.kappa, "psi_in": list(self.psi), "laws": laws}
+        return {"chi": self.chi, "kappa": self.kappa, "psi_in": list(self.psi_in), "laws": laws}
 
     def cite(self) -> str:
         """Return what to cite for the exact answer, as BibTeX."""
@@ -127,7 +130,7 @@ class Ranking(Result):
             differ), max_error, rms_error, force_error, energy_gain and restitution (law), steps
             (law, step_kind), -1 where none suffice; chi and kappa.
         """
-        impacts = Impacts(np.array(self.psi), self.chi, self.kappa)
+        impacts = Impacts(np.array(self.psi_in), self.chi, self.kappa)
         psi_out = [impacts.rebound(standing.entry.law) for standing in self.standings]
         restitutions = [standing.restitution for standing in self.standings]
         exact = list(map(impacts.exact, restitutions))
@@ -150,7 +153,7 @@ class Ranking(Result):
             },
             {
                 "law": ("law", [s.entry.label for s in self.standings], {}),
-                "psi_in": np.array(self.psi),
+                "psi_in": np.array(self.psi_in),
                 "step_kind": (
                     "step_kind",
                     ["below the error of the law", f"below {FINE_ERROR:g}"],
@@ -167,12 +170,13 @@ def _without_copies(exact: list[Array]) -> tuple[tuple[str, ...], Array]:
     return (("psi_in",), exact[0]) if same else (("law", "psi_in"), np.array(exact))
 
 
+@known_keywords
 def rank(
     entries: Sequence[Entry | LawOrFunction] = CATALOGUE,
     *,
-    chi: float = CHI,
+    chi: float = SOLID_CHI,
     kappa: float | None = None,
-    psi: ArrayLike = INCIDENCES,
+    psi_1: ArrayLike = INCIDENCES,
     restitution: float | None = None,
     progress: Progress = None,
 ) -> Ranking:
@@ -190,7 +194,7 @@ def rank(
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
         Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
-    psi : array_like
+    psi_1 : array_like
         Incidences psi_1.
     restitution : float, optional
         Normal coefficient of restitution e for which all laws are damped; laws of the catalogue
@@ -219,11 +223,11 @@ def rank(
     >>> best.entry.label, round(best.max_error, 3)
     ('linear spring, k_t/k_n = kappa', 0.176)
     >>> law = carom.dem.LammpsMindlin("mindlin")
-    >>> damped = carom.verify.rank(law, psi=[0.5, 2.0], restitution=0.7)
+    >>> damped = carom.verify.rank(law, psi_1=[0.5, 2.0], restitution=0.7)
     >>> round(damped.standings[0].max_error, 2)
     0.27
     """
-    impacts = Impacts.of(psi, chi, kappa)
+    impacts = Impacts.of(psi_1, chi, kappa)
     ranked = [as_entry(each) for each in listed("entries", entries)]
     if restitution is not None:
         if entries is CATALOGUE:
@@ -282,7 +286,7 @@ def _table(ranking: Ranking) -> str:
     return "\n".join(
         [
             f"|error in psi_2| of contact laws at chi = {ranking.chi:g},"
-            f" kappa = {ranking.kappa:.4g}, {errors.in_words(ranking.psi)}",
+            f" kappa = {ranking.kappa:.4g}, {errors.in_words(ranking.psi_in)}",
             *(["compared with viscoelastic bodies of the same restitution e"] if loses else []),
             f"{head}  used by",
             *lines,

@@ -18,7 +18,8 @@ from carom.dimensionless.numerics.hertz import DURATION
 from carom.io.progress import Progress, advancing
 from carom.plots.result import card
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import InputError, one_of, refusal
+from carom.quantities.keywords import known_keywords
+from carom.quantities.refusals import InputError, one_of, refusal, refuse
 from carom.quantities.units import finite, positive
 from carom.verify import errors
 from carom.verify.entries import CATALOGUE, LawOrFunction, as_law, called, listed
@@ -158,12 +159,13 @@ class Tuning:
         )
 
 
+@known_keywords
 def tune(
     laws: LawOrFunction | Sequence[LawOrFunction] = TUNED,
     *,
     chi: float,
     kappa: float | None = None,
-    psi: ArrayLike | None = None,
+    psi_1: ArrayLike | None = None,
     measure: str = "max",
     progress: Progress = None,
 ) -> Tuning:
@@ -182,7 +184,7 @@ def tune(
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
         Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
-    psi : array_like, optional
+    psi_1 : array_like, optional
         Incidences psi_1, by default 60 of them up to 4 chi, beyond which all impacts slide.
     measure : str
         Error to minimise: "max", the largest, or "rms", the root mean square.
@@ -209,9 +211,9 @@ def tune(
     >>> best.parameter, round(best.value, 2), round(best.before, 2), round(best.max_error, 2)
     ('stiffness', 0.7, 0.61, 0.17)
     """
-    if psi is None:
-        psi = np.linspace(0.0, 4.0 * positive("chi", chi), INCIDENCES)[1:]
-    impacts = Impacts.of(psi, chi, kappa)
+    if psi_1 is None:
+        psi_1 = np.linspace(0.0, 4.0 * positive("chi", chi), INCIDENCES)[1:]
+    impacts = Impacts.of(psi_1, chi, kappa)
     one_of("measure", measure, MEASURES)
     advice = []
     chosen = listed("laws", laws)
@@ -344,12 +346,10 @@ def _without_bodies(
 
 def _range(first: float, last: float, start: str, stop: str | None) -> Array:
     """Return psi_1 from the first to the last; `start` and `stop` are their texts."""
-    if first < 0.0:
-        raise refusal("from", start, "must not be negative")
+    refuse(first < 0.0 and refusal("from", start, "must not be negative"))
     if first >= last and stop is None:
         raise refusal(
             "from", start, f"at psi_1 = {first:.4g} the contact slides throughout; give a lower one"
         )
-    if first >= last:
-        raise refusal("to", stop, f"must be above --from, {start}")
+    refuse(first >= last and refusal("to", stop, f"must be above --from, {start}"))
     return np.linspace(first, last, INCIDENCES)[0 if first > 0.0 else 1 :]

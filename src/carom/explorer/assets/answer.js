@@ -31,19 +31,19 @@ Carom.answer = (() => {
     };
   }
 
-  function scene(found, { duration, unit, phases, stick, stage }) {
-    const highest = most(found.limit);
+  function scene(solved, { duration, unit, phases, stick, stage }) {
+    const highest = most(solved.limit);
     return {
       duration,
       unit,
       phases,
       time: short(shares),
-      psi: precise(found.psi),
-      contact: short(found.contact.map((value) => value / found.radius)),
-      stick: short(stick.map((value) => value / found.radius)),
-      force: precise(found.force.map((value) => (1.5 * value) / highest)),
-      rim: short(found.speed.map((value) => (found.normal.alpha * Math.max(value, 0)) / found.radius ** 2)),
-      tractions: found.tractions.map(short),
+      psi: precise(solved.psi),
+      contact: short(solved.contact.map((value) => value / solved.radius)),
+      stick: short(stick.map((value) => value / solved.radius)),
+      force: precise(solved.force.map((value) => (1.5 * value) / highest)),
+      rim: short(solved.speed.map((value) => (solved.normal.alpha * Math.max(value, 0)) / solved.radius ** 2)),
+      tractions: solved.tractions.map(short),
       stage,
     };
   }
@@ -54,7 +54,7 @@ Carom.answer = (() => {
       .filter(([name]) => name in numbers)
       .map(([name, { symbol, meaning, unit }]) => {
         const rough = lossy && ["dissipated_energy", "shear_lost_energy"].includes(name);
-        return { name, symbol, meaning, ...Carom.quantities.told(numbers[name], unit, rough ? OF_LOSSES : undefined) };
+        return { name, symbol, meaning, ...Carom.quantities.printed(numbers[name], unit, rough ? OF_LOSSES : undefined) };
       });
   }
 
@@ -66,21 +66,21 @@ Carom.answer = (() => {
   }
 
   function ofNumbers({ psi, chi, friction, restitution }) {
-    const found = Carom.law.solve(psi, chi, restitution);
-    const { duration, phases, stick, out } = found;
-    const moving = { velocity: found.psi, speed: found.speed, penetration: Array.from(found.depth), duration };
+    const solved = Carom.law.solve(psi, chi, restitution);
+    const { duration, phases, stick, out } = solved;
+    const moving = { velocity: solved.psi, speed: solved.speed, penetration: Array.from(solved.depth), duration };
     const stage = Carom.paths.ofNumbers({ psi, chi, friction, ...moving });
     const numbers = { psi_in: psi, psi_out: out, chi, ...(psi ? { contact_restitution: out / psi } : {}) };
     const energies = parts({
-      contact_kinetic_energy: found.psi.map((value) => 0.5 * value * value),
-      tangential_elastic_energy: found.stored,
-      frictional_work: found.dissipated,
-      shear_loss: found.shear,
+      contact_kinetic_energy: solved.psi.map((value) => 0.5 * value * value),
+      tangential_elastic_energy: solved.stored,
+      frictional_work: solved.dissipated,
+      shear_loss: solved.shear,
     });
     return {
       carried: null,
-      scene: scene(found, { duration, unit: "d_max/V₁", phases, stick, stage }),
-      history: { share: shares, force: fine(found.force.map((value) => 1.5 * value)), limit: fine(found.limit), unit: "µ F_max", energies },
+      scene: scene(solved, { duration, unit: "d_max/V₁", phases, stick, stage }),
+      history: { share: shares, force: fine(solved.force.map((value) => 1.5 * value)), limit: fine(solved.limit), unit: "µ F_max", energies },
       curve: curve(psi, out, chi, restitution),
       results: rows(numbers),
       findings: [],
@@ -99,41 +99,41 @@ Carom.answer = (() => {
   }
 
   // The bodies in the course of time, in SI units.
-  function columns(found, pair, { speed, before, velocity, scales, rubs, psi }) {
+  function columns(solved, pair, { speed, before, velocity, scales, rubs, psi }) {
     const impulse = pair.tangentialMass * scales.tangentialSpeed;
     const drift = rubs ? 0 : velocity;
     const first = rubs ? psi : 0;
-    const now = Array.from(found.psi, (value) => Carom.pair.after(pair, before, impulse * (first - value)));
+    const now = Array.from(solved.psi, (value) => Carom.pair.after(pair, before, impulse * (first - value)));
     const energy = impulse * scales.tangentialSpeed;
     const of = (column, scale) => Array.from(column, (value) => value * scale);
     return {
       along: now.map(([value]) => value),
       spins: [1, 2].map((i) => now.map((each) => each[i])),
-      speed: of(found.speed, speed),
-      penetration: of(found.depth, scales.length),
+      speed: of(solved.speed, speed),
+      penetration: of(solved.depth, scales.length),
       energies: {
-        normal_kinetic_energy: Array.from(found.speed, (value) => value * value * scales.energy),
+        normal_kinetic_energy: Array.from(solved.speed, (value) => value * value * scales.energy),
         tangential_kinetic_energy: now.map(([value]) => 0.5 * pair.normalMass * value ** 2),
         spin_kinetic_energy: now.map(([, ...spins]) => Carom.pair.spinEnergy(pair, spins)),
-        normal_elastic_energy: of(found.normalStored, scales.energy),
-        tangential_elastic_energy: of(found.stored, energy),
-        frictional_work: of(found.dissipated, energy),
-        normal_loss: of(found.normalLost, scales.energy),
-        shear_loss: of(found.shear, energy),
+        normal_elastic_energy: of(solved.normalStored, scales.energy),
+        tangential_elastic_energy: of(solved.stored, energy),
+        frictional_work: of(solved.dissipated, energy),
+        normal_loss: of(solved.normalLost, scales.energy),
+        shear_loss: of(solved.shear, energy),
       },
     };
   }
 
-  function numbersOf(found, pair, view, { speed, before, velocity, scales, psi, rubs }) {
+  function numbersOf(solved, pair, view, { speed, before, velocity, scales, psi, rubs }) {
     const last = Carom.law.TIMES;
     const e = view.restitution;
-    const after = rubs ? found.out * scales.tangentialSpeed : velocity;
+    const after = rubs ? solved.out * scales.tangentialSpeed : velocity;
     const [along, spin] = Carom.pair.after(pair, before, pair.tangentialMass * (velocity - after));
     const unit = pair.tangentialMass * scales.tangentialSpeed ** 2;
-    const sheared = found.shear[last] * unit;
+    const sheared = solved.shear[last] * unit;
     return {
       psi_in: psi,
-      psi_out: rubs ? found.out : psi,
+      psi_out: rubs ? solved.out : psi,
       chi: pair.chi,
       kappa: pair.kappa,
       rebound_angle: Math.atan2(along, e * speed),
@@ -142,9 +142,9 @@ Carom.answer = (() => {
       contact_restitution: velocity === 0 ? NaN : after / velocity,
       tangential_restitution: before[0] === 0 ? NaN : along / before[0],
       dissipated_energy: 0.5 * pair.tangentialMass * (velocity - after) * (velocity + after) - sheared,
-      duration: found.duration * scales.time,
+      duration: solved.duration * scales.time,
       max_force: Carom.tables.losses[e].max_force * scales.force,
-      max_radius: found.radius * scales.radius,
+      max_radius: solved.radius * scales.radius,
       normal_restitution: e,
       lost_energy: scales.energy * (1 - e * e),
       shear_lost_energy: sheared,
@@ -155,16 +155,16 @@ Carom.answer = (() => {
     const ratio = scales.radius / pair.radius;
     const small = ratio <= SMALL_CONTACT;
     const verdict = small ? "the contact is small compared with the bodies" : `the contact is too large for Hertz's theory, which needs ${SMALL_CONTACT} at most`;
-    const told = `a_max/R* = ${Carom.quantities.plain(ratio, 3)}: ${verdict}`;
+    const text = `a_max/R* = ${Carom.quantities.plain(ratio, 3)}: ${verdict}`;
     const rest = "whether a body yields, waves matter or unlike materials couple: the installed program judges that";
-    return [{ mark: small ? "ok" : "FAILS", text: told }, { mark: "?", text: rest }];
+    return [{ mark: small ? "ok" : "FAILS", text }, { mark: "?", text: rest }];
   }
 
   function ofBodies(view, pair) {
     const met = approach(view, pair);
-    const found = Carom.law.solve(met.rubs ? met.psi : 0, pair.chi, view.restitution);
-    const numbers = numbersOf(found, pair, view, met);
-    const moving = columns(found, pair, met);
+    const solved = Carom.law.solve(met.rubs ? met.psi : 0, pair.chi, view.restitution);
+    const numbers = numbersOf(solved, pair, view, met);
+    const moving = columns(solved, pair, met);
     const [seconds, unit] = Carom.quantities.prefixed(numbers.duration, "s");
     const [newtons, forceUnit] = Carom.quantities.prefixed(pair.friction * numbers.max_force || numbers.max_force, "N");
     const force = pair.friction * met.scales.force * newtons;
@@ -172,18 +172,18 @@ Carom.answer = (() => {
     const shown = {
       duration: numbers.duration * seconds,
       unit,
-      phases: met.rubs ? found.phases : free,
-      stick: met.rubs ? found.stick : found.stick.map(() => 0),
+      phases: met.rubs ? solved.phases : free,
+      stick: met.rubs ? solved.stick : solved.stick.map(() => 0),
       stage: Carom.paths.ofBodies(pair, { ...moving, duration: numbers.duration }),
     };
     const digits = (value) => Number(value.toPrecision(CARRIED));
     return {
       carried: met.rubs ? { psi: digits(met.psi), chi: digits(pair.chi) } : null,
-      scene: scene(found, shown),
+      scene: scene(solved, shown),
       history: {
         share: shares,
-        force: fine(found.force.map((value) => 1.5 * force * value)),
-        limit: fine(found.limit.map((value) => force * value)),
+        force: fine(solved.force.map((value) => 1.5 * force * value)),
+        limit: fine(solved.limit.map((value) => force * value)),
         unit: forceUnit,
         energies: parts(moving.energies),
       },

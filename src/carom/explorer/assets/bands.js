@@ -77,11 +77,11 @@ Carom.bands = (() => {
     const seen = Carom.plotting.frame(box);
     if (!seen || !box.carom.shaded) return;
     const { names, shaded } = box.carom;
-    const found = at === null ? null : shaded.find(({ start, end }) => at >= start && at <= end);
-    const [from, to] = found ? [found.start, found.end].map(seen.pixel) : [0, 0];
-    const visible = found && to > 0 && from < seen.width;
-    const hidden = visible && !fitted(found.name, Math.min(to, seen.width) - Math.max(from, 0) - GAP);
-    const name = hidden ? found.name : null;
+    const band = at === null ? null : shaded.find(({ start, end }) => at >= start && at <= end);
+    const [from, to] = band ? [band.start, band.end].map(seen.pixel) : [0, 0];
+    const visible = band && to > 0 && from < seen.width;
+    const hidden = visible && !fitted(band.name, Math.min(to, seen.width) - Math.max(from, 0) - GAP);
+    const name = hidden ? band.name : null;
     if (name === box.carom.named) return;
     box.carom.named = name;
     names.querySelector(".carom-pointed")?.remove();
@@ -111,13 +111,13 @@ Carom.bands = (() => {
   const LOOKS = ["stick", "slip-plus", "gross-plus", "only"]; // from zero on
   function regimes(borders, low, high) {
     const ends = [0, ...borders, Infinity];
-    const found = LOOKS.flatMap((look, row) => {
+    const bands = LOOKS.flatMap((look, row) => {
       const [from, to] = [ends[row], ends[row + 1]];
       const sides = row ? [[-to, -from], [from, to]] : [[-to, to]]; // stick is one band
       const { name } = Carom.config.regimes[row];
       return sides.map(([start, end]) => ({ name, look, start: Math.max(start, low), end: Math.min(end, high) }));
     });
-    return found.filter(({ start, end }) => end > start).sort((a, b) => a.start - b.start);
+    return bands.filter(({ start, end }) => end > start).sort((a, b) => a.start - b.start);
   }
 
   // A phase of the contact; its sign stays on the line of its last word.

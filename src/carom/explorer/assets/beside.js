@@ -26,8 +26,8 @@ Carom.beside = (() => {
     const mine = query;
     if (!mine || answer) return answer;
     try {
-      const found = await Carom.source.answer(mine.toString());
-      if (mine === query) answer = found; // it may be another by now
+      const latest = await Carom.source.answer(mine.toString());
+      if (mine === query) answer = latest; // it may be another by now
     } catch (refusal) {
       if (mine === query) put(null);
       throw { field: refusal.field, message: refusal.message, beside: true };
@@ -43,10 +43,10 @@ Carom.beside = (() => {
       heard();
     });
     box("swap").addEventListener("click", () => {
-      const [other, told] = [query, example];
+      const [other, story] = [query, example];
       const laws = Carom.laws.chosen();
       put(Carom.fields.query(), Carom.presets.chosen());
-      Carom.presets.choose(told);
+      Carom.presets.choose(story);
       Carom.fields.set(other);
       Carom.laws.choose(laws);
       heard();

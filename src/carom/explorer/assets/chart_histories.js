@@ -73,8 +73,8 @@ Carom.histories = (() => {
   function forceKeys(second) {
     const { line } = Carom.keys;
     return [
-      { sample: line({ color: color("ink"), width: 2.6 }), text: "F<sub>x</sub>", told: true },
-      { sample: line({ color: color("limit"), dash: "5,3", width: 1.3 }), text: "±µ F<sub>z</sub>", told: true },
+      { sample: line({ color: color("ink"), width: 2.6 }), text: "F<sub>x</sub>", follows: true },
+      { sample: line({ color: color("limit"), dash: "5,3", width: 1.3 }), text: "±µ F<sub>z</sub>", follows: true },
       ...(second ? [besideKey()] : []),
     ];
   }
@@ -131,7 +131,7 @@ Carom.histories = (() => {
 
   function energies([first, second]) {
     const { energies: names } = Carom.config;
-    const keys = shown(first).map((key) => ({ sample: Carom.keys.area(look(key)), text: names[key], told: true }));
+    const keys = shown(first).map((key) => ({ sample: Carom.keys.area(look(key)), text: names[key], follows: true }));
     return {
       traces: energyTraces([first, second]),
       x: time(first, second),

@@ -30,15 +30,15 @@ Carom.rebounds = (() => {
 
   // What the laws give for this impact, all in one trace.
   function pointsOfLaws(laws, psi) {
-    const found = laws.filter(({ at }) => at !== null);
+    const solved = laws.filter(({ at }) => at !== null);
     return {
       type: "scatter",
       mode: "markers",
       name: "contact laws",
-      x: found.map(() => psi),
-      y: found.map(({ at }) => at),
-      text: found.map(({ label }) => label),
-      marker: { symbol: "x", size: 7, color: found.map(({ label }) => Carom.laws.style(label).color) },
+      x: solved.map(() => psi),
+      y: solved.map(({ at }) => at),
+      text: solved.map(({ label }) => label),
+      marker: { symbol: "x", size: 7, color: solved.map(({ label }) => Carom.laws.style(label).color) },
       hovertemplate: `%{text}${PLACE}`,
     };
   }
@@ -61,11 +61,11 @@ Carom.rebounds = (() => {
   function keys([first, second]) {
     const { line, marker } = Carom.keys;
     const ink = color("ink");
-    const found = [{ sample: line({ color: ink, width: 2.6 }), text: "exact" }];
-    if (first.curve.at) found.push({ sample: marker({ color: ink }), text: "this impact" });
-    if (!second) return found;
+    const entries = [{ sample: line({ color: ink, width: 2.6 }), text: "exact" }];
+    if (first.curve.at) entries.push({ sample: marker({ color: ink }), text: "this impact" });
+    if (!second) return entries;
     const point = second.curve.at ? marker({ color: ink, fill: color("panel") }) : "";
-    return [...found, { sample: line({ ...BESIDE, color: color("beside") }) + point, text: "beside" }];
+    return [...entries, { sample: line({ ...BESIDE, color: color("beside") }) + point, text: "beside" }];
   }
 
   function chart(answers) {

@@ -16,8 +16,8 @@ Carom.charts = (() => {
   const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
 
   // Draw answers once plotly is there: [this impact, the one beside or null].
-  async function show(given) {
-    answers = given;
+  async function show(latest) {
+    answers = latest;
     const mine = (turn += 1);
     await Carom.plotting.load();
     for (const name of Object.keys(CHARTS)) {

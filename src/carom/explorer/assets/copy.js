@@ -21,8 +21,8 @@ Carom.source = (() => {
   function word(name, text) {
     const { least, most, unit, choices } = fields[name];
     if (least === null) {
-      const known = (choices || []).map(([value]) => String(value));
-      if (choices && !known.includes(text)) refuse(name, `there is no '${text.slice(0, LONGEST)}'; there are ${known.join("; ")}`);
+      const words = (choices || []).map(([value]) => String(value));
+      if (choices && !words.includes(text)) refuse(name, `there is no '${text.slice(0, LONGEST)}'; there are ${words.join("; ")}`);
       return text;
     }
     const allowed = `must be a number from ${least} to ${most}${unit && ` ${unit}`}`;
@@ -41,12 +41,12 @@ Carom.source = (() => {
   // The view of a query: a value for every field.
   function viewOf(query) {
     if (query.length > LONGEST_LINK) refuse("", `the link has ${query.length} characters; at most ${LONGEST_LINK} are read`);
-    const given = new URLSearchParams(query);
-    for (const name of given.keys()) {
+    const words = new URLSearchParams(query);
+    for (const name of words.keys()) {
       if (!(name in fields || OWN.includes(name))) refuse("", `the link says '${name.slice(0, LONGEST)}', which is unknown; leave it out`);
     }
-    given.getAll("law").forEach((label) => label && word("law", label));
-    const of = (name) => given.getAll(name).at(-1) ?? String(fields[name].default);
+    words.getAll("law").forEach((label) => label && word("law", label));
+    const of = (name) => words.getAll(name).at(-1) ?? String(fields[name].default);
     const view = {};
     for (const name of Object.keys(fields)) {
       if (name === "law" || name === "data") continue;
@@ -63,20 +63,20 @@ Carom.source = (() => {
 
   function covered({ restitution, given, chi, friction }) {
     if (given === "numbers" && !friction) refuse("friction", "must be above 0: without friction there is no ψ₁");
-    const known = Object.keys(Carom.tables.losses).map(Number).sort((a, b) => b - a);
-    if (!known.includes(restitution)) refuse("restitution", `this copy has ${known.join(", ")} only. ${MORE}`);
+    const tabulated = Object.keys(Carom.tables.losses).map(Number).sort((a, b) => b - a);
+    if (!tabulated.includes(restitution)) refuse("restitution", `this copy has ${tabulated.join(", ")} only. ${MORE}`);
     const [least, most] = Carom.tables.chi;
     if (given === "numbers" && !(chi >= least && chi <= most)) refuse("chi", `this copy has ${least} to ${most} only. ${MORE}`);
   }
 
   // The query of what differs from the page as it opens.
   function canonical(view, query) {
-    const found = new URLSearchParams();
+    const words = new URLSearchParams();
     for (const [name, value] of Object.entries(view)) {
-      if (String(value) !== String(fields[name].default)) found.set(name, value);
+      if (String(value) !== String(fields[name].default)) words.set(name, value);
     }
-    new URLSearchParams(query).getAll("law").forEach((label) => label && found.append("law", label));
-    return found.toString();
+    new URLSearchParams(query).getAll("law").forEach((label) => label && words.append("law", label));
+    return words.toString();
   }
 
   function materialOf(view, which) {

@@ -9,8 +9,8 @@ Carom.cursor = (() => {
   const whole = ([first, second]) => (second ? 1 : first.scene.duration);
 
   function lineOf({ plot }) {
-    const found = plot.querySelector(":scope > .carom-cursor");
-    if (found) return found;
+    const drawn = plot.querySelector(":scope > .carom-cursor");
+    if (drawn) return drawn;
     const line = document.createElement("div");
     line.className = "carom-cursor";
     line.setAttribute("aria-hidden", "true");

@@ -3,9 +3,9 @@ window.Carom = window.Carom || {};
 
 Carom.elements = (() => {
   // An element with these properties, or with this class, and what it holds.
-  function make(tag, given = {}, ...children) {
+  function make(tag, properties = {}, ...children) {
     const element = document.createElement(tag);
-    Object.assign(element, typeof given === "string" ? { className: given } : given);
+    Object.assign(element, typeof properties === "string" ? { className: properties } : properties);
     element.append(...children);
     return element;
   }

@@ -3,7 +3,7 @@ window.Carom = window.Carom || {};
 
 Carom.fields = (() => {
   const { make } = Carom.elements;
-  const { fields: known } = Carom.config;
+  const { fields: described } = Carom.config;
   const OF_MATERIAL = ["young", "poisson", "density"];
   const material = (which) => [`${which}material`, ...OF_MATERIAL.map((name) => which + name)];
   const GROUPS = {
@@ -17,15 +17,15 @@ Carom.fields = (() => {
   const box = (name) => document.getElementById(name);
 
   function labelOf(name) {
-    const { label, symbol } = known[name];
-    const found = make("label", { htmlFor: name }, label);
-    if (symbol) found.append(" ", Carom.tips.symbol(symbol));
-    if (known[name].hint) found.title = known[name].hint;
-    return found;
+    const { label, symbol } = described[name];
+    const element = make("label", { htmlFor: name }, label);
+    if (symbol) element.append(" ", Carom.tips.symbol(symbol));
+    if (described[name].hint) element.title = described[name].hint;
+    return element;
   }
 
   function number(name) {
-    const { slider, label, unit } = known[name];
+    const { slider, label, unit } = described[name];
     // of type "number" a browser drops what it does not know, and 1,5 becomes 15
     const typed = make("input", { id: name, type: "text", autocomplete: "off" });
     const parts = [labelOf(name), typed, make("span", { className: "carom-unit", textContent: unit })];
@@ -39,7 +39,7 @@ Carom.fields = (() => {
   }
 
   function choice(name) {
-    const options = known[name].choices.map((each) => {
+    const options = described[name].choices.map((each) => {
       const [value, text] = Array.isArray(each) ? each : [each, each];
       return make("option", { value, textContent: text });
     });
@@ -48,9 +48,9 @@ Carom.fields = (() => {
 
   function build() {
     for (const [group, names] of Object.entries(GROUPS)) {
-      const parts = names.filter((name) => known[name]).map((name) => {
+      const parts = names.filter((name) => described[name]).map((name) => {
         const wrong = make("p", { id: `${name}-wrong`, className: "carom-wrong", hidden: true });
-        const control = known[name].choices ? choice(name) : number(name);
+        const control = described[name].choices ? choice(name) : number(name);
         return make("div", { id: `${name}-field`, className: "carom-field" }, ...control, wrong);
       });
       box("fields").append(make("div", { id: `${group}-fields`, className: "carom-group" }, ...parts));
@@ -75,7 +75,7 @@ Carom.fields = (() => {
   }
 
   // Whether a field matters, where the others have these words.
-  const counts = (name, word) => Object.entries(known[name].needs).every(([other, words]) => words.includes(word(other)));
+  const counts = (name, word) => Object.entries(described[name].needs).every(([other, words]) => words.includes(word(other)));
 
   // What is not given, or not there, is not asked for.
   function hide() {
@@ -83,7 +83,7 @@ Carom.fields = (() => {
     for (const group of ["numbers", "bodies"]) box(`${group}-fields`).hidden = value("given") !== group;
   }
 
-  const names = () => Object.values(GROUPS).flat().filter((name) => known[name]);
+  const names = () => Object.values(GROUPS).flat().filter((name) => described[name]);
   const value = (name) => box(name).value;
 
   function put(name, text) {
@@ -93,50 +93,50 @@ Carom.fields = (() => {
 
   // Set a field to what it is as the page opens; tell whether that changed it.
   function reset(name) {
-    const first = names().includes(name) ? String(known[name].default) : null;
+    const first = names().includes(name) ? String(described[name].default) : null;
     if (first === null || value(name) === first) return false;
     put(name, first);
     return true;
   }
 
   // A number as it was typed, with the unit of its field unless it has its own.
-  const withUnit = (name, text) => (PLAIN.test(text.trim()) ? `${text} ${known[name].unit}` : text).trim();
+  const withUnit = (name, text) => (PLAIN.test(text.trim()) ? `${text} ${described[name].unit}` : text).trim();
 
   // The query of what differs from the page as it opens.
   function query() {
-    const found = new URLSearchParams();
+    const words = new URLSearchParams();
     for (const name of names()) {
-      if (value(name) !== String(known[name].default)) found.set(name, value(name));
+      if (value(name) !== String(described[name].default)) words.set(name, value(name));
     }
-    Carom.laws.chosen().forEach((label) => found.append("law", label));
-    if (Carom.fit.chosen()) found.set("data", Carom.fit.chosen());
-    return found;
+    Carom.laws.chosen().forEach((label) => words.append("law", label));
+    if (Carom.fit.chosen()) words.set("data", Carom.fit.chosen());
+    return words;
   }
 
   // Set all to what a query says; return what of it the page does not know, each in a line.
-  function set(given) {
+  function set(link) {
     const odd = [];
-    for (const name of new Set(given.keys())) {
-      if (!known[name] && !["law", "data"].includes(name)) odd.push(`${name}: no word of a link`);
+    for (const name of new Set(link.keys())) {
+      if (!described[name] && !["law", "data"].includes(name)) odd.push(`${name}: no word of a link`);
     }
     for (const name of names()) {
-      const first = String(known[name].default);
-      const { label, least, choices } = known[name];
-      const same = least === null ? null : choices?.find(([each]) => Number(each) === Number(given.get(name)));
-      put(name, same ? String(same[0]) : (given.get(name) ?? first));
-      if (given.has(name) && !same && value(name) !== given.get(name)) {
+      const first = String(described[name].default);
+      const { label, least, choices } = described[name];
+      const same = least === null ? null : choices?.find(([each]) => Number(each) === Number(link.get(name)));
+      put(name, same ? String(same[0]) : (link.get(name) ?? first));
+      if (link.has(name) && !same && value(name) !== link.get(name)) {
         const held = least === null ? "" : `; this copy has ${choices.map(([each]) => each).join(", ")} only`;
-        odd.push(`${label}: there is no ${given.get(name)}${held}, and ${first} is shown`);
+        odd.push(`${label}: there is no ${link.get(name)}${held}, and ${first} is shown`);
         put(name, first);
       }
     }
-    const laws = given.getAll("law");
+    const laws = link.getAll("law");
     const there = laws.filter((label) => Carom.config.laws.some((law) => law.label === label));
     laws.filter((label) => !there.includes(label)).forEach((label) => odd.push(`Contact law: there is no ${label}`));
     Carom.laws.choose(there);
-    const data = given.get("data") ?? "";
+    const data = link.get("data") ?? "";
     const has = !data || (Carom.source.can.fit && Carom.config.datasets.some(({ name }) => name === data));
-    if (!has) odd.push(`${known.data.label}: ${Carom.source.can.fit ? `there is no ${data}` : "not fitted in this copy"}`);
+    if (!has) odd.push(`${described.data.label}: ${Carom.source.can.fit ? `there is no ${data}` : "not fitted in this copy"}`);
     Carom.fit.choose(has ? data : "");
     Carom.fit.changed();
     hide();
@@ -157,8 +157,8 @@ Carom.fields = (() => {
   }
 
   // The bodies and their motion in words, to tell two impacts apart.
-  function words(given) {
-    const of = (name) => given.get(name) ?? String(known[name].default);
+  function words(link) {
+    const of = (name) => link.get(name) ?? String(described[name].default);
     if (of("given") === "numbers") return `ψ₁ = ${of("psi")}, χ = ${of("chi")}`;
     return `${of("material")} on ${of("second_material")}, ${withUnit("angle", of("angle"))}, µ = ${of("friction")}`;
   }
@@ -172,7 +172,7 @@ Carom.fields = (() => {
     value,
     complain,
     words,
-    label: (name) => (known[name] ? known[name].label : ""),
+    label: (name) => (described[name] ? described[name].label : ""),
     reset,
     withUnit,
     hear: (listener) => heard.push(listener),

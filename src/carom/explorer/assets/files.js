@@ -13,14 +13,14 @@ Carom.files = (() => {
   ];
   const { make } = Carom.elements;
   const place = document.getElementById("files");
-  let told = null;
+  let notice = null;
 
   function anchor(name, text, what) {
     const file = Carom.source.file(name);
-    const found = make("a", { id: name.replace(".", "-"), className: "carom-download carom-button", download: name, href: file }, text);
-    found.dataset.path = file;
-    found.ariaLabel = `${what}, ${text}`;
-    return found;
+    const link = make("a", { id: name.replace(".", "-"), className: "carom-download carom-button", download: name, href: file }, text);
+    link.dataset.path = file;
+    link.ariaLabel = `${what}, ${text}`;
+    return link;
   }
 
   function group([stem, title, words, kinds]) {
@@ -32,20 +32,20 @@ Carom.files = (() => {
   function build() {
     const { can, why } = Carom.source;
     if (!can.files) return place.replaceChildren(make("p", { className: "carom-note" }, why));
-    told = make("p", { id: "files-notice", className: "carom-note", role: "status" });
-    place.replaceChildren(make("ul", { className: "carom-files" }, ...GROUPS.map(group)), told);
+    notice = make("p", { id: "files-notice", className: "carom-note", role: "status" });
+    place.replaceChildren(make("ul", { className: "carom-files" }, ...GROUPS.map(group)), notice);
     place.addEventListener("click", taken);
   }
 
   // A picture takes a second or more, and may be refused: the page says so, and stays.
   async function taken(event) {
-    const found = event.target.closest("a.carom-download");
-    if (!found || event.ctrlKey || event.metaKey || event.shiftKey) return;
+    const link = event.target.closest("a.carom-download");
+    if (!link || event.ctrlKey || event.metaKey || event.shiftKey) return;
     event.preventDefault();
-    tell(`Writing ${found.download} …`);
+    tell(`Writing ${link.download} …`);
     try {
-      save(await Carom.source.written(found.href), found.download);
-      tell(`${found.download} is written.`);
+      save(await Carom.source.written(link.href), link.download);
+      tell(`${link.download} is written.`);
     } catch (error) {
       tell(error.message, true);
     }
@@ -58,8 +58,8 @@ Carom.files = (() => {
   }
 
   function tell(text, wrong = false) {
-    told.textContent = text;
-    told.classList.toggle("carom-wrong", wrong);
+    notice.textContent = text;
+    notice.classList.toggle("carom-wrong", wrong);
   }
 
   return { build };

@@ -31,12 +31,12 @@ Carom.fit = (() => {
     const template = make("a", { id: "template", className: "carom-button", download: "template.csv", href: Carom.source.file("template.csv") }, "Empty table to fill in");
     parts.progress = make("p", { id: "fit-progress", role: "status" });
     parts.notice = make("p", { id: "fit-notice", className: "carom-notice", role: "alert" });
-    parts.told = make("div", { id: "fit-ask", hidden: true });
+    parts.question = make("div", { id: "fit-ask", hidden: true });
     parts.fit = make("div", { id: "fit" });
     const label = make("label", { htmlFor: "data" }, "Published measurements");
     const words = make("p", { className: "carom-note" }, "Friction, stiffness ratio and restitution from a table of measured rebounds, one impact a row.");
     const row = make("div", { className: "carom-fit-source" }, label, parts.data, make("span", { className: "carom-note" }, "or your own"), parts.drop, template, parts.progress);
-    panel.replaceChildren(words, row, parts.notice, parts.told, parts.fit);
+    panel.replaceChildren(words, row, parts.notice, parts.question, parts.fit);
     listen();
   }
 
@@ -59,20 +59,20 @@ Carom.fit = (() => {
     new ResizeObserver(draw).observe(parts.fit);
   }
 
-  async function take(given) {
-    if (!given) return;
-    if (given.size > LARGEST) {
+  async function take(chosen) {
+    if (!chosen) return;
+    if (chosen.size > LARGEST) {
       clear();
-      return complain({ message: `${given.name} has ${given.size} bytes; it must have at most ${LARGEST}. Leave out what is not needed.` });
+      return complain({ message: `${chosen.name} has ${chosen.size} bytes; it must have at most ${LARGEST}. Leave out what is not needed.` });
     }
     const contents = await new Promise((done, fail) => {
       const reader = new FileReader();
       reader.onload = () => done(reader.result);
       reader.onerror = () => fail(reader.error);
-      reader.readAsDataURL(given);
+      reader.readAsDataURL(chosen);
     }).catch(() => null);
-    if (contents === null) return complain({ message: `${given.name} could not be read; choose it again.` });
-    file = { name: given.name, contents };
+    if (contents === null) return complain({ message: `${chosen.name} could not be read; choose it again.` });
+    file = { name: chosen.name, contents };
     if (parts.data.value) {
       parts.data.value = "";
       parts.data.dispatchEvent(new Event("change", { bubbles: true })); // the link forgets the data set
@@ -84,9 +84,9 @@ Carom.fit = (() => {
   function bodies() {
     if (Carom.fields.value("given") === "numbers") return null;
     const now = Carom.fields.query();
-    const found = new URLSearchParams({ given: "bodies" });
-    BODIES.filter((name) => now.has(name)).forEach((name) => found.set(name, now.get(name)));
-    return found.toString();
+    const link = new URLSearchParams({ given: "bodies" });
+    BODIES.filter((name) => now.has(name)).forEach((name) => link.set(name, now.get(name)));
+    return link.toString();
   }
 
   function inWords() {
@@ -109,10 +109,10 @@ Carom.fit = (() => {
     const mine = asking;
     progress();
     try {
-      const found = await Carom.source.fit(request, mine.signal);
+      const answer = await Carom.source.fit(request, mine.signal);
       if (mine !== asking) return;
-      if (found.asks) askBodies(found);
-      else show(found, name ? null : said);
+      if (answer.asks) askBodies(answer);
+      else show(answer, name ? null : said);
     } catch (error) {
       if (mine === asking && error.name !== "AbortError") complain(error);
     } finally {
@@ -126,7 +126,7 @@ Carom.fit = (() => {
     rest();
     shown = used = null;
     parts.notice.textContent = "";
-    parts.told.hidden = true;
+    parts.question.hidden = true;
     parts.fit.replaceChildren();
   }
 
@@ -158,41 +158,41 @@ Carom.fit = (() => {
     const other = make("p", { className: "carom-note" }, own
       ? "Or choose others in the controls first, or write them into the file as the empty table shows."
       : "Choose bodies in the controls first, instead of ψ₁ and χ, or write them into the file as the empty table shows.");
-    parts.told.replaceChildren(make("p", {}, message), ...(own ? [use] : []), other, Carom.fitTables.columns(columns));
-    parts.told.hidden = false;
-    parts.told.waits = true;
+    parts.question.replaceChildren(make("p", {}, message), ...(own ? [use] : []), other, Carom.fitTables.columns(columns));
+    parts.question.hidden = false;
+    parts.question.waits = true;
   }
 
   // A fit stays as it is when the bodies change, until the reader wants another.
   function changed() {
-    if (!parts.told) return; // not built, or of a copy without fits
-    if (!parts.told.hidden && parts.told.waits) return rewrite();
+    if (!parts.question) return; // not built, or of a copy without fits
+    if (!parts.question.hidden && parts.question.waits) return rewrite();
     const now = bodies();
     const differs = used !== null && now !== null && now !== used;
-    parts.told.hidden = !differs;
+    parts.question.hidden = !differs;
     if (!differs || document.getElementById("fit-again")) return;
     const again = make("button", { id: "fit-again", type: "button" }, "Fit again");
     again.addEventListener("click", () => ask(bodies()));
-    parts.told.replaceChildren(make("p", {}, "The bodies have changed: "), again);
-    parts.told.waits = false;
+    parts.question.replaceChildren(make("p", {}, "The bodies have changed: "), again);
+    parts.question.waits = false;
   }
 
   function rewrite() {
-    const columns = parts.told.querySelector("table");
-    const message = parts.told.querySelector("p").textContent;
+    const columns = parts.question.querySelector("table");
+    const message = parts.question.querySelector("p").textContent;
     askBodies({ message, columns: [] });
-    parts.told.querySelector("table").replaceWith(columns);
+    parts.question.querySelector("table").replaceWith(columns);
   }
 
-  function show(found, said) {
-    shown = found;
-    used = found.bodies.from === "page" ? said : null;
+  function show(fit, said) {
+    shown = fit;
+    used = fit.bodies.from === "page" ? said : null;
     const words = (name, children) => make("div", { className: `carom-fit-words ${name}` }, ...children);
     parts.keys = make("div", { className: "carom-keys" });
     const key = make("div", { className: "carom-fit-key" }, parts.keys, residualChoice());
-    const charts = make("div", { className: "carom-fit-right" }, key, make("div", { className: "carom-fit-charts" }, ...found.charts.map(cell)));
-    const view = [words("carom-beside", Carom.fitTables.beside(found)), charts, words("carom-below", Carom.fitTables.below(found))];
-    parts.fit.replaceChildren(Carom.fitTables.head(found), make("div", { className: "carom-fit-view" }, ...view));
+    const charts = make("div", { className: "carom-fit-right" }, key, make("div", { className: "carom-fit-charts" }, ...fit.charts.map(cell)));
+    const view = [words("carom-beside", Carom.fitTables.beside(fit)), charts, words("carom-below", Carom.fitTables.below(fit))];
+    parts.fit.replaceChildren(Carom.fitTables.head(fit), make("div", { className: "carom-fit-view" }, ...view));
     draw();
   }
 

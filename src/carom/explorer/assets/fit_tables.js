@@ -12,40 +12,40 @@ Carom.fitTables = (() => {
   }
 
   // A unit stands after the interval, what is to be said of a parameter below its name.
-  function parameters({ parameters: given, confidence }) {
-    const rows = given.map(({ symbol: sign, meaning, value, interval, unit, note }) => {
-      const told = make("span", { className: "carom-note" }, note);
-      const named = make("div", {}, meaning, ...(note ? [make("br"), told] : []));
+  function parameters({ parameters: estimates, confidence }) {
+    const rows = estimates.map(({ symbol: sign, meaning, value, interval, unit, note }) => {
+      const below = make("span", { className: "carom-note" }, note);
+      const named = make("div", {}, meaning, ...(note ? [make("br"), below] : []));
       return [Carom.tips.symbol(sign), named, value, [interval, unit].filter(Boolean).join(" ")];
     });
-    const found = table("Parameters", ["", "", "value", `${confidence} interval`], rows);
-    found.classList.add("carom-parameters");
-    return found;
+    const made = table("Parameters", ["", "", "value", `${confidence} interval`], rows);
+    made.classList.add("carom-parameters");
+    return made;
   }
 
-  function laws({ laws: given, verdict }) {
-    if (!given.length) return [];
-    const rows = given.map(({ law, excess, weight, parameters: words }) => {
-      const told = make("span", { className: "carom-note", innerHTML: Carom.plotting.lowered(words) });
-      return [make("div", {}, law, make("br"), told), excess, weight];
+  function laws({ laws: compared, verdict }) {
+    if (!compared.length) return [];
+    const rows = compared.map(({ law, excess, weight, parameters: words }) => {
+      const below = make("span", { className: "carom-note", innerHTML: Carom.plotting.lowered(words) });
+      return [make("div", {}, law, make("br"), below), excess, weight];
     });
     const heads = ["law", "AICc excess", "weight"];
-    const found = table("Laws compared on these data", heads, rows);
-    found.classList.add("carom-compared");
-    return [found, make("p", {}, sentence(verdict))];
+    const made = table("Laws compared on these data", heads, rows);
+    made.classList.add("carom-compared");
+    return [made, make("p", {}, sentence(verdict))];
   }
 
   const sentence = (text) => (text ? `${text[0].toUpperCase()}${text.slice(1)}.` : "");
 
-  function notes({ notes: given, regimes }) {
-    const lines = [...given];
+  function notes({ notes: words, regimes }) {
+    const lines = [...words];
     if (regimes.length) lines.push(`rows by regime: ${regimes.map(({ name, rows }) => `${rows} ${name}`).join("; ")}`);
     if (!lines.length) return [];
     return [make("h3", {}, "Notes"), make("ul", { className: "carom-notes" }, ...lines.map((line) => make("li", {}, line)))];
   }
 
-  function columns(given) {
-    const rows = given.map(({ head, kind, meaning, unit }) => [make("code", {}, head), kind, meaning, unit]);
+  function columns(taken) {
+    const rows = taken.map(({ head, kind, meaning, unit }) => [make("code", {}, head), kind, meaning, unit]);
     return table("What the columns were taken for", ["column", "", "taken for", "unit"], rows);
   }
 
@@ -67,8 +67,8 @@ Carom.fitTables = (() => {
 
   function below(fit) {
     const words = make("pre", { className: "carom-code", tabIndex: 0 }, fit.words);
-    const told = make("div", {}, ...notes(fit), fold("As text, for a report", false, words));
-    return [make("div", {}, columns(fit.columns)), told];
+    const notesAndText = make("div", {}, ...notes(fit), fold("As text, for a report", false, words));
+    return [make("div", {}, columns(fit.columns)), notesAndText];
   }
 
   return { head, beside, below, columns };

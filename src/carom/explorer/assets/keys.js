@@ -16,10 +16,10 @@ Carom.keys = (() => {
 
   const area = (look) => `<span class="carom-area carom-${look}" aria-hidden="true"></span>`;
 
-  // Show entries {sample, text (HTML), told: whether its value follows}.
+  // Show entries {sample, text (HTML), follows: whether its value does}.
   function show(box, entries) {
-    const written = entries.map(({ sample, text, told }) => {
-      return `<span class="carom-entry">${sample}<span>${text}</span>${told ? "<output></output>" : ""}</span>`;
+    const written = entries.map(({ sample, text, follows }) => {
+      return `<span class="carom-entry">${sample}<span>${text}</span>${follows ? "<output></output>" : ""}</span>`;
     }).join("");
     if (box.carom !== written) box.innerHTML = box.carom = written;
   }

@@ -24,7 +24,7 @@ Carom.law = (() => {
     const every = normal.even.length - 1;
     const kept = new Map(normal.even.map((step, i) => [step, i]));
     const [perTime, perTraction] = [every / TIMES, every / (viscous ? INSTANTS.viscous : INSTANTS.elastic)];
-    const found = { ...rows(TIMES + 1), tractions: [], states: [] };
+    const course = { ...rows(TIMES + 1), tractions: [], states: [] };
     const springs = Carom.springs.create(viscous);
     let [now, force, lost, rubbed] = [psi, 0, 0, 0];
 
@@ -33,12 +33,12 @@ Carom.law = (() => {
     function keep(i, state) {
       const row = kept.get(i);
       if (row === undefined) return;
-      if (row % perTime === 0) write(found, row / perTime, i, state);
+      if (row % perTime === 0) write(course, row / perTime, i, state);
       if (row % perTraction) return;
       const touches = i > 0 && i < time.length - 1;
       const loads = springs.loads(depth[i], tension(now));
       const traction = (part) => Carom.springs.traction(loads, part * Math.sqrt(edge[i]), edge[i]);
-      found.tractions.push(line.map((part) => (touches ? traction(part) : 0)));
+      course.tractions.push(line.map((part) => (touches ? traction(part) : 0)));
     }
 
     function write(into, row, i, { kind, front }) {
@@ -57,7 +57,7 @@ Carom.law = (() => {
     }
 
     let state = slidesAtFirst(psi, chi) ? { kind: "gross slip", sign: 1, front: 0, first: 0 } : { kind: "stick", sign: 0, front: Infinity, first: 0 };
-    found.states.push({ ...state, excess: psi - 1 });
+    course.states.push({ ...state, excess: psi - 1 });
     keep(0, state);
     for (let i = 1; i < time.length; i++) {
       const dt = time[i] - time[i - 1];
@@ -74,26 +74,26 @@ Carom.law = (() => {
         rubbed = rubs;
       }
       state = springs.state(depth[i], tension(now), speed[i] > 0);
-      found.states.push({ ...state, excess: Math.abs(now) - speed[i] });
+      course.states.push({ ...state, excess: Math.abs(now) - speed[i] });
       keep(i, state);
     }
-    found.reached = now;
-    return found;
+    course.reached = now;
+    return course;
   }
 
   const slidesAtFirst = (psi, chi) => psi > 1 || (psi === 1 && chi < 0.5);
 
   // When the contact changes what it does, between two steps.
   function phases(states, time) {
-    const found = [];
+    const spans = [];
     states.forEach(({ kind, sign }, i) => {
-      const last = found[found.length - 1];
+      const last = spans[spans.length - 1];
       if (last && last.kind === kind && last.sign === sign) return;
       const start = i ? time[i - 1] + part(states[i - 1], states[i]) * (time[i] - time[i - 1]) : 0;
       if (last) last.end = start;
-      found.push({ kind, sign, start, end: time[time.length - 1] });
+      spans.push({ kind, sign, start, end: time[time.length - 1] });
     });
-    return found;
+    return spans;
   }
 
   function part(before, after) {
@@ -108,44 +108,44 @@ Carom.law = (() => {
     const size = Math.abs(psi);
     const normal = Carom.normal.of(alpha, alpha > 0 && size < THIN.below ? THIN.steps : STEPS);
     const { smallest } = Carom.tables.rebounds[restitution]; // |psi_1| below which all is proportional to it
-    const given = Math.max(size, smallest);
-    const found = followed(given, chi, normal);
+    const solvedFor = Math.max(size, smallest);
+    const course = followed(solvedFor, chi, normal);
     const scale = (psi < 0 ? -1 : 1) * Math.min(1, size / smallest);
     const sticks = size === 0 || (Math.abs(chi - 0.5) < RETRACES && size <= 1);
-    const told = sticks ? [{ kind: "stick", sign: 0, start: 0, end: normal.duration }] : phases(found.states, normal.time);
+    const spans = sticks ? [{ kind: "stick", sign: 0, start: 0, end: normal.duration }] : phases(course.states, normal.time);
     const out = Carom.rebound.of(psi, chi, restitution);
-    settle(found, given, chi, normal, Math.abs(out) <= size ? out : null, scale);
-    if (sticks) found.stick.set(found.contact);
+    settle(course, solvedFor, chi, normal, Math.abs(out) <= size ? out : null, scale);
+    if (sticks) course.stick.set(course.contact);
     return {
       psi, chi, restitution, out,
       normal,
       duration: normal.duration,
       radius: normal.radius,
-      phases: told.map((phase) => ({
+      phases: spans.map((phase) => ({
         kind: phase.kind,
         sign: phase.sign * (psi < 0 ? -1 : 1),
         start: phase.start / normal.duration,
         end: phase.end / normal.duration,
       })),
-      ...found,
+      ...course,
     };
   }
 
   // Scale an impact to its psi_1, and let it end where the table says.
-  function settle(found, psi, chi, normal, out, scale) {
-    const off = out === null || !scale ? 0 : out / scale - found.reached;
+  function settle(course, psi, chi, normal, out, scale) {
+    const off = out === null || !scale ? 0 : out / scale - course.reached;
     const energy = scale * scale;
     for (let row = 0; row <= TIMES; row++) {
-      const now = found.psi[row] + (off * row) / TIMES;
-      const spent = Math.max(0, 0.5 * (psi - now) * (psi + now) - found.stored[row]);
-      const rubbed = normal.alpha > 0 ? Math.min(found.dissipated[row], spent) : spent;
-      found.psi[row] = scale * now;
-      found.force[row] *= scale;
-      found.stored[row] *= energy;
-      found.dissipated[row] = energy * rubbed;
-      found.shear[row] = energy * (spent - rubbed);
+      const now = course.psi[row] + (off * row) / TIMES;
+      const spent = Math.max(0, 0.5 * (psi - now) * (psi + now) - course.stored[row]);
+      const rubbed = normal.alpha > 0 ? Math.min(course.dissipated[row], spent) : spent;
+      course.psi[row] = scale * now;
+      course.force[row] *= scale;
+      course.stored[row] *= energy;
+      course.dissipated[row] = energy * rubbed;
+      course.shear[row] = energy * (spent - rubbed);
     }
-    found.tractions.forEach((line) => line.forEach((value, i) => (line[i] = Math.max(-HIGHEST, Math.min(HIGHEST, (scale * value) / normal.radius)))));
+    course.tractions.forEach((line) => line.forEach((value, i) => (line[i] = Math.max(-HIGHEST, Math.min(HIGHEST, (scale * value) / normal.radius)))));
   }
 
   return { solve, TIMES };

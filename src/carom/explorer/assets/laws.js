@@ -3,7 +3,7 @@ window.Carom = window.Carom || {};
 
 Carom.laws = (() => {
   const { make } = Carom.elements;
-  const { laws: known } = Carom.config;
+  const { laws: catalogue } = Carom.config;
   const DASHES = ["7px,3px", "2px,2.5px", "9px,3px,2px,3px", "14px,4px"];
   const COLORS = 6; // of the theme: law-1 and so on
   const EQUAL = 1e-6; // laws are solved to 1e-8
@@ -16,7 +16,7 @@ Carom.laws = (() => {
 
   // Colour and dash by the place in the list: no two of 24 have both alike.
   function style(label) {
-    const row = Math.max(0, known.findIndex((law) => law.label === label));
+    const row = Math.max(0, catalogue.findIndex((law) => law.label === label));
     const turn = Math.floor(row / COLORS);
     return { color: Carom.theme.color(`law-${(row % COLORS) + 1}`), dash: DASHES[(row + turn) % DASHES.length] };
   }
@@ -25,19 +25,19 @@ Carom.laws = (() => {
     const input = Object.assign(make("input"), { type: "checkbox", name: "law", value: label, id: `law-${row}` });
     const sample = make("span", "carom-line");
     const called = Object.assign(make("span", "carom-called"), { innerHTML: written(label) });
-    const told = make("span", "carom-told");
-    told.id = `law-${row}-told`;
+    const remark = make("span", "carom-remark");
+    remark.id = `law-${row}-remark`;
     called.id = `law-${row}-called`;
     input.setAttribute("aria-labelledby", called.id);
-    input.setAttribute("aria-describedby", told.id);
-    const found = make("label", "carom-chip", input, sample, called, told);
-    found.title = `${label}: used by ${users}`;
-    found.addEventListener("pointerenter", () => input.checked && Carom.charts.stress(label));
-    found.addEventListener("pointerleave", () => Carom.charts.stress(null));
+    input.setAttribute("aria-describedby", remark.id);
+    const element = make("label", "carom-chip", input, sample, called, remark);
+    element.title = `${label}: used by ${users}`;
+    element.addEventListener("pointerenter", () => input.checked && Carom.charts.stress(label));
+    element.addEventListener("pointerleave", () => Carom.charts.stress(null));
     input.addEventListener("focus", () => input.checked && Carom.charts.stress(label));
     input.addEventListener("blur", () => Carom.charts.stress(null));
-    chips.set(label, { input, sample, told, users, found });
-    return found;
+    chips.set(label, { input, sample, remark, users, element });
+    return element;
   }
 
   function button(className, press) {
@@ -49,7 +49,7 @@ Carom.laws = (() => {
   function build() {
     const { can, why } = Carom.source;
     const title = make("span", "carom-strip-title", "Contact laws");
-    strip = make("fieldset", "carom-laws carom-folded", title, ...known.map(chip));
+    strip = make("fieldset", "carom-laws carom-folded", title, ...catalogue.map(chip));
     strip.ariaLabel = title.textContent;
     more = button("carom-more", () => fold(!strip.classList.contains("carom-folded")));
     clear = button("carom-clear", () => (choose([]), changed(), more.focus()));
@@ -118,20 +118,20 @@ Carom.laws = (() => {
     if (!strip) return;
     const folded = strip.classList.contains("carom-folded");
     const taken = chosen().length;
-    for (const [label, { input, sample, told, found }] of chips) {
-      found.classList.toggle("carom-chosen", input.checked);
+    for (const [label, { input, sample, remark, element }] of chips) {
+      element.classList.toggle("carom-chosen", input.checked);
       sample.innerHTML = Carom.keys.line({ ...style(label), width: 2.2 }, 32);
-      told.innerHTML = written(words(label));
+      remark.innerHTML = written(words(label));
     }
-    const rest = known.length - taken;
+    const rest = catalogue.length - taken;
     more.textContent = folded ? `${taken ? "More laws" : "Choose laws"} (${rest})` : "Show chosen laws only";
     more.hidden = strip.disabled || (folded && !rest);
     more.setAttribute("aria-expanded", !folded);
     clear.hidden = strip.disabled || !taken;
   }
 
-  function show(given) {
-    answer = given;
+  function show(latest) {
+    answer = latest;
     update();
   }
 

@@ -25,13 +25,13 @@ Carom.link = (() => {
   // The link that was opened without the words of the page alone; one too long says nothing.
   function asked() {
     if (long()) return new URLSearchParams();
-    const found = new URLSearchParams(opened);
-    OWN.forEach((name) => found.delete(name));
-    return found;
+    const words = new URLSearchParams(opened);
+    OWN.forEach((name) => words.delete(name));
+    return words;
   }
 
   function whole() {
-    const found = new URLSearchParams(query);
+    const link = new URLSearchParams(query);
     if (!Carom.clock.isPlaying()) paused = Carom.clock.now();
     const time = shown();
     const words = {
@@ -44,9 +44,9 @@ Carom.link = (() => {
       beside: Carom.beside.query() ?? "",
     };
     if (Carom.beside.query() === "") words.beside = "given=bodies";
-    if (words.preset && !query) found.set("given", "bodies"); // not those of the example
-    Object.entries(words).forEach(([name, word]) => word !== "" && found.set(name, word));
-    return found.toString();
+    if (words.preset && !query) link.set("given", "bodies"); // not those of the example
+    Object.entries(words).forEach(([name, word]) => word !== "" && link.set(name, word));
+    return link.toString();
   }
 
   function write() {
@@ -71,8 +71,8 @@ Carom.link = (() => {
     if (!waiting && !Carom.clock.isPlaying()) waiting = window.setTimeout(write, WAIT);
   }
 
-  function put(given) {
-    query = given;
+  function put(latest) {
+    query = latest;
     write();
   }
 

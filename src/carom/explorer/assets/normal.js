@@ -28,12 +28,12 @@ Carom.normal = (() => {
   // The state where `missing`, which falls at `pace` by the clock, comes to zero.
   function cut(state, alpha, missing, pace) {
     let h = 0;
-    let found = state;
+    let at = state;
     for (let i = 0; i < ITERATIONS; i++) {
-      h -= missing(found) / pace(found);
-      found = stepped(state, h, alpha);
+      h -= missing(at) / pace(at);
+      at = stepped(state, h, alpha);
     }
-    return found;
+    return at;
   }
 
   // The turning point and the end of the contact.
@@ -49,62 +49,62 @@ Carom.normal = (() => {
 
   // Times of all steps, and which of them are even.
   function instants(duration, turning, finer) {
-    const found = [];
+    const times = [];
     for (let i = 0; i < EVEN; i++) {
       const steps = i === 0 || i === EVEN - 1 ? AT_ENDS : finer;
       for (let j = 0; j < steps; j++) {
         let part = j / steps;
         if (i === 0) part *= part;
         else if (i === EVEN - 1) part *= 2 - part;
-        found.push({ time: (duration * (i + part)) / EVEN, even: j === 0 });
+        times.push({ time: (duration * (i + part)) / EVEN, even: j === 0 });
       }
     }
-    found.push({ time: duration, even: true });
-    if (found.every(({ time }) => Math.abs(time - turning) > 1e-9)) {
-      found.push({ time: turning, even: false });
-      found.sort((one, other) => one.time - other.time);
+    times.push({ time: duration, even: true });
+    if (times.every(({ time }) => Math.abs(time - turning) > 1e-9)) {
+      times.push({ time: turning, even: false });
+      times.sort((one, other) => one.time - other.time);
     }
-    return found;
+    return times;
   }
 
   function reached(state, time, alpha) {
     const left = time - state.t;
     const root = Math.sqrt(Math.max(0, state.b ** 2 + state.v * left));
     let h = left / Math.max(state.b + root, 1e-12); // the edge moves at the pace v
-    let found = stepped(state, h, alpha);
+    let next = stepped(state, h, alpha);
     for (let i = 0; i < ITERATIONS; i++) {
-      h -= (found.t - time) / Math.max(2 * found.b, 1e-12);
-      found = stepped(state, h, alpha);
+      h -= (next.t - time) / Math.max(2 * next.b, 1e-12);
+      next = stepped(state, h, alpha);
     }
-    return { ...found, t: time };
+    return { ...next, t: time };
   }
 
   function laid(alpha, finer) {
     const { turning, end } = ends(alpha);
     const places = instants(end.t, turning.t, finer);
-    const found = { alpha, duration: end.t, radius: turning.b, restitution: -end.v, turning: turning.t };
+    const motion = { alpha, duration: end.t, radius: turning.b, restitution: -end.v, turning: turning.t };
     const names = ["time", "speed", "edge", "penetration", "depth", "force", "stored"];
-    names.forEach((name) => (found[name] = new Float64Array(places.length)));
-    found.even = places.flatMap((place, i) => (place.even ? [i] : []));
+    names.forEach((name) => (motion[name] = new Float64Array(places.length)));
+    motion.even = places.flatMap((place, i) => (place.even ? [i] : []));
     let state = { loading: true, b: 0, v: 1, t: 0 };
     places.forEach(({ time }, i) => {
       if (Math.abs(time - turning.t) <= 1e-9) state = turning;
       else if (i === places.length - 1) state = end;
       else if (i) state = reached(state, time, alpha);
-      write(found, i, time, state);
+      write(motion, i, time, state);
     });
-    return found;
+    return motion;
   }
 
-  function write(found, i, time, { loading, b, v }) {
-    const d = loading ? b * b : b * b - found.alpha * v;
-    found.time[i] = time;
-    found.speed[i] = v;
-    found.edge[i] = b * b; // s = r^2 of the edge
-    found.penetration[i] = d;
-    found.depth[i] = loading ? d + found.alpha * v : b * b; // D: springs bear D - s
-    found.force[i] = loading ? b ** 3 + 1.5 * found.alpha * v * b : b ** 3;
-    found.stored[i] = b * (1.875 * d * d - b * b * (1.25 * d - 0.375 * b * b));
+  function write(motion, i, time, { loading, b, v }) {
+    const d = loading ? b * b : b * b - motion.alpha * v;
+    motion.time[i] = time;
+    motion.speed[i] = v;
+    motion.edge[i] = b * b; // s = r^2 of the edge
+    motion.penetration[i] = d;
+    motion.depth[i] = loading ? d + motion.alpha * v : b * b; // D: springs bear D - s
+    motion.force[i] = loading ? b ** 3 + 1.5 * motion.alpha * v * b : b ** 3;
+    motion.stored[i] = b * (1.875 * d * d - b * b * (1.25 * d - 0.375 * b * b));
   }
 
   // The motion in steps of which so many lie in an even interval.

@@ -31,8 +31,8 @@ Carom.page = (() => {
   async function once(query) {
     following.abort();
     try {
-      const found = await Promise.all([Carom.source.answer(query.toString()), Carom.beside.answered()]);
-      if (!again) show(found);
+      const latest = await Promise.all([Carom.source.answer(query.toString()), Carom.beside.answered()]);
+      if (!again) show(latest);
     } catch (refusal) {
       if (!again) refuse(refusal);
     }
@@ -42,23 +42,23 @@ Carom.page = (() => {
   let opening = true;
   function refuse({ field, message, beside }) {
     const label = Carom.fields.label(field);
-    const told = label ? `${label}: ${message}` : message || "The page has failed; load it again.";
-    if (beside) return mended(`Beside: ${told}`);
-    if (opening && Carom.fields.reset(field)) return mended(told);
+    const text = label ? `${label}: ${message}` : message || "The page has failed; load it again.";
+    if (beside) return mended(`Beside: ${text}`);
+    if (opening && Carom.fields.reset(field)) return mended(text);
     Carom.fields.complain(field, message);
-    notice(told);
+    notice(text);
     document.body.classList.add("carom-stale");
   }
 
-  function mended(told) {
-    linked = [linked, told].filter(Boolean).join("; ");
+  function mended(text) {
+    linked = [linked, text].filter(Boolean).join("; ");
     again = true;
   }
 
   const notice = (text) => (byId("notice").textContent = [linked, text].filter(Boolean).join("; "));
 
-  function show(found) {
-    answers = found;
+  function show(latest) {
+    answers = latest;
     opening = false;
     scenes = answers.map((answer) => answer && Carom.scene.of(answer.scene));
     document.body.classList.remove("carom-stale");
@@ -114,14 +114,14 @@ Carom.page = (() => {
   }
 
   function showTime(time) {
-    const told = scenes[0].told(time);
-    write(byId("clock"), told);
+    const clock = scenes[0].clockAt(time);
+    write(byId("clock"), clock);
     byId("time").value = time;
     write(byId("play"), Carom.clock.isPlaying() ? "Pause" : "Play");
-    const [sentence, other] = scenes.map((scene) => scene && Carom.told.of(scene, time));
+    const [sentence, other] = scenes.map((scene) => scene && Carom.sentence.of(scene, time));
     const both = sentence === other ? `Both: ${sentence}` : `This impact: ${sentence} Beside it: ${other}`;
-    write(byId("told"), other ? both : sentence);
-    if (!Carom.clock.isPlaying()) describe(told, sentence);
+    write(byId("sentence"), other ? both : sentence);
+    if (!Carom.clock.isPlaying()) describe(clock, sentence);
   }
 
   function write(element, text) {
@@ -129,10 +129,10 @@ Carom.page = (() => {
   }
 
   // Pictures in words, for those who hear the page.
-  function describe(told, sentence) {
-    byId("time").setAttribute("aria-valuetext", told);
-    byId("stage").setAttribute("aria-label", `The bodies at ${told}. ${sentence}`);
-    byId("patch").setAttribute("aria-label", `The contact from above at ${told}`);
+  function describe(clock, sentence) {
+    byId("time").setAttribute("aria-valuetext", clock);
+    byId("stage").setAttribute("aria-label", `The bodies at ${clock}. ${sentence}`);
+    byId("patch").setAttribute("aria-label", `The contact from above at ${clock}`);
   }
 
   // The results stand beside the pictures where there is room, else among the charts; a story

@@ -7,21 +7,21 @@ Carom.presets = (() => {
   const select = document.getElementById("preset");
   const place = document.getElementById("story");
   const heard = [];
-  const found = (id) => Carom.config.presets.find((preset) => preset.id === id);
+  const presetOf = (id) => Carom.config.presets.find((preset) => preset.id === id);
 
   function build() {
     select.append(new Option("choose …", NONE));
     Carom.config.presets.forEach(({ id, title }) => select.append(new Option(title, id)));
     select.addEventListener("change", () => {
       tell();
-      const preset = found(select.value);
+      const preset = presetOf(select.value);
       if (preset) heard.forEach((hear) => hear(new URLSearchParams(preset.query)));
       else Carom.link.refresh();
     });
   }
 
   function tell() {
-    const preset = found(select.value);
+    const preset = presetOf(select.value);
     place.hidden = !preset;
     if (!preset) return;
     const { title, story, caution, sources } = preset;
@@ -34,7 +34,7 @@ Carom.presets = (() => {
 
   // Show a story; return the query that it sets, as a link may hold other words.
   function choose(id) {
-    const preset = found(id);
+    const preset = presetOf(id);
     select.value = preset ? id : NONE;
     tell();
     return new URLSearchParams(preset ? preset.query : "");

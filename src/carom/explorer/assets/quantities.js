@@ -37,7 +37,7 @@ Carom.quantities = (() => {
   }
 
   // A value and its unit, in words where there is none.
-  function told(value, unit, digits = DIGITS) {
+  function printed(value, unit, digits = DIGITS) {
     if (Number.isNaN(value)) return { value: "none: it was zero before", unit: "" };
     if (!Number.isFinite(value)) return { value: "none: it slides freely", unit: "" };
     const [number, name] = unit === "rad" ? [(value * 180) / Math.PI, "deg"] : [value, unit];
@@ -51,5 +51,5 @@ Carom.quantities = (() => {
     return [Number(`1e${-power}`), name];
   }
 
-  return { told, prefixed, plain };
+  return { printed, prefixed, plain };
 })();

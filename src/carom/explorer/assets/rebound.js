@@ -12,11 +12,11 @@ Carom.rebound = (() => {
 
   function table(restitution) {
     if (!read.has(restitution)) {
-      const told = Carom.tables.rebounds[restitution];
-      const found = { terms: told.terms, smallest: told.smallest };
-      for (const name of ["cuts", "corners", "series"]) found[name] = numbers(told[name], Float64Array);
-      for (const name of ["axes", "children"]) found[name] = numbers(told[name], Int16Array);
-      read.set(restitution, found);
+      const stored = Carom.tables.rebounds[restitution];
+      const decoded = { terms: stored.terms, smallest: stored.smallest };
+      for (const name of ["cuts", "corners", "series"]) decoded[name] = numbers(stored[name], Float64Array);
+      for (const name of ["axes", "children"]) decoded[name] = numbers(stored[name], Int16Array);
+      read.set(restitution, decoded);
     }
     return read.get(restitution);
   }

@@ -33,9 +33,9 @@ Carom.results = (() => {
   // The rows of both impacts, those of the first in front.
   function rows([first, second]) {
     const other = new Map((second ? second.results : []).map((row) => [row.name, row]));
-    const found = first.results.map((row) => [row, other.get(row.name)]);
-    const known = new Set(first.results.map(({ name }) => name));
-    return [...found, ...[...other.values()].filter(({ name }) => !known.has(name)).map((row) => [null, row])];
+    const both = first.results.map((row) => [row, other.get(row.name)]);
+    const names = new Set(first.results.map(({ name }) => name));
+    return [...both, ...[...other.values()].filter(({ name }) => !names.has(name)).map((row) => [null, row])];
   }
 
   function value(row) {
@@ -50,14 +50,14 @@ Carom.results = (() => {
   function line([first, second], both) {
     const { name, symbol, meaning } = first || second;
     const sign = Carom.tips.symbol(symbol);
-    const told = make("span", "", SHORT[name] || meaning);
-    told.title = meaning;
+    const words = make("span", "", SHORT[name] || meaning);
+    words.title = meaning;
     const cells = [value(first), ...(both ? [value(second)] : [])];
     const head = make("th", "carom-sign", sign);
     head.scope = "row";
-    const found = make("tr", "", head, make("td", "carom-meaning", told), ...cells);
-    found.dataset.name = (first || second).name;
-    return found;
+    const row = make("tr", "", head, make("td", "carom-meaning", words), ...cells);
+    row.dataset.name = (first || second).name;
+    return row;
   }
 
   function head() {
@@ -72,21 +72,21 @@ Carom.results = (() => {
   }
 
   function finding({ mark, text }) {
-    const [sign, look, told] = MARKS[mark];
+    const [sign, look, meaning] = MARKS[mark];
     const icon = make("span", "carom-mark", sign);
     icon.setAttribute("role", "img");
-    icon.ariaLabel = `${told}: `;
+    icon.ariaLabel = `${meaning}: `;
     return make("li", `carom-${look}`, icon, make("span", "", text));
   }
 
   // How far the theory holds, in a line; what it is judged by opens, and stays so for other impacts.
-  function findings({ findings: found }, title) {
-    if (!found.length) return [];
+  function findings({ findings: all }, title) {
+    if (!all.length) return [];
     const order = Object.keys(MARKS);
-    const sorted = [...found].sort((a, b) => order.indexOf(a.mark) - order.indexOf(b.mark));
+    const sorted = [...all].sort((a, b) => order.indexOf(a.mark) - order.indexOf(b.mark));
     const worst = sorted[0].mark;
     const count = sorted.filter(({ mark }) => mark === worst).length;
-    const holds = worst === "ok" ? "the theory holds" : `the theory ${SHORTLY[worst]} in ${count} of ${found.length}`;
+    const holds = worst === "ok" ? "the theory holds" : `the theory ${SHORTLY[worst]} in ${count} of ${all.length}`;
     const sign = make("span", `carom-mark carom-${MARKS[worst][1]}`, MARKS[worst][0][0]);
     const fold = make("details", "", make("summary", "", sign, ` ${title}${holds}`));
     fold.open = unfolded;

@@ -40,8 +40,8 @@ Carom.scene = (() => {
 
     function phaseAt(share) {
       if (share < 0 || share > 1) return null;
-      const found = data.phases.find((phase) => share < phase.end);
-      return found || data.phases[data.phases.length - 1];
+      const current = data.phases.find((phase) => share < phase.end);
+      return current || data.phases[data.phases.length - 1];
     }
 
     // The stick zone within its phase: it may appear at once where the contact stops sliding.
@@ -55,8 +55,8 @@ Carom.scene = (() => {
         return at >= phase.start - ROUNDING && at <= phase.end + ROUNDING && row < data.stick.length;
       });
       const rows = inside.length ? inside : [low];
-      const found = rows.length === 2 ? between(data.stick, 0, 1, share) : data.stick[rows[0]];
-      return Math.min(found, contact);
+      const inPhase = rows.length === 2 ? between(data.stick, 0, 1, share) : data.stick[rows[0]];
+      return Math.min(inPhase, contact);
     }
 
     // Traction from the centre to the edge; where it slips it is friction times the pressure.
@@ -73,7 +73,7 @@ Carom.scene = (() => {
       });
     }
 
-    function found(share) {
+    function momentAt(share) {
       const phase = phaseAt(share);
       if (!phase) return { share, apart: true, phase: share < 0 ? "before" : "after" };
       const contact = between(data.contact, 0, 1, share);
@@ -94,7 +94,7 @@ Carom.scene = (() => {
     }
 
     function at(share) {
-      if (!latest || latest.share !== share) latest = found(share);
+      if (!latest || latest.share !== share) latest = momentAt(share);
       return latest;
     }
 
@@ -103,8 +103,8 @@ Carom.scene = (() => {
 
     // The velocity of the contact point, null where it is not known.
     function psiAt(share) {
-      const known = data.psi && data.psi.length > 1 && data.psi.every(Number.isFinite);
-      return known ? between(data.psi, 0, 1, Math.max(0, Math.min(1, share))) : null;
+      const isKnown = data.psi && data.psi.length > 1 && data.psi.every(Number.isFinite);
+      return isKnown ? between(data.psi, 0, 1, Math.max(0, Math.min(1, share))) : null;
     }
 
     // The bodies at an instant, in radii of the first.
@@ -117,13 +117,13 @@ Carom.scene = (() => {
       });
     }
 
-    function told(share) {
+    function clockAt(share) {
       const digits = Math.max(0, 2 - Math.floor(Math.log10(data.duration || 1)));
       const value = (share * data.duration).toFixed(Math.min(digits, 12)).replace("-", "−");
       return `${value} ${data.unit} · ${at(share).phase}`;
     }
 
-    return { data, facts, at, phaseAt, forceAt, psiAt, bodiesAt, told, pressureAt };
+    return { data, facts, at, phaseAt, forceAt, psiAt, bodiesAt, clockAt, pressureAt };
   }
 
   return { of, nameOf };

@@ -13,9 +13,9 @@ Carom.source = (() => {
     try {
       const answer = await fetch(address, options);
       const json = answer.headers.get("Content-Type") === "application/json";
-      const told = await (json ? answer.json() : answer[answer.ok ? kind : "text"]());
-      if (answer.ok || json) return told;
-      const refusal = { field: "", message: told.replace(/^carom: /, "").trim() };
+      const content = await (json ? answer.json() : answer[answer.ok ? kind : "text"]());
+      if (answer.ok || json) return content;
+      const refusal = { field: "", message: content.replace(/^carom: /, "").trim() };
       if (answer.status !== 503 || tries === 1) return refusal;
     } catch (error) {
       if (error.name === "AbortError") throw error;
@@ -28,11 +28,11 @@ Carom.source = (() => {
   // The answer; where the program still prepares, how far it is, until it is ready.
   async function asked(address, options = {}, kind = "text") {
     for (;;) {
-      const told = await once(address, options, kind);
-      if (told.field === undefined) return told;
-      if (!told.again) throw told; // it is refused, of this field
-      document.getElementById("notice").textContent = told.message;
-      await pause(told.again);
+      const content = await once(address, options, kind);
+      if (content.field === undefined) return content;
+      if (!content.again) throw content; // it is refused, of this field
+      document.getElementById("notice").textContent = content.message;
+      await pause(content.again);
     }
   }
 

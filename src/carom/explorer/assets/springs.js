@@ -149,24 +149,24 @@ Carom.springs = (() => {
 
     // Loads as lines between knots, also where the limit cuts them.
     function loads(depth, tension) {
-      const found = { s: [], f: [] };
+      const knots = { s: [], f: [] };
       for (let k = 0; k < now.count; k++) {
-        if (k && viscous) cutBetween(k, depth, tension, found);
-        found.s.push(now.s[k]);
-        found.f.push(borne(k, depth, tension));
+        if (k && viscous) cutBetween(k, depth, tension, knots);
+        knots.s.push(now.s[k]);
+        knots.f.push(borne(k, depth, tension));
       }
-      return found;
+      return knots;
     }
 
-    function cutBetween(k, depth, tension, found) {
+    function cutBetween(k, depth, tension, knots) {
       const [s, t] = [now.s[k - 1], now.s[k]];
       const [u, w] = [now.u[k - 1] + tension, now.u[k] + tension];
       [1, -1].forEach((sign) => {
         const [from, till] = [sign * u - depth + s, sign * w - depth + t];
         if (from * till >= 0) return;
         const part = from / (from - till);
-        found.s.push(s + part * (t - s));
-        found.f.push(u + part * (w - u));
+        knots.s.push(s + part * (t - s));
+        knots.f.push(u + part * (w - u));
       });
     }
 

@@ -8,7 +8,7 @@ Carom.view = (() => {
   const ARROW = 0.9; // the longest, in radii
   const NAMED = [26, 21]; // pixels beside and above the tip of an arrow, for its name
   const EASY = 24; // pixels of a radius that are seen well
-  const known = new WeakMap();
+  const views = new WeakMap();
 
   const least = (values) => values.reduce((a, b) => Math.min(a, b));
   const most = (values) => values.reduce((a, b) => Math.max(a, b));
@@ -95,10 +95,10 @@ Carom.view = (() => {
   }
 
   function of(stage, width, height) {
-    const old = known.get(stage);
+    const old = views.get(stage);
     if (old && old.width === width && old.height === height) return old;
     const view = made(stage, width, height);
-    known.set(stage, view);
+    views.set(stage, view);
     return view;
   }
 

@@ -19,7 +19,7 @@ from typing import IO, ClassVar, NamedTuple
 import numpy as np
 
 from carom.dem.base import ContactLaw
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.shown import Shown
 from carom.quantities.units import positive
 from carom.verify.engines.arrangement import outcomes_of, read_dump
@@ -162,8 +162,7 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     limit = positive("time_limit", time_limit)
     if not engine.supports(experiment.law):
         raise refusal("law", experiment.law, f"{engine.name} does not have it")
-    if engine.executable() is None:
-        raise InputError(f"{engine.name}: {engine.remedy}")
+    refuse(engine.executable() is None and f"{engine.name}: {engine.remedy}")
     with TemporaryDirectory(prefix="carom-") as name:
         folder = Path(name)
         for file, text in engine.files(experiment).items():

@@ -14,8 +14,8 @@ import numpy as np
 from carom.bodies.cases import pair_of
 from carom.dem import LammpsMindlin, LiggghtsHertz
 from carom.dem.base import ContactLaw
-from carom.io.paths import checked_path
-from carom.quantities.refusals import InputError, refusal
+from carom.io.paths import accessing, checked_folder
+from carom.quantities.refusals import refusal, refuse
 from carom.verify.engines.arrangement import template
 from carom.verify.engines.experiments import Experiment
 from carom.verify.engines.lammps import Lammps
@@ -26,7 +26,7 @@ from carom.verify.pack import frozen
 from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, folders_with, frozen_files
 
 CHECKSUMS = "SHA256SUMS"
-STEPS = 2000  # per duration of the contact
+STEPS_PER_CONTACT = 2000
 PROGRAMS: Mapping[str, tuple[Engine, ContactLaw]] = {  # each with a law that it has
     "lammps": (Lammps(), LammpsMindlin()),
     "liggghts": (Liggghts(), LiggghtsHertz()),
@@ -64,8 +64,12 @@ def write_pack(folder: str | Path) -> tuple[str, ...]:
     >>> "wall/reference.csv" in files
     True
     """
-    target, files = checked_folder(folder), pack_files()
-    try:
+    _, target = checked_folder(folder)
+    full = target.is_dir() and any(target.iterdir())
+    allowed = "it is not empty; give a new folder, or empty it"
+    refuse(full and refusal("folder", str(folder), allowed))
+    files = pack_files()
+    with accessing("folder", folder, "written"):
         temporary = Path(tempfile.mkdtemp(prefix=".carom-", dir=target.parent))
         try:
             inner = temporary / target.name
@@ -78,22 +82,7 @@ def write_pack(folder: str | Path) -> tuple[str, ...]:
             os.replace(inner, target)
         finally:
             shutil.rmtree(temporary, ignore_errors=True)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"folder: {str(folder)!r} cannot be written; {reason}") from None
     return tuple(files)
-
-
-def checked_folder(folder: str | Path) -> Path:
-    """Return the folder to be written, or raise InputError if a pack cannot be made of it."""
-    target = Path(os.path.realpath(checked_path("folder", folder, "folder")))
-    if target.exists() and not target.is_dir():
-        raise refusal("folder", str(folder), "it is a file; give a new folder")
-    if target.is_dir() and any(target.iterdir()):
-        raise refusal("folder", str(folder), "it is not empty; give a new folder, or empty it")
-    if not target.parent.is_dir():
-        raise refusal("folder", str(folder), "the folder it is in must exist; make it first")
-    return target
 
 
 def pack_files() -> dict[str, str]:
@@ -144,7 +133,7 @@ def experiment_of(name: str, case: Mapping[str, Any], inputs: frozen.DecimalTabl
         normal_speed=float(inputs.numbers("normal_speed")[0]),
         tangential_speed=tuple(inputs.numbers("tangential_speed").tolist()),
         spin=tuple(inputs.numbers("spin").tolist()),
-        steps=STEPS,
+        steps=STEPS_PER_CONTACT,
     )
 
 

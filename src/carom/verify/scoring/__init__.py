@@ -15,7 +15,7 @@ from carom.io.tables import read_table
 from carom.io.user_table import UserTable, in_units, others
 from carom.quantities.arrays import Array
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import Faults, InputError, nearest, refusal
+from carom.quantities.refusals import Faults, InputError, nearest, refusal, refuse
 from carom.quantities.units import positive
 from carom.verify.entries import is_function
 from carom.verify.scoring.cases import ScoredCase, results_of, scored_case
@@ -181,8 +181,7 @@ def _chi(results: UserTable, case: ScoredCase) -> Array:
     options = {"--chi": case.chi, "--case": case.case}
     used = [option for option, value in options.items() if value is not None]
     if "chi" in results.columns:
-        if used:
-            raise InputError(f"chi: the results have a column chi; leave {used[0]} out")
+        refuse(used and f"chi: the results have a column chi; leave {used[0]} out")
         results.refuse("chi", results["chi"] <= 0.0, "must be positive")
         return np.asarray(results["chi"])
     if len(used) != 1:

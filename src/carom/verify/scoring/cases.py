@@ -20,7 +20,7 @@ from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import number, positive
 from carom.verify.entries import as_law, called
-from carom.verify.errors import CHI, INCIDENCES, Impacts, constant_restitution, losses_of
+from carom.verify.errors import INCIDENCES, SOLID_CHI, Impacts, constant_restitution, losses_of
 
 CHI_TOLERANCE = 0.01  # relative: numbers are rounded
 WRONG_SIGN = (
@@ -143,7 +143,7 @@ def results_of(law_or_function: Any, case: Any, chi: Any, restitution: Any) -> L
     law, kappa = as_law(law_or_function), None
     scored = scored_case(case, None, None, restitution)
     if case is None:
-        chi = CHI if chi is None else chi
+        chi = SOLID_CHI if chi is None else chi
     else:
         if chi is not None:
             raise InputError("chi: it follows from the case; leave one of them out")

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.bodies.kinematics import Tangential, components, inertia
+from carom.bodies.kinematics import Tangential, by_angle, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.datasets.observables import FASTEST, SLOWEST
@@ -30,7 +30,7 @@ CAUSES = {
     0.5: "is the radius in the case half of the true one?",
     0.8: "is the moment of inertia in the results that of a disc?",
 }
-CLOSE = 0.02  # relative difference of ratios that are taken for the same
+SAME_RATIO = 0.02  # relative difference of ratios that are taken for the same
 BEFORE = ("normal_speed", "tangential_speed", "speed", "angle", "spin", "spin2")
 AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out", "spin2_out")
 
@@ -84,13 +84,11 @@ def score_velocities(results: UserTable, case: ScoredCase, limit: float) -> Scor
 
 def _speeds(results: UserTable) -> tuple[Any, Any]:
     """Return normal and tangential speed before, from either way of giving them."""
-    if not {"speed", "angle"} & set(results.columns):
-        results.require("normal_speed", "tangential_speed")
-        return results["normal_speed"], results["tangential_speed"]
-    results.require("speed", "angle")
-    if {"normal_speed", "tangential_speed"} & set(results.columns):
-        raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
-    return components(results["speed"], results["angle"])
+    angular = bool({"speed", "angle"} & set(results.columns))
+    names = ("speed", "angle") if angular else ("normal_speed", "tangential_speed")
+    results.require(*names)
+    one, other = (results[name] for name in names)
+    return components(one, other) if by_angle(results.columns) else (one, other)
 
 
 def _after(
@@ -150,13 +148,13 @@ def _constant_ratio(angular: Any, linear: Any, small: Any) -> float:
     if ratio == 0.0:
         return 1.0
     spread = np.abs(angular - ratio * linear)
-    allowed = np.maximum(CLOSE * np.abs(ratio * linear), np.maximum(abs(ratio), 1.0) * small)
+    allowed = np.maximum(SAME_RATIO * np.abs(ratio * linear), np.maximum(abs(ratio), 1.0) * small)
     return ratio if np.all(spread <= allowed) else 1.0
 
 
 def _refuse_units(ratio: float) -> None:
     for factor, words in UNIT_MISTAKES.items():
-        if abs(abs(ratio) / factor - 1.0) < CLOSE:
+        if abs(abs(ratio) / factor - 1.0) < SAME_RATIO:
             wrong = "spins" if "spin" in words else "speeds"
             raise InputError(
                 f"{wrong}: in every row the spins change {abs(ratio):.4g} times as much as the "
@@ -166,7 +164,7 @@ def _refuse_units(ratio: float) -> None:
 
 def _cause(ratio: float) -> str:
     """Return what may be wrong if the impulses differ by the same factor in all rows."""
-    if abs(ratio - 1.0) < CLOSE:
+    if abs(ratio - 1.0) < SAME_RATIO:
         return ""
-    causes = (words for factor, words in CAUSES.items() if abs(ratio / factor - 1.0) < CLOSE)
+    causes = (words for factor, words in CAUSES.items() if abs(ratio / factor - 1.0) < SAME_RATIO)
     return f", by the same factor {ratio:.4g}; {next(causes, 'check units and sizes')}"

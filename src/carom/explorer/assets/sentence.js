@@ -1,7 +1,7 @@
 // One sentence for every instant of an impact: what happens in the contact, and why.
 window.Carom = window.Carom || {};
 
-Carom.told = (() => {
+Carom.sentence = (() => {
   const PEAK = 0.012; // the share around the largest compression that belongs to it
   const TURN = 0.012; // likewise around an instant at which something changes its direction
   const ENDS = 0.01; // shares at both ends, in which the force has no clear sign
@@ -38,7 +38,7 @@ Carom.told = (() => {
     const phase = data.phases[row];
     const inside = Math.min(1 - ENDS, Math.max(ENDS, share));
     const force = phase.kind === "gross slip" ? phase.sign : sign(scene.forceAt(inside));
-    const known = scene.psiAt(inside) !== null;
+    const moves = scene.psiAt(inside) !== null;
     return {
       ...phase,
       force,
@@ -46,8 +46,8 @@ Carom.told = (() => {
       viscous: facts.viscous,
       still: row > 0 && data.phases[row - 1].kind !== "gross slip",
       along: first(scene),
-      psi: known ? sign(scene.psiAt(inside)) : null,
-      stops: known && turns(scene.psiAt, share),
+      psi: moves ? sign(scene.psiAt(inside)) : null,
+      stops: moves && turns(scene.psiAt, share),
       reverses: phase.kind !== "gross slip" && facts.rubs && turns(scene.forceAt, share),
       before: share < facts.peak,
       peak: Math.abs(share - facts.peak) <= PEAK,

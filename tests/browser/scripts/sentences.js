@@ -1,5 +1,5 @@
 async ([query, shares]) => {
   const { scene } = await Carom.source.answer(query);
   const made = Carom.scene.of(scene);
-  return shares.map(share => Carom.told.of(made, share));
+  return shares.map(share => Carom.sentence.of(made, share));
 }
