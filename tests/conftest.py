@@ -50,7 +50,7 @@ def pytest_collection_finish():
 
 def pytest_addoption(parser):
     words = "calls of the cheapest fuzz test; the others take a share of it (default: %(default)s)"
-    parser.addoption("--fuzz", type=int, default=2000, metavar="N", help=words)
+    parser.addoption("--fuzz", type=int, default=1000, metavar="N", help=words)
 
 
 @pytest.fixture(scope="session")

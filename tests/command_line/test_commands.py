@@ -181,7 +181,7 @@ def test_start_up_loads_nothing_that_is_not_needed():
     """Of what takes long: nothing until something is computed, and little for an impact."""
     steps = ["import carom", "from carom.cli import main; main(['--help'])"]
     steps += [f"main({[*BALL[:2], '0.005', *BALL[3:], '--speed', '2']!r})"]
-    slow = "numpy numba scipy xarray pint matplotlib pandas rich".split()
+    slow = ["numpy", "numba", "scipy", "xarray", "pint", "matplotlib", "pandas", "rich"]
     told = f"; import sys; print('loaded', *[name for name in {slow!r} if name in sys.modules])\n"
     command = [sys.executable, "-c", "".join(step + told for step in steps)]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
