@@ -59,8 +59,12 @@ def there(tmp_path):
 
 
 def ended(folder, program, arguments):
-    """Return exit code, what is printed, and what is told, of a Python that has loaded nothing."""
-    known = {"cwd": folder, "capture_output": True, "text": True, "timeout": 120}
+    """Return exit code, what is printed, and what is told, of a Python that has loaded nothing.
+
+    It parses all sources, as the first one of an installation does.
+    """
+    plain = os.environ | {"PYTHONPYCACHEPREFIX": "/nowhere", "PYTHONDONTWRITEBYTECODE": "1"}
+    known = {"cwd": folder, "capture_output": True, "text": True, "timeout": 120, "env": plain}
     done = subprocess.run([sys.executable, "-c", program, *arguments], check=False, **known)
     return done.returncode, done.stdout, done.stderr
 
