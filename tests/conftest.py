@@ -23,6 +23,7 @@ KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest(
 # jax is here to agree, not to be quick: a third of the time of its tests
 XLA = "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true"
 os.environ.setdefault("XLA_FLAGS", XLA)
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers have a core each; others would wait
 os.environ.setdefault("NUMBA_CACHE_DIR", f"{tempfile.gettempdir()}/carom-kernels-{KEY}")
 
 # these share what takes long to begin with: a browser, what jax has compiled
