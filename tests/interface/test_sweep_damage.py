@@ -14,7 +14,7 @@ from carom.io.stores import FROZEN
 
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 1.0, "angle": 0.4}
 AXES = {
-    "friction": {"from": 0.05, "to": 0.5, "points": 50},
+    "friction": {"from": 0.05, "to": 0.5, "points": 6},
     "spin": {"from": -300.0, "to": 300.0, "points": 1200},
 }
 GRID = carom.Grid(AXES)
@@ -27,7 +27,7 @@ def swept(path, design=GRID, resume=True):
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
-    """A finished store of 60,000 points, and its values."""
+    """A finished store of six blocks, and its values."""
     path = tmp_path_factory.mktemp("stores") / "whole.zarr"
     return path, swept(path, resume=False).load()
 
@@ -158,7 +158,7 @@ def test_array_that_is_missing_is_refused(copy):
     "design",
     [
         carom.Grid({name: AXES[name] for name in reversed(AXES)}),
-        carom.Grid(AXES | {"friction": {"from": 0.05, "to": 0.5, "points": 50, "spacing": "log"}}),
+        carom.Grid(AXES | {"friction": {"from": 0.05, "to": 0.5, "points": 6, "spacing": "log"}}),
     ],
 )
 def test_other_order_of_axes_is_another_sweep(copy, design):
@@ -198,7 +198,7 @@ def test_chunk_of_another_place_is_found(name, how, whole, copy, tmp_path):
     """Each is sound in itself; it belongs elsewhere, and is never read as numbers."""
     target = chunks(copy, name)[1]
     if MISPLACED[how] is None:
-        other = carom.Grid(AXES | {"friction": {"from": 0.06, "to": 0.5, "points": 50}})
+        other = carom.Grid(AXES | {"friction": {"from": 0.06, "to": 0.5, "points": 6}})
         swept(tmp_path / "other.zarr", other, resume=False)
         source = tmp_path / "other.zarr" / target.relative_to(copy)
     else:

@@ -214,7 +214,7 @@ PLAIN = st.from_regex(
 BLANK = st.sampled_from(["", " ", "\t", "\u00a0", "  "])
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(PLAIN, st.sampled_from(sorted(UNITS)), BLANK, BLANK)
 def test_a_number_and_a_unit_are_their_product(text, unit, between, around):
     text = text.strip()
@@ -222,7 +222,7 @@ def test_a_number_and_a_unit_are_their_product(text, unit, between, around):
     assert read == pytest.approx(float(text) * UNITS[unit], rel=4e-16)
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(PLAIN, st.characters(), st.integers(0, 20))
 def test_a_stray_character_never_changes_a_number_without_a_word(text, stray, place):
     """With one character more a text is refused, or it is the number that Python reads, too."""
@@ -237,7 +237,7 @@ def test_a_stray_character_never_changes_a_number_without_a_word(text, stray, pl
     assert read == (float(plain) if size is None else pytest.approx(size * float(plain[:-1])))
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(st.lists(st.text(st.sampled_from("0123456789.+-eE _,x\u2212\u0663"), max_size=8)))
 def test_a_column_is_read_quickly_only_as_it_is_cell_by_cell(texts):
     fast = plain_numbers(texts)

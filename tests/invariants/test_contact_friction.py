@@ -124,7 +124,7 @@ def test_short_steps_move_springs_in_single_precision(loads, kind):
 def test_the_plugin_finds_the_loss_of_any_restitution(folder):
     """Up to one, nearer than an impact in steps can tell: alpha as Carom's own solver has it."""
     (folder / "loss.cpp").write_text(
-        '#include <cstdio>\n#include "kinds.cpp"\nint main() { double e;\n'
+        '#include <cstdio>\n#include "materials.cpp"\nint main() { double e;\n'
         'while (std::scanf("%lf", &e) == 1) std::printf("%.12g ", LAMMPS_NS::carom_loss(e)); }\n'
     )
     program = built(folder, folder / "loss.cpp", ("-O0", f"-I{lammps.SOURCES}"))

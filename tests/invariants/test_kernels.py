@@ -12,13 +12,14 @@ from tests.checks import BALL, PAIR
 
 import carom
 from carom import dem
-from carom.dimensionless.fields import subsurface
+from carom.dimensionless.fields import peaks, subsurface
 from carom.dimensionless.load_paths import turning
 from carom.dimensionless.load_paths.paths import follow_path, slid
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.springs import march, motion
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.solution import solve_lossy
+from carom.dimensionless.strength import cracking
 
 IMPACTS = [(0.5, 1.44), (1.5, 1.44), (3.5, 1.44), (0.3, 1.75), (0.5, 4.0), (0.2, 0.3), (0.5, 40.0)]
 VISCOUS = [(0.4, 1.44, 0.1), (3.5, 1.44, 0.4), (-6.0, 1.0, 0.2), (2.0, 4.5, 0.2115)]
@@ -84,6 +85,24 @@ def contacts():
     yield slid(d, u, np.linspace(0.0, 0.8, 9))
 
 
+def largest_stresses():
+    """The search for the largest stresses, and for the flaw that is pulled at hardest."""
+    load = subsurface.load_of(carom.solve(1.5, 1.44).memory(1.3).profile(), 0.3)
+    places = np.array([[0.0, 0.4], [0.6, 0.0], [1.0, 0.0], [0.8, 0.2]])
+    for measure in peaks.MEASURES:
+        for search in (
+            lambda *out, m=measure: peaks.scan(m, places, 0.4, load, *out),
+            lambda *out, m=measure: peaks.climb(m, 0.4, load, 0.0, np.inf, 0.1, 2e-2, *out),
+        ):
+            search(found := np.zeros(peaks.PEAK_COLUMNS))
+            yield found
+    radii = cracking.RADII[::8]
+    cracking.tensions(radii, 0.4, load, along := np.zeros((radii.size, 2, cracking.TERMS)))
+    cracking.hardest_among(radii, along, 0.05, hardest := np.zeros(peaks.PEAK_COLUMNS))
+    cracking.climb_flaws(0.1, 2e-2, 0.05, 0.4, load, along[0], top := np.zeros(peaks.PEAK_COLUMNS))
+    yield from (along, hardest, top)
+
+
 def lossy():
     """Impacts with losses: the work, and stick zones, which fronts decide, included."""
     for psi, chi, alpha in VISCOUS:
@@ -121,7 +140,8 @@ def contact_laws():
     yield from (law.rebound([0.7], 1.4) for law in (LAWS[2], LAWS[4]))
 
 
-CLOSE = {elastic: 2e-13, contacts: 2e-13, lossy: 1e-12, collisions: 1e-13, contact_laws: 1e-10}
+CLOSE = {elastic: 2e-13, contacts: 2e-13, largest_stresses: 1e-12, lossy: 1e-12}
+CLOSE |= {collisions: 1e-13, contact_laws: 1e-10}
 
 
 def computed(table):

@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.fields import peaks as instant
 from carom.dimensionless.fields.peaks import principal_stresses, von_mises
-from carom.dimensionless.fields.subsurface import load_of, stresses
-from carom.dimensionless.strength import cracking
+from carom.dimensionless.fields.subsurface import stresses
 from carom.dimensionless.strength.cracking import cracking_width, intensity
 from carom.dimensionless.strength.peaks import Contacts, peaks
 
@@ -62,7 +60,7 @@ def found_and_told(seed, case, shares):
 @pytest.mark.parametrize("case", range(2))
 def test_no_dense_scan_finds_more(case):
     """The promise of the docstring: dense scans find nothing that is larger by 1e-4."""
-    actual, answer = found_and_told(27, case, lambda rng: rng.uniform(0.02, 0.98, 16))
+    actual, answer = found_and_told(27, case, lambda rng: (np.arange(10) + rng.random(10)) / 10)
     assert np.all(actual <= (1.0 + ERROR) * answer)
     assert np.all(actual >= 0.95 * answer)  # the scan is no empty one
 
@@ -163,13 +161,13 @@ def test_no_flaw_is_pulled_at_harder(flaw):
     for time in np.linspace(0.1, 0.9, 9) * solution.duration:
         profile = solution.memory(time).profile()
         size = profile.edges[-1]
-        for radius in np.array([0.97, 1.0, 1.02, 1.05, 1.1, 1.2]) * size:
-            for depth in np.unique(np.minimum(depths, 0.25 * size)):
-                places = np.column_stack((np.full(24, radius), np.zeros(24), depth * u))
-                for side in (-1.0, 1.0):
-                    at = places * [side, 1.0, 1.0]
-                    sigma = stresses(at, profile, friction=friction, poisson=poisson)[:, 0]
-                    best = max(best, np.sqrt(depth) * float(shares @ sigma))
+        radii, under = np.array([0.97, 1.0, 1.02, 1.05, 1.1, 1.2]) * size, 0.25 * size
+        grid = np.meshgrid([-1.0, 1.0], radii, np.unique(np.minimum(depths, under)), indexing="ij")
+        side, radius, depth = (each.ravel()[:, np.newaxis] for each in grid)
+        at = np.stack(np.broadcast_arrays(side * radius, 0.0, depth * u), axis=-1).reshape(-1, 3)
+        sigma = stresses(at, profile, friction=friction, poisson=poisson)[:, 0]
+        actual = np.sqrt(depth[:, 0]) * (sigma.reshape(depth.size, u.size) @ shares)
+        best = max(best, float(actual.max()))
     assert best <= 1.002 * answer.value  # the weight is within 0.3 %, the search within 0.2 %
     assert best >= 0.97 * answer.value
     assert answer.z <= flaw
@@ -184,30 +182,3 @@ def test_the_width_that_cracks_has_the_intensity_wanted(psi, wanted):
     assert width**1.5 * there == pytest.approx(wanted, rel=3e-4)
     narrower = 0.999 * width
     assert narrower**1.5 * intensity(contacts, 0.23, 1.0 / narrower).value < wanted
-
-
-def test_kernels_are_their_python():
-    """What is compiled gives what the plain Python gives."""
-    load = load_of(carom.solve(1.5, 1.44).memory(1.3).profile(), 0.3)
-    places = np.array([[0.0, 0.4], [0.6, 0.0], [1.0, 0.0], [0.8, 0.2]])
-    plain, compiled = np.zeros((2, instant.PEAK_COLUMNS))
-    for measure in instant.MEASURES:
-        instant.scan(measure, places, 0.4, load, compiled)
-        instant.scan.py_func(measure, places, 0.4, load, plain)
-        assert compiled == pytest.approx(plain, rel=1e-13)
-        climb = measure, 0.4, load, 0.0, np.inf, 0.1, 2e-2
-        instant.climb(*climb, compiled)
-        instant.climb.py_func(*climb, plain)
-        assert compiled == pytest.approx(plain, rel=1e-12)
-    few = cracking.RADII[::8]
-    one, other = np.zeros((2, few.size, 2, cracking.TERMS))
-    cracking.tensions(few, 0.4, load, one)
-    cracking.tensions.py_func(few, 0.4, load, other)
-    assert one == pytest.approx(other, rel=1e-12, abs=1e-15)
-    cracking.hardest_among(few, one, 0.05, compiled)
-    cracking.hardest_among.py_func(few, one, 0.05, plain)
-    assert compiled == pytest.approx(plain, rel=1e-12)
-    climb = 0.1, 2e-2, 0.05, 0.4, load, one[0]
-    cracking.climb_flaws(*climb, compiled)
-    cracking.climb_flaws.py_func(*climb, plain)
-    assert compiled == pytest.approx(plain, rel=1e-12)

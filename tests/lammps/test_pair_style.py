@@ -90,7 +90,7 @@ UNLIKE = """boundary f f f
 newton off
 atom_modify map array
 neighbor 0.001 bin
-region b block -1 1 -1 1 -1 1
+region b block -0.1 0.1 -0.1 0.1 -0.1 0.1
 create_box 2 b
 create_atoms {low} single 0 0 0
 create_atoms {high} single 0 0 0.0100000001

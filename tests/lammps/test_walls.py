@@ -29,8 +29,9 @@ def rebounds(
     rows = range(PSI.size)
     atoms = [f"{k + 1} 1 0.01 7850 {0.1 * k} 0 {bottom + RADIUS + gap[k]!r}" for k in rows]
     moves = [f"{k + 1} {along[k]!r} 0 {-speed!r} 0 0 0" for k in rows]
-    text = f"fall\n\n{PSI.size} atoms\n1 atom types\n-1 7 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n"
-    text += "\nAtoms # sphere\n\n" + "\n".join(atoms) + "\n\nVelocities\n\n" + "\n".join(moves)
+    text = f"fall\n\n{PSI.size} atoms\n1 atom types\n-1 7 xlo xhi\n"
+    text += "-0.1 0.1 ylo yhi\n-0.1 0.1 zlo zhi\n\nAtoms # sphere\n\n" + "\n".join(atoms)
+    text += "\n\nVelocities\n\n" + "\n".join(moves)
     (lammps.folder / "fall.data").write_text(
         text.replace("np.float64(", "").replace(")", "") + "\n"
     )

@@ -202,11 +202,12 @@ def test_inputs_print_the_rebound(bodies, tmp_path):
 
 
 @engine
-def test_the_script_tells_what_fails(texts, tmp_path):
+def test_the_script_tells_what_fails(tmp_path):
     """Exit code and words, in a process of its own."""
     name = f"{study.GRANULAR}/dem04-mindlin-sticking-wall-3d-si.yaml"
-    (tmp_path / "right.yaml").write_text(texts[name])
-    (tmp_path / "wrong.yaml").write_text(texts[name].replace("mu 0.2", "mu 0.21"))
+    text = (study.FOLDER / name).read_text()
+    (tmp_path / "right.yaml").write_text(text)
+    (tmp_path / "wrong.yaml").write_text(text.replace("mu 0.2", "mu 0.21"))
     script = study.FOLDER / "run_tests.py"
     command = [sys.executable, script, "right.yaml", "wrong.yaml"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)

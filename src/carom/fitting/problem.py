@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -106,6 +106,13 @@ class FitProblem:
         units = {"rad/s": speed / self.pair.first.radius, "m/s": speed}
         return np.array([units.get(GLOSSARY[name].unit, 1.0) for name in self.responses])
 
+    @cached_property
+    def least_errors(self) -> Array:
+        """The errors of the interpolated curves, by response."""
+        sizes = np.abs(self.measured)
+        largest = np.minimum(np.nanmax(sizes, axis=0), LARGER * np.nanmedian(sizes, axis=0))
+        return np.asarray(RESOLVED * np.maximum(largest, NEARLY_ZERO * self.sizes))
+
     def moved(self, changes: Mapping[str, Array]) -> IncomingMotion:
         """Return the motion before with some of its columns changed by so much."""
         quantities = {name: values + changes.get(name, 0.0) for name, values in self.before.items()}
@@ -130,6 +137,7 @@ class FitProblem:
 
 
 NORMAL = np.linspace(-10.0, 10.0, 2001)  # where means over a normal distribution are taken
+NORMAL_DENSITY = np.exp(-0.5 * NORMAL**2)
 SURE = 3.09  # standard deviations beyond which errors that were given are called too small
 RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
 OUTLIER = 4.0  # in standard deviations
@@ -190,8 +198,13 @@ class RobustLoss:
 
 def gaussian_mean(values: Array) -> float:
     """Return the mean of a function, given at NORMAL, over a standard normal distribution."""
-    density = np.exp(-0.5 * NORMAL**2)
-    return float((values * density).sum() / density.sum())
+    return float((values * NORMAL_DENSITY).sum() / NORMAL_DENSITY.sum())
+
+
+@cache
+def normal_influence(loss: RobustLoss) -> float:
+    """Return the mean of r psi(r) over a standard normal distribution."""
+    return gaussian_mean(NORMAL * loss.influence(NORMAL))
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,19 +227,12 @@ def first_errors(problem: FitProblem) -> Array:
     """Return errors to begin with where none are known: a part of the spread of each response."""
     low, high = np.nanpercentile(problem.measured, (10.0, 90.0), axis=0)
     spread = (high - low) / 2.56  # few outliers do not move it
-    return np.asarray(0.1 * spread + least_error(problem))
+    return np.asarray(0.1 * spread + problem.least_errors)
 
 
 def usable_errors(problem: FitProblem) -> Array:
     """Return the errors that were given, none smaller than that of the curves."""
-    return np.maximum(problem.errors, least_error(problem))
-
-
-def least_error(problem: FitProblem) -> Array:
-    """Return the error of the interpolated curves, by response."""
-    sizes = np.abs(problem.measured)
-    largest = np.minimum(np.nanmax(sizes, axis=0), LARGER * np.nanmedian(sizes, axis=0))
-    return np.asarray(RESOLVED * np.maximum(largest, NEARLY_ZERO * problem.sizes))
+    return np.maximum(problem.errors, problem.least_errors)
 
 
 def mean_over(values: Array, function: Callable[[Array], Array], used: float = 0.0) -> float:
@@ -247,7 +253,7 @@ def scattered(
     they are constant.
     """
     shares = np.array(SHARES[:1] if loss.is_square else SHARES)[:, np.newaxis]
-    sigma, least = np.ones((len(shares), *problem.present.shape)), least_error(problem)
+    sigma, least = np.ones((len(shares), *problem.present.shape)), problem.least_errors
     for place, there in enumerate(problem.present.T):
         sizes = expected[there, place] ** 2 / max(np.median(expected[there, place] ** 2), 1e-300)
         parts = shares * problem.scales_with_speed[place]
@@ -280,7 +286,7 @@ def scatter(residuals: Array, present: Mask, used: Array, loss: RobustLoss) -> A
 def _scales(residuals: Array, used: float, loss: RobustLoss) -> Array:
     """Return the scales of residuals along the last axis: mean r psi(r) as normal ones have it."""
     kept = max(1.0 - used / residuals.shape[-1], 0.05)
-    wanted = kept * gaussian_mean(NORMAL * loss.influence(NORMAL))
+    wanted = kept * normal_influence(loss)
     factor = np.sqrt(np.mean(residuals**2, axis=-1))
     for _ in range(50):
         scaled = residuals / np.maximum(factor, 1e-300)[..., np.newaxis]

@@ -12,7 +12,7 @@ from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.model import Model
-from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, least_error, typical_deviation
+from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
 from carom.fitting.reading import HEIGHTS, taken_by_air
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -237,7 +237,7 @@ def notes(fit: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> t
 
 def _about_errors(best: Best) -> list[str]:
     problem, lines = best.model.problem, []
-    least = least_error(problem)
+    least = problem.least_errors
     for place, name in enumerate(problem.responses):
         if best.estimated[place]:
             unknown = problem.present[:, place] & ~np.isfinite(problem.errors[:, place])

@@ -102,7 +102,7 @@ def _changed(dataset: "xr.Dataset", back: "xr.Dataset") -> str:
     """Return the name of what is otherwise in the dataset that was read back, if anything is."""
     for name in {**dataset.variables, **back.variables}:
         here, there = dataset.variables.get(name), back.variables.get(name)
-        if not (here is not None and there is not None and _same(here, there)):
+        if here is None or there is None or not _same(here, there.compute()):
             return f"{name}"
     same = set(dataset.coords) == set(back.coords) and _attributes(dataset) == _attributes(back)
     return "" if same else "dataset"

@@ -45,25 +45,6 @@ template <int N> CaromKind of_precision(const CaromOptions &options) {
     return options.single ? of_parts<N, float>(options) : of_parts<N, double>(options);
 }
 
-/// Velocity after a normal impact with this alpha: d'' = -(5/4) sqrt(s) (d + alpha d' - ...), the
-/// contact of Hertz's springs with s at the edge where d + alpha d' ends, by the header itself.
-double rebound(double alpha) {
-    carom::Pair pair{1.0, 1e6, 1.0, 0.0, 1.0, alpha};
-    pair.modulus = 0.9375 / std::sqrt(pair.radius);  // so that d_max = V_1 = 1
-    carom::Contact<8, double, carom::viscous> contact{};
-    carom::Load load{};
-    const double step = 2e-4;
-    double depth = 0.0, speed = 1.0;
-    for (int i = 0; i < 1000000; ++i) {
-        speed -= 0.5 * step * load.normal;
-        depth += step * speed;
-        carom::advance(contact, pair, {depth, speed, 0.0, 0.0, step}, load);
-        speed -= 0.5 * step * load.normal;
-        if (speed < 0.0 && load.normal <= 0.0) break;
-    }
-    return -speed;
-}
-
 /// Whether a contact is as it was in the last step, and not moved since.
 bool lasts(const CaromKind &kind, const double *memory, const carom::Encounter &now) {
     const double depth = memory[DEPTH];
@@ -112,17 +93,6 @@ void carom_step(const CaromKind &kind, CaromBatch &batch, bool setup) {
         stand(kind, batch);
     else
         kind.advance(batch);
-}
-
-double carom_loss(double restitution) {
-    if (restitution > 0.9999) return 1e4 * (1.0 - restitution) * carom_loss(0.9999);
-    double low = 0.0, high = 1.0;
-    while (rebound(high) > restitution) high *= 2.0;
-    for (int i = 0; i < 40; ++i) {
-        const double middle = 0.5 * (low + high);
-        (rebound(middle) > restitution ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
 }
 
 }  // namespace LAMMPS_NS

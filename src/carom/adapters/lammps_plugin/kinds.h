@@ -74,9 +74,6 @@ inline double carom_pressed(const carom::Pair &pair, double depth) {
     return 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(pressed, 2.5);
 }
 
-/// Return alpha = tau V_1/d_max at which spheres of Kelvin and Voigt's solid rebound with e.
-double carom_loss(double restitution);
-
 }  // namespace LAMMPS_NS
 
 #endif
