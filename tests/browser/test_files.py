@@ -172,7 +172,7 @@ BAD = {
 
 
 def test_bodies_are_asked_for_and_a_fit_stays_until_another_is_wanted(visit):
-    seen = opened(visit(alone=True), "fit-panel")
+    seen = opened(visit(), "fit-panel")
     upload(seen, measured(FRICTION))
     seen.page.wait_for_selector("#fit-bodies")
     assert seen.page.locator(".carom-parameters").count() == 0
@@ -197,7 +197,7 @@ def test_bodies_are_asked_for_and_a_fit_stays_until_another_is_wanted(visit):
 
 
 def test_with_numbers_given_no_bodies_are_offered(visit):
-    seen = opened(visit("?given=numbers", alone=True), "fit-panel")
+    seen = opened(visit("?given=numbers"), "fit-panel")
     upload(seen, measured(FRICTION))
     seen.until(lambda: "Choose bodies in the controls first" in seen.page.inner_text("#fit-ask"))
     assert seen.page.locator("#fit-bodies").count() == 0
@@ -208,7 +208,7 @@ def test_with_numbers_given_no_bodies_are_offered(visit):
 
 @pytest.mark.slow
 def test_uploads_are_fitted_or_refused_in_a_line(visit):
-    seen = opened(visit(alone=True), "fit-panel")
+    seen = opened(visit(), "fit-panel")
     for name, content in BAD.items():
         upload(seen, content, name)
         notice = seen.until(lambda: seen.page.inner_text("#fit-notice"))
@@ -223,7 +223,7 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
 
 
 def test_the_last_of_file_and_data_set_counts(visit):
-    seen, name = opened(visit(alone=True), "fit-panel"), carom.datasets.names()[0]
+    seen, name = opened(visit(), "fit-panel"), carom.datasets.names()[0]
     head = ".carom-fit-head h3"
     for _ in range(2):  # the same file can be sent again
         upload(seen, measured(FRICTION), "own.csv")
@@ -244,7 +244,7 @@ def test_the_last_of_file_and_data_set_counts(visit):
 
 @pytest.mark.parametrize("width", [400, 1024, 1440, 1920])
 def test_a_fit_is_drawn_in_one_view_without_anything_cut(visit, width):
-    seen = opened(visit("?data=kharaz2001", width=width, alone=True), "fit-panel")
+    seen = opened(visit("?data=kharaz2001", width=width), "fit-panel")
     seen.page.wait_for_selector("#fit .carom-fit-residual .main-svg", state="attached")
     assert seen.page.evaluate("document.documentElement.scrollWidth") <= width
     boxes = seen.page.evaluate(
