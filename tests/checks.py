@@ -58,7 +58,8 @@ def seen_texts(figure):
 
 def is_legible(figure, least=11):
     """Assert that every text that is seen lies within the figure and clear of every other."""
-    FigureCanvasAgg(figure).draw()
+    FigureCanvasAgg(figure)
+    figure.draw_without_rendering()
     page = figure.bbox
     boxes = [(text.get_text(), text.get_window_extent()) for text in seen_texts(figure)]
     assert len(boxes) >= least

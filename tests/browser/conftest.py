@@ -1,9 +1,8 @@
 """The page in a real browser: one server and one Chromium for all tests, mostly one tab.
 
-Loading the page takes a while, nearly all of it in plotly. So a visit opens its link in
-a tab that another visit has left, as the browser's buttons for back and forward do, unless it asks
-to load the page. Every visit ends with the console free of errors and warnings and no other host
-asked.
+Loading the page takes a while, nearly all of it in plotly. So a visit opens its link in the tab that
+is there, as the browser's buttons for back and forward do, unless it asks to load the page. Every
+test ends with the console free of errors and warnings and no other host asked.
 """
 
 import json
@@ -12,7 +11,6 @@ import shutil
 import subprocess
 import sys
 import time
-from collections import defaultdict
 from urllib.parse import urlsplit
 
 import pytest
@@ -27,7 +25,10 @@ READY = "document.querySelector('#results table') && window.Carom && Carom.page.
 BETWEEN = "?angle=1.5&friction=0.05"  # no test begins here
 CHART = "document.querySelector('#rebounds .js-plotly-plot')?._fullData"
 TRAVEL = f"""query => {{
-  document.activeElement.blur();
+  const top = Object.assign(document.createElement("i"), {{ tabIndex: -1 }});
+  document.body.prepend(top);
+  top.focus(); // from where the tab key goes on
+  top.remove();
   scrollTo(0, 0);
   window.left = Carom.page.answers()[0];
   window.drawn = {CHART};
@@ -39,10 +40,10 @@ TRAVEL = f"""query => {{
 class Visit:
     """A page of the explorer in a tab of a browser."""
 
-    def __init__(self, context, address):
+    def __init__(self, browser, address):
         self.address = address
         self.trouble = []
-        self.page = context.new_page()
+        self.page = browser.new_context().new_page()
         self.page.on("console", self._heard)
         self.page.on("pageerror", lambda error: self.trouble.append(f"page error: {error}"))
         self.page.on("request", self._asked)
@@ -59,7 +60,6 @@ class Visit:
 
         From a tab without charts it goes by way of another link, as there is no chart to change.
         """
-        self.page.bring_to_front()  # pages behind others draw seldom
         charts = self.page.evaluate("Carom.tabs.chosen()") == "Charts"
         for where in (query or "?",) if charts else (BETWEEN, query or "?"):
             self.page.evaluate(TRAVEL, where)
@@ -147,6 +147,12 @@ class Visit:
         """Choose from a list."""
         self.page.locator(f"#{name}").select_option(label=option)
 
+    def settle(self):
+        """Wait until what is due is drawn."""
+        self.page.evaluate(
+            "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+        )
+
     def pixels(self, canvas):
         """Return the picture of a canvas as text."""
         return self.page.evaluate(f"document.getElementById('{canvas}').toDataURL()")
@@ -186,47 +192,36 @@ def chromium():
 
 
 @pytest.fixture(scope="session")
-def contexts(chromium):
-    """Browsers' memories by width: what one visit has loaded, the next has."""
-    values = {}
-
-    def context(width, fresh):
-        if fresh or width not in values:
-            values[width] = chromium.new_context(viewport={"width": width, "height": 900})
-        return values[width]
-
-    return context
-
-
-@pytest.fixture(scope="session")
 def tabs():
-    """Visits that are over, by width."""
-    return defaultdict(list)
+    """The tab that visits share, once there is one."""
+    return []
 
 
 @pytest.fixture
-def visit(address, contexts, tabs):
-    """Open a link; loading the page, alone in a tab, or fresh in a browser that was never here."""
-    over, left = [], []
+def page(visit, tabs):
+    """The page whatever it shows, for its functions."""
+    return (tabs[0] if tabs else visit()).page
 
-    def open_page(query="", *, width=1280, loading=False, alone=False, fresh=False, ready=True):
-        if tabs[width] and ready and not (loading or alone or fresh):
-            seen = tabs[width].pop()
-            seen.travel(query)
-        else:
-            seen = Visit(contexts(width, fresh), address)
+
+@pytest.fixture
+def visit(address, chromium, tabs):
+    """Open a link: in the page that is there, loading it, or fresh in a browser never here."""
+    own = []
+
+    def open_page(query="", *, width=1280, loading=False, fresh=False, ready=True):
+        loading |= fresh or not tabs
+        if fresh or not tabs:
+            (own if fresh else tabs).append(Visit(chromium, address))
+        seen = (own if fresh else tabs)[-1]
+        seen.page.set_viewport_size({"width": width, "height": 900})
+        if loading:
             seen.load(query, ready)
-        over.append(seen)
-        if not (alone or fresh):
-            left.append((width, seen))
+        else:
+            seen.travel(query)
         return seen
 
     yield open_page
-    trouble = [line for each in over for line in each.trouble]
-    for width, seen in left:
-        if not seen.trouble:
-            tabs[width].append(seen)
-    for seen in over:
-        if not any(seen in each for each in tabs.values()):
-            seen.page.close()
+    trouble = [line for each in (*own, *tabs) for line in each.trouble]
+    while own or (trouble and tabs):
+        (own or tabs).pop().page.context.close()
     assert trouble == []

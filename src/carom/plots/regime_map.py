@@ -89,7 +89,7 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     for region in drawn:
         face = colours[group_of(region.name)] if region.name else "white"
         hatch = None if region.name else "xxxx"
-        axis.add_patch(PathPatch(region.path(), fc=face, hatch=hatch, **EDGE))
+        axis.add_artist(PathPatch(region.path(), fc=face, hatch=hatch, **EDGE))
     axis.set(xlim=limits(dataset, "psi_in"), ylim=limits(dataset, "chi"))
     axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi"))
     draw_borders(axis, float(dataset.get("restitution", 1.0)))

@@ -1,6 +1,7 @@
 """Labels of a map's regions: sequences of phases in letters, and where each of them goes."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
@@ -257,55 +258,63 @@ def without_overlaps(spots: list[list[Spot]]) -> list[Label | None]:
     own = [slice(*pair) for pair in pairwise(ends) if pair[0] < pair[1]]
     if not own:
         return [None] * len(spots)
-    meet = _meeting([spot.label for spot in every])
+    meets = _meeting([spot.label for spot in every])
     costs, rng = np.array([spot.cost for spot in every]), np.random.default_rng(0)
-    kept = [_annealed(rng, own, costs, meet) for _ in range(TRIALS)]
+    kept = [_annealed(rng, own, costs, meets) for _ in range(TRIALS)]
     best = min(kept, key=lambda chosen: costs[chosen].sum() - LOST * len(chosen))
     taken = {int(np.searchsorted(ends, k, side="right")) - 1: every[k].label for k in best}
     return [taken.get(k) for k in range(len(spots))]
 
 
-def _meeting(labels: list[Label]) -> Mask:
-    """Tell which labels overlap, or have leader lines that cross each other or a label.
+def _meeting(labels: list[Label]) -> Callable[[int], Mask]:
+    """Return what tells which labels one of them overlaps, and whose leader lines cross its own.
 
-    A line that passes a label crosses one of its diagonals.
+    Or cross its box, as it those of others: a line that passes a label crosses one of its diagonals.
     """
     at, end = (np.array([getattr(label, name) for label in labels]) for name in ("at", "end"))
     start = np.array([one.at if one.start is None else one.start for one in labels])
-    half = 0.5 * np.array([one.block[1:3] for one in labels])
-    meet = np.all(np.abs(at[:, np.newaxis] - at) < half[:, np.newaxis] + half + APART, axis=-1)
-    for sense in (1.0, -1.0):
-        corner = (half + 0.5 * APART) * (1.0, sense)
-        cross = _crossing(start, end, at - corner, at + corner)
-        meet |= cross | cross.T
-    return np.asarray(meet | _crossing(start, end, start, end))
+    half = 0.5 * np.array([one.block[1:3] for one in labels]) + 0.5 * APART
+    diagonals = [(at - half * (1.0, sense), at + half * (1.0, sense)) for sense in (1.0, -1.0)]
+
+    @cache
+    def meets(k: int) -> Mask:
+        line = start[k], end[k]
+        apart = np.abs(at - at[k]) - half - half[k]
+        meet = (apart[:, 0] < 0.0) & (apart[:, 1] < 0.0)
+        meet |= _crossing(*line, start, end)
+        for low, high in diagonals:
+            meet |= _crossing(*line, low, high) | _crossing(low[k], high[k], start, end)
+        return meet
+
+    return meets
 
 
 def _crossing(a: Array, b: Array, c: Array, d: Array) -> Mask:
-    """Tell which of the lines from a to b cross which of those from c to d."""
-    apart = [_sides(a, b, c) * _sides(a, b, d), (_sides(c, d, a) * _sides(c, d, b)).T]
+    """Tell which of the lines from c to d the line from a to b crosses."""
+    apart = _sides(a, b, c) * _sides(a, b, d), _sides(c, d, a) * _sides(c, d, b)
     return np.asarray((apart[0] < 0.0) & (apart[1] < 0.0))
 
 
 def _sides(start: Array, end: Array, points: Array) -> Array:
-    """Return on which side of lines points lie, by sign, shape (lines, points)."""
-    (x, y), (u, v) = (end - start).T, start.T
-    lines = np.stack([-y, x, y * u - x * v], axis=-1)
-    return np.asarray(lines @ np.append(points, np.ones((len(points), 1)), axis=1).T)
+    """Return on which side of lines points lie, by sign."""
+    (x, y), (u, v) = (end - start).T, (points - start).T
+    return np.asarray(x * v - y * u)
 
 
-def _annealed(rng: np.random.Generator, own: list[slice], costs: Array, meet: Mask) -> list[int]:
+def _annealed(
+    rng: np.random.Generator, own: list[slice], costs: Array, meets: Callable[[int], Mask]
+) -> list[int]:
     """Return the spots of most labels, each among its own, of which no two meet."""
     chosen = [part.start + int(costs[part].argmin()) for part in own]
-    hits = meet[chosen].sum(axis=0)
+    hits = np.sum([meets(k) for k in chosen], axis=0)
     for late in np.linspace(0.0, 1.0, SWEEPS):
         chance, in_the_way = CHANCE * (1.0 - late), IN_THE_WAY * (0.2 + late)
         for i in rng.permutation(len(own)).tolist():
-            hits -= meet[chosen[i]]
+            hits -= meets(chosen[i])
             cost = costs[own[i]] + in_the_way * hits[own[i]]
             cost -= chance * rng.gumbel(size=cost.size)
             chosen[i] = own[i].start + int(cost.argmin())
-            hits += meet[chosen[i]]
-    while (often := meet[np.ix_(chosen, chosen)].sum(axis=0)).max() > 1:
+            hits += meets(chosen[i])
+    while (often := np.sum([meets(k)[chosen] for k in chosen], axis=0)).max() > 1:
         chosen.pop(int(often.argmax()))
     return chosen
