@@ -59,7 +59,7 @@ def there(tmp_path):
 
 
 def ended(folder, program, arguments):
-    """Return exit code, what is printed, and what is text, of a Python that has loaded nothing.
+    """Return exit code, what is printed, and what is told, of a Python that has loaded nothing.
 
     It parses all sources, as the first one of an installation does.
     """
