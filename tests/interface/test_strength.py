@@ -71,7 +71,7 @@ def test_no_strength_at_all_is_told_with_where_to_put_it():
 )
 def test_an_output_whose_strength_is_missing_is_refused(output, missing):
     body = output.rpartition("_")[2]
-    words = f"^{missing}: missing for the {body} body, which {output} needs"
+    words = rf"(^|\(1\) ){missing}: missing for the {body} body, which {output} needs"
     refused(words, one_angle, [output])
 
 

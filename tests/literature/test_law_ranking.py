@@ -124,17 +124,17 @@ def test_a_law_that_gains_energy_is_told():
     gain = max(abs(mindlin_out(p, chi)) - p for p in psi)
     assert gain > 0.03
     entries = [Entry("spring", dem.LammpsMindlin(), ""), Entry("hard", dem.HardSphere(1.0), "")]
-    value = {s.entry.label: s for s in rank(entries, chi=chi, psi=psi).standings}
+    value = {s.entry.label: s for s in rank(entries, chi=chi, psi_1=psi).standings}
     assert value["spring"].energy_gain == pytest.approx(gain, abs=1e-3)
     assert value["hard"].energy_gain == 0.0
-    assert rank(entries[:1], psi=psi).standings[0].energy_gain == 0.0
+    assert rank(entries[:1], psi_1=psi).standings[0].energy_gain == 0.0
 
 
 def test_shells_rank_by_their_own_kappa():
     """chi and kappa are free of each other for hollow spheres: psi_2 of k_t/k_n = 2/7 moves."""
     law = dem.LinearSpring(2 / 7)
     entry = Entry("soft", law, "shells")
-    shells, solid = (rank([entry], chi=1.0294, kappa=k, psi=[1.0]) for k in (0.8235, None))
+    shells, solid = (rank([entry], chi=1.0294, kappa=k, psi_1=[1.0]) for k in (0.8235, None))
     exact = carom.rebound(1.0, 1.0294)
     error = abs(law.rebound(1.0, 1.0294, kappa=0.8235) - exact)
     assert shells.standings[0].max_error == pytest.approx(error, rel=1e-12)
@@ -182,7 +182,7 @@ def test_table_has_a_row_a_law(ranking):
 
 def test_progress_is_told():
     items = []
-    rank(FEW, psi=[1.0], progress=lambda done, whole: items.append((done, whole)))
+    rank(FEW, psi_1=[1.0], progress=lambda done, whole: items.append((done, whole)))
     assert items == [(1, 3), (2, 3), (3, 3)]
 
 
@@ -214,12 +214,12 @@ def test_damped_laws_are_compared_with_an_impact_of_the_same_restitution() -> No
         exact = carom.rebound(psi, CHI, losses=carom.KelvinVoigt(restitution=left))
         error = np.abs(damped.rebound(psi, CHI) - exact)
         for standing in (
-            verify.rank([damped], psi=psi, chi=CHI).standings[0],
-            verify.rank(law, psi=psi, chi=CHI, restitution=0.7).standings[0],
+            verify.rank([damped], psi_1=psi, chi=CHI).standings[0],
+            verify.rank(law, psi_1=psi, chi=CHI, restitution=0.7).standings[0],
         ):
             assert standing.restitution == pytest.approx(left, abs=1e-4)
             assert standing.max_error == pytest.approx(error.max(), abs=1e-4)
-        tuned = verify.tune([damped], psi=psi, chi=CHI).advice[0]
+        tuned = verify.tune([damped], psi_1=psi, chi=CHI).advice[0]
         assert tuned.before == pytest.approx(error.max(), abs=1e-4)
         errors = verify.error_map(damped, psi, [CHI])
         assert errors.max_error[0] == pytest.approx(error.max(), abs=1e-4)
@@ -233,11 +233,11 @@ def test_sliding_impacts_of_damped_laws_have_the_force_of_the_exact_one() -> Non
 
 
 def test_rankings_with_losses() -> None:
-    ranking = verify.rank(psi=[0.5, 2.0], restitution=0.7)
+    ranking = verify.rank(psi_1=[0.5, 2.0], restitution=0.7)
     assert {s.restitution for s in ranking.standings} == {0.7}
     assert "Thornton, incremental" not in {s.entry.label for s in ranking.standings}
     assert ranking.to_dataset().psi_out_exact.dims == ("psi_in",)
-    mixed = verify.rank([dem.LinearSpring(), dem.LinearSpring(restitution=0.7)], psi=[0.5, 2.0])
+    mixed = verify.rank([dem.LinearSpring(), dem.LinearSpring(restitution=0.7)], psi_1=[0.5, 2.0])
     assert mixed.to_dataset().psi_out_exact.dims == ("law", "psi_in")
     assert "e = 0.7" in str(mixed)
     mixed.plot()
