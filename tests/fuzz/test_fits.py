@@ -174,7 +174,7 @@ def explained(found):
     for each in found.estimates.values():
         assert np.isfinite(each.value), each
         assert each.determined == bool(np.isfinite(each.low) or np.isfinite(each.high)), each
-        assert each.determined or each.reason or each.name not in found.best.model.free, each
+        assert each.determined or each.reason or each.name not in found._best.model.free, each
         if each.determined:
             assert each.low - 1e-9 * abs(each.value) <= each.value, each
             assert each.value <= each.high + 1e-9 * abs(each.value), each
@@ -206,7 +206,7 @@ def used(found):
     assert found.comparison.verdict
     assert found.cite()
     assert all(isinstance(note, str) and "nan" not in note for note in found.notes), found.notes
-    for name in (None, *found.best.model.free):
+    for name in (None, *found._best.model.free):
         advice = found.advice(2, name)
         json.dumps(advice.to_dict(), allow_nan=False)
         assert len(advice.places) == 2
