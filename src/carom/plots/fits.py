@@ -66,7 +66,7 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         last = axes[2 * ((len(names) - 1 - column) // across) + 1, column]
         last.set_xlabel(_incidence(dataset))
         last.tick_params(labelbottom=True)
-    legend_outside(figure, _key(), 2 * across)
+    legend_outside(figure, _key(), across + 1)
     return figure
 
 
@@ -126,8 +126,8 @@ def _draw_response(axes: Any, dataset: xr.Dataset, name: str) -> None:
     line = np.degrees(data["curve_incidence"].values)
     ends = np.degrees([0.0, *dataset["border"].values, 0.5 * np.pi])
     for axis in axes:
-        for name, start, end in mirrored(REGIMES, ends, line[0], line[-1]):
-            shade(axis, start, end, REGIMES[name])
+        for regime, start, end in mirrored(REGIMES, ends, line[0], line[-1]):
+            shade(axis, start, end, REGIMES[regime])
     for law, stroke in LAW_STYLES.items():
         upper.plot(line, scale * data["curve_expected"].sel(law=law).values, **stroke)
     band = (scale * data[f"curve_{end}"].values for end in ("low", "high"))
