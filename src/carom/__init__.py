@@ -6,10 +6,7 @@ Groups of names are `carom.laws`, `carom.dem` and `carom.verify` (contact laws o
 `carom.plots`, `carom.datasets`, `carom.results` and `carom.status`; `dir(carom)` lists all.
 """
 
-import lazy_loader  # a name is loaded when it is first used, from where `__init__.pyi` has it
+from carom.names import attach  # a name is loaded when first used, from where the stub has it
 
-from carom.old_names import with_old_names
-
-_load, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = attach(__name__, __file__)
 __all__.remove("__version__")
-__getattr__ = with_old_names(__name__, _load)

@@ -1,6 +1,5 @@
 """Closed forms of tangential contact of spheres; their home is `carom.contacts.classical`."""
 
-from carom.contacts.classical import Obliquity, cattaneo_mindlin, critical_obliquity, loop_energy
+from carom.names import attach
 
-__all__ = ["Obliquity", "cattaneo_mindlin", "critical_obliquity", "loop_energy"]
-__dir__ = __all__.copy
+__getattr__, __dir__, __all__ = attach(__name__, __file__)

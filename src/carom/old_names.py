@@ -26,13 +26,15 @@ NEW_NAMES = {
     "carom.verify.damping": "carom.verify.damping_from_restitution",
     "carom.verify.restitution": "carom.verify.restitution_from_damping",
 }
-NEW_CALLS: dict[str, tuple[str, Callable[[], Any]]] = {  # what a name alone no longer gives
-    "carom.MixtureLaw": ("carom.laws.ReboundLaw((low, high))", lambda: _law_of_a_range),
-    "carom.material_sources": ("carom.material(name).sources", lambda: _sources),
-    "carom.verify.CATALOGUE": (
-        "carom.verify.catalogue()",
-        lambda: _get("carom.verify.catalogue")(),
-    ),
+CALLS: dict[str, Callable[..., Any]] = {  # what a name alone no longer gives
+    "carom.MixtureLaw": lambda low, high: _get("carom.laws.ReboundLaw")((low, high)),
+    "carom.material_sources": lambda name: dict(_get("carom.material")(name).sources),
+}
+NEW_PLACES = {
+    **NEW_NAMES,
+    "carom.MixtureLaw": "carom.laws.ReboundLaw((low, high))",
+    "carom.material_sources": "carom.material(name).sources",
+    "carom.verify.CATALOGUE": "carom.verify.catalogue()",
 }
 OLD_KEYWORDS = {"time": "at", "step": "at", "psi": "psi_1"}
 OLD_FIELDS = {"psi": "psi_in", "told": "label"}
@@ -45,28 +47,12 @@ def _get(path: str) -> Any:
     return getattr(import_module(home), name)
 
 
-def _sources(name: str) -> dict[str, str]:
-    return dict(_get("carom.material")(name).sources)
-
-
-def _law_of_a_range(low: float, high: float) -> Any:
-    return _get("carom.laws.ReboundLaw")((low, high))
-
-
-def with_old_names(package: str, load: Callable[[str], Any]) -> Callable[[str], Any]:
-    """Return the `__getattr__` of a package that knows the names of version 0.2, too."""
-
-    def __getattr__(name: str) -> Any:
-        old = f"{package}.{name}"
-        if old not in NEW_NAMES and old not in NEW_CALLS:
-            return load(name)
-        new, find = NEW_CALLS.get(old) or (NEW_NAMES[old], lambda: _get(NEW_NAMES[old]))
-        _warn(old, new)
-        value = find()
-        setattr(import_module(package), name, value)  # one warning
-        return value
-
-    return __getattr__
+def old_value(path: str) -> Any:
+    """Return what a name of version 0.2 stands for, with a warning that gives the new name."""
+    _warn(path, NEW_PLACES[path], stacklevel=4)
+    if path == "carom.verify.CATALOGUE":
+        return _get("carom.verify.catalogue")()
+    return CALLS.get(path) or _get(NEW_NAMES[path])
 
 
 def with_old_fields(record: type[Record]) -> type[Record]:

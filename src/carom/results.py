@@ -1,5 +1,5 @@
 """What the functions of Carom return: one record for each question."""
 
-import lazy_loader
+from carom.names import attach
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub("carom", __file__)
+__getattr__, __dir__, __all__ = attach(__name__, __file__)

@@ -1,7 +1,10 @@
 from .collisions import Collisions as Collisions, JudgedCollisions as JudgedCollisions
+from .contacts.contact import Contact as Contact
 from .contacts.load_paths import LoadPath as LoadPath
+from .dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution as ViscoelasticSolution
 from .dimensionless.solution import Solution as Solution
 from .fitting import Estimate as Estimate, Fit as Fit
 from .impacts.boundary_elements import HalfspaceImpact as HalfspaceImpact
 from .impacts.exact import Impact as Impact
+from .io.labels import Validity as Validity
 from .laws.walton_fit import WaltonFit as WaltonFit

@@ -1,5 +1,5 @@
 """Status codes: what became of each point of a batch. They are integers with a `message`."""
 
-import lazy_loader
+from carom.names import attach
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub("carom", __file__)
+__getattr__, __dir__, __all__ = attach(__name__, __file__)

@@ -55,7 +55,7 @@ def test_best_fit_is_that_of_scipy(data, result):
     )
     assert result.friction.value == pytest.approx(best.x[0], rel=2e-4)
     assert result.kappa.value == pytest.approx(best.x[1], rel=2e-4)
-    assert result.best.sum == pytest.approx(2.0 * best.cost, abs=2e-3)
+    assert result._best.sum == pytest.approx(2.0 * best.cost, abs=2e-3)
 
 
 @pytest.mark.parametrize("name", ["friction", "kappa"])

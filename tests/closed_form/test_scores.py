@@ -108,6 +108,28 @@ def test_what_is_left_out_is_made_up_for_and_said():
     assert [note.split()[0] for note in result.notes] == ["normal_speed_out", "spin2_out"]
 
 
+def test_rows_in_which_nothing_was_measured_are_left_out(tmp_path):
+    """As `fit` reads them: a gap after the impact, whatever the columns; the rest scores alike."""
+    pair = carom.Pair(BALL, BODIES["plate"], friction=0.2)
+    columns = velocities(pair)
+    spins = [f"{spin!r}" for spin in columns["spin_out"]]
+    spins[1] = spins[4] = "-"
+    codes = ["one", *["two"] * (len(spins) - 1)]
+    result = score(columns | {"spin_out": spins, "code": codes}, case=pair)
+    rest = {name: np.delete(values, [1, 4]) for name, values in columns.items()}
+    assert result.max_error == score(rest, case=pair).max_error <= 1e-11
+    assert result.points.rows.tolist() == [1, 3, 4, *range(6, len(spins) + 1)]
+    assert [group.points for group in result.by_origin] == [1, len(spins) - 3]
+    (note,) = result.notes
+    assert note == "left out, as nothing was measured after the impact: rows 2 and 5"
+    psi = tmp_path / "psi.csv"
+    psi.write_text("psi_1,psi_2\n1,-0.0612\n2,-\n3,-1.4\n4,-1.5\n")
+    assert score(psi, chi=1.44).points.rows.tolist() == [2, 4, 5]
+    psi.write_text("psi_1,psi_2\n1,-0.0612\n-,-0.5\n3,-1.4\n4,-1.5\n")
+    with pytest.raises(carom.InputError, match=r"^psi_1: not a number in line 3; '-' cannot be"):
+        score(psi, chi=1.44)
+
+
 @pytest.mark.parametrize("angle", ["5 deg", "35 deg", "-60 deg", "80 deg"])
 @pytest.mark.parametrize(("shift", "e"), [(0.0, 1.0), (0.4, 1.0), (0.4, 0.9), (0.4, 0.5)])
 def test_exact_histories_score_zero(angle, shift, e):

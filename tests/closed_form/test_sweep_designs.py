@@ -36,7 +36,7 @@ def test_ranges_are_even_in_value_or_logarithm():
         "angle": {"from": "0 deg", "to": "85 deg", "points": 86},
         "first.material.young": {"from": "1 MPa", "to": "1 GPa", "points": 7, "spacing": "log"},
     }
-    coords = Grid(axes).coords()
+    coords = Grid(axes)._coords()
     angles, young = coords["angle"][1], coords["first_material_young"][1]
     np.testing.assert_allclose(angles, np.arange(86) * DEGREE, rtol=1e-14)
     np.testing.assert_allclose(young[1:] / young[:-1], math.sqrt(10.0), rtol=1e-14)
@@ -44,14 +44,14 @@ def test_ranges_are_even_in_value_or_logarithm():
     for spacing in ("linear", "log"):  # 0.2 + (0.9 - 0.2) is not 0.9, nor 0.3 (0.7/0.3) 0.7
         for start, stop in ((0.2, 0.9), (0.3, 0.7)):
             axis = {"from": start, "to": stop, "points": 3, "spacing": spacing}
-            values = Grid({"friction": axis}).coords()["friction"][1]
+            values = Grid({"friction": axis})._coords()["friction"][1]
             assert (values[0], values[-1]) == (start, stop)
     assert coords["first_material_young"][2]["units"] == "Pa"
 
 
 def test_axes_of_names_are_their_own_coordinates():
     grid = Grid({"first.material": ["steel", "rubber"], "second.kind": ["cup", "sphere"]})
-    assert grid.coords()["first_material"][1] == ["steel", "rubber"]
+    assert grid._coords()["first_material"][1] == ["steel", "rubber"]
     assert grid.inputs(whole(grid))["second.kind"].tolist() == [0, 1, 0, 1]
 
 
@@ -110,7 +110,7 @@ def test_a_file_of_cases(tmp_path):
     np.testing.assert_allclose(points["speed"], [10.0, 20.0, -10 / 3.6, 3.0], rtol=1e-15)
     np.testing.assert_allclose(points["angle"], [0.5, math.pi / 2, nan, nan], rtol=1e-15)
     assert points["first.material"].tolist() == [0, -1, 1, 0]
-    assert [choice.label for choice in table.choices["first.material"]] == ["steel", "glass"]
+    assert [choice.label for choice in table._choices["first.material"]] == ["steel", "glass"]
 
 
 def test_columns_of_arrays(tmp_path):
@@ -121,9 +121,9 @@ def test_columns_of_arrays(tmp_path):
     rows = zip(*columns.values(), strict=True)
     path.write_text("friction,spin\n" + "\n".join(f"{a!s},{b!s}" for a, b in rows))
     one, two = Table(columns), Table(str(path))
-    assert one.description() == two.description()
+    assert one._description() == two._description()
     columns["spin"][7] = np.nextafter(columns["spin"][7], 0.0)
-    assert Table(columns).description() != two.description()
+    assert Table(columns)._description() != two._description()
 
 
 def test_a_decimal_comma_in_a_cell_is_not_dropped():
@@ -233,7 +233,7 @@ def test_what_is_no_design_is_refused_in_a_line(make, message):
 @pytest.mark.parametrize("inputs", ["glass", np.array("glass"), np.array(["glass"])])
 def test_one_name_is_an_axis_of_one(inputs):
     """However it is given; its label is a plain text."""
-    (label,) = Grid({"second.material": inputs}).coords()["second_material"][1]
+    (label,) = Grid({"second.material": inputs})._coords()["second_material"][1]
     assert (type(label), label) == (str, "glass")
 
 

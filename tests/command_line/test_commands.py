@@ -130,6 +130,7 @@ BAD = [
     ([*BALL, *SPEED, "--plot", "no/such/x.png"], "output file: .*folder must exist"),
     ([*BALL, *SPEED, "--output", "/proc/x.csv"], "output file: .*cannot be written"),
     ([*BALL, *SPEED, "--colour", "red"], "No such option: --colour"),
+    ([*BALL, *SPEED, "--materal", "x"], "No such option: --materal; did you mean '--material' or"),
     (["impact", "missing.toml"], "case file: 'missing.toml' cannot be read"),
     (["curve", "--chi", "-1"], "chi: '-1' cannot be used"),
     (["curve", "--chi", "1", "--from", "2", "--to", "1"], "to: 1.0 cannot be used"),
@@ -175,6 +176,11 @@ def test_an_existing_file_survives_a_failed_write(refusal, monkeypatch):
     assert "disk full" in refusal(*BALL, *SPEED, "--output", "keep.csv")
     assert Path("keep.csv").read_text() == "precious"
     assert [path.name for path in Path().iterdir()] == ["keep.csv"]
+
+
+def test_python_runs_the_commands_too():
+    done = subprocess.run([sys.executable, "-m", "carom", "--version"], capture_output=True)
+    assert done.stdout.decode().strip() == carom.__version__
 
 
 def test_start_up_loads_nothing_that_is_not_needed():

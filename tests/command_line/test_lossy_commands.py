@@ -46,7 +46,7 @@ def test_an_impact_with_losses_is_that_of_the_library(run, pair, flags):
     assert code == 0
     assert record["result"] == hit.scalars()
     assert record["result"]["normal_restitution"] < 0.95
-    assert record["inputs"]["losses"] == LAWS[flags].describe()
+    assert record["inputs"]["losses"] == LAWS[flags]._describe()
     assert [phase["end"] for phase in record["phases"]] == [phase.end for phase in hit.phases]
     angles = {(phase["slip_angle_max"], phase["slip_angle_mean"]) for phase in record["phases"]}
     assert angles == {(None, None)}
@@ -62,6 +62,8 @@ def test_the_table_tells_what_was_lost_where_something_was(run):
     _, elastic, _ = run(*BALL, *SPEED)
     assert [meaning in lossy for meaning in meanings] == [True, True, True]
     assert [meaning in elastic for meaning in meanings] == [False, False, False]
+    _, yielding, _ = run(*BALL, *SPEED, "--yield-velocity", "0.1 m/s")
+    assert [meaning in yielding for meaning in meanings] == [True, True, False]
     rows = [line.strip().rsplit("  ", 1) for line in lossy.splitlines() if "  " in line.strip()]
     values = {key.strip(): value for key, value in rows}
     assert float(values[meanings[0].strip()]) == pytest.approx(0.9, abs=1e-5)

@@ -174,7 +174,7 @@ def explained(result):
     for each in result.estimates.values():
         assert np.isfinite(each.value), each
         assert each.determined == bool(np.isfinite(each.low) or np.isfinite(each.high)), each
-        assert each.determined or each.reason or each.name not in result.best.model.free, each
+        assert each.determined or each.reason or each.name not in result._best.model.free, each
         if each.determined:
             assert each.low - 1e-9 * abs(each.value) <= each.value, each
             assert each.value <= each.high + 1e-9 * abs(each.value), each
@@ -206,7 +206,7 @@ def used(result):
     assert result.comparison.verdict
     assert result.cite()
     assert all(isinstance(note, str) and "nan" not in note for note in result.notes), result.notes
-    for name in (None, *result.best.model.free):
+    for name in (None, *result._best.model.free):
         advice = result.advice(2, name)
         json.dumps(advice.to_dict(), allow_nan=False)
         assert len(advice.places) == 2

@@ -58,7 +58,7 @@ def test_the_same_bits_with_losses(functions):
         carom.rebound(one, other, losses=carom.KelvinVoigt(restitution=e))
         for one, other, e in zip(psi, chi, restitution, strict=True)
     ]
-    alpha = np.array([carom.KelvinVoigt(restitution=e).scale_free()[1] for e in restitution])
+    alpha = np.array([carom.KelvinVoigt(restitution=e)._scale_free()[1] for e in restitution])
     actual, e, status = np.zeros(psi.size), np.zeros(psi.size), np.zeros(psi.size, np.int8)
     assert functions.carom_rebound_viscous(psi.size, psi, chi, alpha, actual, e, status) == 0
     assert actual.tolist() == expected

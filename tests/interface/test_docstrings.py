@@ -52,14 +52,13 @@ ALSO = {
     "plots.style.style": {"YD01"},  # `with` yields nothing
 }
 MADE = {  # by functions, which say what is in them
-    *("Bench", "Collisions", "ContactStep", "Estimate", "Fit", "HalfspaceImpact", "Impact"),
-    *("JudgedCollisions", "LoadPath", "Obliquity", "Ranking", "Score", "Solution", "Tuning"),
-    "WaltonFit",
+    *("Bench", "Collisions", "Contact", "ContactStep", "Estimate", "Fit", "HalfspaceImpact"),
+    *("Impact", "JudgedCollisions", "LoadPath", "Obliquity", "Ranking", "Score", "Solution"),
+    *("Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
 }
 WITHOUT_EXAMPLE = {"InputError", "EngineError", "Bench"}  # the last needs a program to be run
 INNER = {  # what the parts of Carom say to each other
-    *("coefficients", "command", "coords", "describe", "description", "executable", "files"),
-    *("inputs", "loss", "outcomes", "rule", "scale_free", "supports", "version"),
+    *("command", "executable", "files", "inputs", "outcomes", "rule", "supports", "version"),
     *("contact_at", "friction_work", "pressed", "slip_rate", "touched"),
 }
 NEVER_REFUSE = {

@@ -11,6 +11,8 @@ from tests.checks import refused
 import carom
 from carom.fitting import fit
 from carom.plots.fits import plot_corner, plot_fit
+from carom.plots.regimes import REGIMES
+from carom.quantities.glossary import GLOSSARY
 
 MU = 0.12
 BALL = carom.Sphere(radius="2.5 mm", material="steel")
@@ -74,6 +76,10 @@ def test_a_stored_fit_is_drawn_without_fitting(result, tmp_path):
     np.testing.assert_array_equal(stored.measured, result.to_dataset().measured)
     figure = plot_fit(stored)
     assert len(figure.axes) == 4  # curves and residuals of two responses
+    symbols = [GLOSSARY[str(name)].symbol for name in stored["response"].values]
+    assert {axis.get_ylabel().split("\u00a0")[0] for axis in figure.axes} == {*symbols, "residual"}
+    names = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert names == ["exact", "rigid Coulomb", "Walton", *REGIMES]  # as in all figures
 
 
 def test_dataset_holds_data_curves_and_residuals(result, data):

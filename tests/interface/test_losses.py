@@ -36,7 +36,7 @@ def test_loss_time_is_read_with_its_unit() -> None:
 
 def test_loss_time_is_in_units_of_the_elastic_impact() -> None:
     """alpha = tau V_1/d_max."""
-    loss, alpha, _ = carom.KelvinVoigt(loss_time="2 us").loss(STEEL, STEEL.scales(0.7))
+    loss, alpha, _ = carom.KelvinVoigt(loss_time="2 us")._loss(STEEL, STEEL.scales(0.7))
     scales = STEEL.scales(0.7)
     assert loss == Loss.VISCOUS
     assert alpha == pytest.approx(2e-6 * 0.7 / scales.length, rel=1e-12)
@@ -44,7 +44,7 @@ def test_loss_time_is_in_units_of_the_elastic_impact() -> None:
 
 def test_yield_velocity_is_read_with_its_unit() -> None:
     law = carom.ElasticPlastic(yield_velocity="50 mm/s")
-    loss, y, _ = law.loss(STEEL, STEEL.scales(1.6))
+    loss, y, _ = law._loss(STEEL, STEEL.scales(1.6))
     assert loss == Loss.PLASTIC
     assert y == pytest.approx((0.05 / 1.6) ** 0.4, rel=1e-14)
 
@@ -83,8 +83,8 @@ def test_wanted_restitution_is_what_comes_out(e: float, speed: float) -> None:
 
 def test_restitution_on_arrays_is_that_of_each() -> None:
     e = np.array([[0.5, 0.9], [0.9, 1.0]])
-    loss, alpha, _ = carom.KelvinVoigt(restitution=e).loss(STEEL, STEEL.scales(np.ones((2, 2))))
-    each = [carom.KelvinVoigt(restitution=x).loss(STEEL, STEEL.scales(1.0))[1] for x in e.ravel()]
+    loss, alpha, _ = carom.KelvinVoigt(restitution=e)._loss(STEEL, STEEL.scales(np.ones((2, 2))))
+    each = [carom.KelvinVoigt(restitution=x)._loss(STEEL, STEEL.scales(1.0))[1] for x in e.ravel()]
     assert loss == Loss.VISCOUS
     assert np.array_equal(alpha, np.reshape(each, (2, 2)))
 
@@ -92,14 +92,14 @@ def test_restitution_on_arrays_is_that_of_each() -> None:
 def test_speeds_in_arrays_give_the_loss_of_each() -> None:
     speed = np.array([0.1, 1.0, 4.0])
     for law in (carom.KelvinVoigt(loss_time="1 us"), carom.ElasticPlastic("0.2 m/s")):
-        together = law.loss(STEEL, STEEL.scales(speed))[1]
-        each = [law.loss(STEEL, STEEL.scales(v))[1] for v in speed]
+        together = law._loss(STEEL, STEEL.scales(speed))[1]
+        each = [law._loss(STEEL, STEEL.scales(v))[1] for v in speed]
         assert together == pytest.approx(each, rel=1e-14)
 
 
 def test_arrays_mark_what_is_out_of_range() -> None:
     law = carom.KelvinVoigt(restitution=np.array([0.9, 0.0, 1.2, np.nan]))
-    alpha = law.loss(STEEL, STEEL.scales(1.0))[1]
+    alpha = law._loss(STEEL, STEEL.scales(1.0))[1]
     assert np.array_equal(np.isnan(alpha), [False, True, True, True])
 
 
@@ -109,7 +109,7 @@ def test_viscous_loss_grows_with_the_fifth_root_of_the_speed() -> None:
     speeds = np.array([0.1, 3.2])
     lost = np.array([1.0 - hit(law, v).normal_restitution for v in speeds])
     assert lost[1] / lost[0] == pytest.approx(32.0**0.2, rel=1e-3)
-    alpha = law.loss(STEEL, STEEL.scales(0.1))[1]
+    alpha = law._loss(STEEL, STEEL.scales(0.1))[1]
     assert lost[0] == pytest.approx(1.5 * beta(0.6, 1.5) * alpha, rel=1e-3)
 
 
@@ -169,10 +169,10 @@ def test_too_large_a_loss_time_is_refused_not_answered() -> None:
 
 def test_standard_linear_solid_is_in_units_of_the_elastic_impact() -> None:
     law = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="20 us")
-    loss, theta, extra = law.loss(STEEL, STEEL.scales(0.7))
+    loss, theta, extra = law._loss(STEEL, STEEL.scales(0.7))
     assert (loss, extra) == (Loss.RELAXING, 0.5)
     assert theta == pytest.approx(2e-5 / STEEL.scales(0.7).time, rel=1e-12)
-    assert law.describe() == {"modulus_ratio": 1.5, "relaxation_time": 2e-5}
+    assert law._describe() == {"modulus_ratio": 1.5, "relaxation_time": 2e-5}
 
 
 @pytest.mark.parametrize(
@@ -258,7 +258,7 @@ def texts(figure: Any) -> list[str]:
 @pytest.mark.parametrize("law", LOSSES.values(), ids=LOSSES.keys())
 def test_titles_call_bodies_elastic_only_if_they_are(law: LossLaw | None) -> None:
     """All datasets of an impact, those in a sweep and in curves, and all figures of them."""
-    actual, loss = hit(law), {} if law is None else law.describe()
+    actual, loss = hit(law), {} if law is None else law._describe()
     case = {"friction": 0.2, "speed": 2.0, "first": {"radius": "5 mm", "material": "steel"}, **loss}
     datasets = [actual.history(5), carom.sweep(case, carom.Grid({"angle": [0.1, 0.2]}))]
     titles = [str(dataset.attrs["title"]) for dataset in datasets]

@@ -89,6 +89,8 @@ def test_load_paths_are_a_table_and_a_picture(pair):
     rows, html = table_and_html(path)
     assert rows["normal force"] == "1 to 10 N"
     assert rows["tangential force, positive against V_x"] == "0 to 1.5 N"
+    for line, row in zip(str(path).splitlines()[1:], rows.items(), strict=True):
+        assert re.split(rf"(?<={row[0][-9:]}) +", line.strip()) == [*row]
     assert picture(html).std() > 10.0
     one = carom.load_path(pair, normal_force=1.0, tangential_force=0.0)
     assert "<img" not in one._repr_html_(), "a single step is no line"
@@ -152,6 +154,28 @@ def test_what_prints_as_text_is_that_text_in_notebooks_and_data_frames(hit, of, 
     assert str(shown).startswith(text)
     assert unescape(shown._repr_html_()) == f"<pre>{shown}</pre>"
     assert text in pd.DataFrame({"it": [shown]}).to_string(max_colwidth=None)
+
+
+@pytest.mark.parametrize(
+    ("of", "text"),
+    [
+        (lambda hit: hit.pair.first, "sphere (steel, R = 5 mm)"),
+        (lambda hit: hit.pair.second, "half-space (steel)"),
+        (lambda hit: hit.pair.first.material, "steel\n  Young's modulus 210 GPa\n"),
+        (lambda _: carom.materials(), "name                     E (GPa)     nu  rho (kg/m^3)"),
+        (lambda _: carom.solve(1.5, 1.44), "psi_1 = 1.5, chi = 1.44: psi_2 = -0.429967 (solved)\n"),
+        (lambda hit: hit.contact("10 us"), "Contact, gross slip +\n  coefficient of friction  "),
+        (
+            lambda _: carom.datasets.table("kharaz2001"),
+            "       angle  angle_error  speed  tangential_restitution",
+        ),
+    ],
+    ids=["sphere", "half-space", "material", "materials", "solution", "contact", "table"],
+)
+def test_print_and_a_notebook_show_the_same_lines(hit, of, text):
+    shown = of(hit)
+    assert str(shown).startswith(text)
+    assert unescape(shown._repr_html_()) == f"<pre>{shown}</pre>"
 
 
 def test_cards_are_readable_on_any_ground(hit):

@@ -219,6 +219,22 @@ def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers):
 OTHER_SIZE = {("plot_regime_map", "lines"), ("plot_regime_map", "texts")}  # labels find other room
 
 
+def test_nothing_is_cut_in_a_plain_figure_of_a_user(drawers):
+    """Legends have room above, in the last row below what stands there, names of borders aside."""
+    for name, given in drawers.items():
+        given = given.fields("21 us") if name == "plot_profiles" else given
+        for rows in (1, 2) if name not in SEVERAL else ():
+            figure, axes = pyplot.subplots(rows, 1, figsize=(6.4, 4.8 * rows), squeeze=False)
+            getattr(plots, name)(given, ax=axes[-1, 0])
+            figure.draw_without_rendering()
+            box, top = axes[-1, 0].get_tightbbox(), figure.bbox.y1
+            ceiling = axes[0, 0].get_tightbbox().y0 if rows > 1 else top
+            assert box.y1 <= ceiling + 1.0, name
+            assert box.y0 >= -1.0, name
+            assert box.x1 <= figure.bbox.x1 + 1.0, name
+            pyplot.close(figure)
+
+
 def test_several_panels_take_no_axes(drawers, hit):
     axis = Figure().subplots()
     several = [(getattr(plots, name), drawers[name]) for name in sorted(SEVERAL)]

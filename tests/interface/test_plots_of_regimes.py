@@ -13,6 +13,7 @@ import carom
 from carom.plots import plot_regime_map, save_figure
 from carom.plots.legends import wrapped
 from carom.plots.regime_map import group_of
+from carom.plots.regimes import REGIMES, regime_of
 from carom.plots.region_labels import SMALLEST_LABEL, find_labels, in_letters
 from carom.plots.regions import area, limits, regions
 
@@ -104,34 +105,47 @@ def test_leader_lines_run_clear_of_labels_and_begin_in_their_region(maps, region
 
 
 @pytest.mark.parametrize(
-    ("sequence", "ending", "reversals"),
+    ("sequence", "regime", "reversals"),
     [
-        ("gross slip +", "gross slip +", 0),
+        ("gross slip +", "gross slip only", 0),
         ("stick", "stick", 0),
-        ("stick, slip -, gross slip -", "gross slip -", 0),
-        ("gross slip +, stick, slip -, gross slip -", "gross slip -", 1),
-        ("stick, slip -, stick, slip +, slip -, gross slip -", "gross slip -", 2),
-        ("gross slip -, stick, slip +, slip -, slip +", "slip +", 3),
+        ("stick, slip -, gross slip -", "stick", 0),
+        ("gross slip +, stick, slip -, gross slip -", "gross slip, stick", 1),
+        ("gross slip +, slip -, gross slip -", "gross slip, slip", 1),
+        ("stick, slip -, stick, slip +, slip -, gross slip -", "stick", 2),
+        ("gross slip -, stick, slip +, slip -, slip +", "gross slip, stick", 3),
     ],
 )
-def test_regimes_are_grouped_by_their_end_and_the_reversals_of_slip(sequence, ending, reversals):
-    assert group_of(sequence) == (ending, reversals)
+def test_impacts_are_grouped_by_their_regime_and_the_reversals_of_slip(sequence, regime, reversals):
+    assert group_of(sequence) == (regime, reversals)
 
 
 def test_colours_tell_groups_apart(drawn, regions_of):
-    """One colour a group: blue or orange by the ending, the darker the more often slip reverses."""
+    """One colour a group: that of the regime in all figures, darker where slip reverses."""
     figure, faces = drawn("many", 178.0), {}
     for region, patch in zip(regions_of("many"), figure.axes[0].patches, strict=True):
         faces.setdefault(group_of(region.name), set()).add(to_rgb(patch.get_facecolor()))
     assert all(len(colours) == 1 for colours in faces.values())
     assert len(set.union(*faces.values())) == len(faces) >= 9
-    for ending, red_over_blue in (("gross slip +", True), ("gross slip -", False)):
-        row = [next(iter(faces[key])) for key in sorted(faces) if key.ending == ending]
-        assert all((red > blue) == red_over_blue for red, _, blue in row)
-        greens = [green for _, green, _ in row]
+    assert {key.regime for key in faces} == set(REGIMES)
+    for regime, band in REGIMES.items():
+        row = {
+            key.reversals: next(iter(faces[key])) for key in sorted(faces) if key.regime == regime
+        }
+        assert row.get(0, to_rgb(band.face)) == to_rgb(band.face)
+        greens = [green for _, green, _ in row.values()]
         assert greens == sorted(greens, reverse=True)
     shown = {to_rgb(patch.get_facecolor()) for patch in figure.legends[0].get_patches()}
     assert set.union(*faces.values()) <= shown
+
+
+def test_the_borders_part_the_regimes(maps):
+    """The lines 1, 2 chi and 4 chi - 1, between which the curve and the score are shaded."""
+    for region in regions(maps["many"]):
+        psi, chi = np.mean(region.rings[0], axis=0)
+        if region.holds([(psi, chi)])[0]:
+            ends = np.maximum(1.0, [1.0, 2.0 * chi, 4.0 * chi - 1.0])
+            assert regime_of(region.name) == [*REGIMES][np.sum(psi > ends)], region.name
 
 
 def test_edges_are_curves_and_not_pixels(drawn, regions_of, tmp_path):

@@ -78,7 +78,7 @@ def test_a_unit_is_applied_in_double_precision(kind):
         xr.DataArray(kind(5), attrs={"units": "mm"}),
     ):
         assert carom.Sphere(radius=radius, material="steel").radius == 0.005
-        assert carom.Grid({"first.radius": [radius]}).coords()["first_radius"][1] == [0.005]
+        assert carom.Grid({"first.radius": [radius]})._coords()["first_radius"][1] == [0.005]
 
 
 @pytest.mark.parametrize(
@@ -147,7 +147,7 @@ def test_units_are_heeded_however_the_attribute_is_written(key, text):
     """In one number, in an axis, in a column of a dataset: everywhere 2 mm/s or so, never 2 m/s."""
     speeds = xr.DataArray([1.0, 2.0], dims="row", attrs={key: text})
     assert carom.impact(PAIR, speed=speeds[1], angle=0.1).normal_speed < 2.001e-3
-    assert carom.Grid({"speed": speeds}).coords()["speed"][1] == pytest.approx([1e-3, 2e-3])
+    assert carom.Grid({"speed": speeds})._coords()["speed"][1] == pytest.approx([1e-3, 2e-3])
     for source in (xr.Dataset({"speed": speeds}), {"speed": speeds}):
         speed = carom.Table(source).inputs((slice(0, 2),))["speed"]
         assert speed == pytest.approx([1e-3, 2e-3], rel=1e-15)

@@ -220,7 +220,7 @@ def test_variables_are_what_a_block_returns():
         name: np.dtype(info.dtype) for name, info in by_name.items()
     }
     entries = {name: (design.dims, block[name], by_name[name].attributes) for name in block}
-    dataset = labelled_dataset(entries, design.coords(), {})
+    dataset = labelled_dataset(entries, design._coords(), {})
     assert dataset["first_radius"].units == "m"
     assert dataset["first_material"].flag_meanings == "unreadable steel glass"
     assert list(dataset["status"].flag_values) == [int(status) for status in PointStatus]

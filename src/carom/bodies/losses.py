@@ -17,7 +17,6 @@ from carom.quantities.arrays import numbers
 from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal, refuse
-from carom.quantities.shown import Shown
 from carom.quantities.units import Value, not_negative, positive, within
 
 SMALLEST_RESTITUTION = 1e-3
@@ -36,20 +35,20 @@ _viscous_loss: Callable[[float], float] = lru_cache(maxsize=4096)(viscous_loss)
 
 
 @dataclass(frozen=True)
-class LossLaw(Shown):
+class LossLaw:
     """A law of losses: which loss it is, what it depends on, and what to cite."""
 
-    source: ClassVar[str]  # the key in data/citations.bib
+    _source: ClassVar[str]  # the key in data/citations.bib
 
-    def loss(self, pair: Pair, scales: Scales) -> LossNumbers:
+    def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return which loss it is, and its dimensionless parameters, numbers or arrays."""
         raise NotImplementedError
 
-    def scale_free(self) -> LossNumbers:
+    def _scale_free(self) -> LossNumbers:
         """Return the same if it does not depend on bodies and speed, else raise InputError."""
         raise refusal("losses", self, "it depends on the speed; use carom.impact, or KelvinVoigt")
 
-    def describe(self) -> dict[str, Any]:
+    def _describe(self) -> dict[str, Any]:
         """Return the law as plain numbers and words: what was given."""
         return {each.name: getattr(self, each.name) for each in fields(self)}
 
@@ -104,7 +103,7 @@ class KelvinVoigt(LossLaw):
     (0.9, -0.3938)
     """
 
-    source: ClassVar[str] = VISCOUS  # Kuwabara & Kono (1987)
+    _source: ClassVar[str] = VISCOUS  # Kuwabara & Kono (1987)
     restitution: Any = None
     loss_time: Any = None
 
@@ -116,22 +115,22 @@ class KelvinVoigt(LossLaw):
             **{"loss_time": loss_time} if restitution is None else {"restitution": restitution}
         )
 
-    def loss(self, pair: Pair, scales: Scales) -> LossNumbers:
+    def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss and alpha = tau V_1/d_max."""
         if self.restitution is not None:
             return LossNumbers(Loss.VISCOUS, _alphas(self.restitution))
         return LossNumbers(Loss.VISCOUS, self.loss_time / scales.time)
 
-    def scale_free(self) -> LossNumbers:
+    def _scale_free(self) -> LossNumbers:
         """Return the kind of loss and alpha; one restitution must have been given."""
         many = np.ndim(self.restitution) and "give one restitution, or use carom.sweep"
         allowed = "give a restitution instead of a loss time" if self.restitution is None else many
         refuse(allowed and refusal("losses", self, allowed))
         return LossNumbers(Loss.VISCOUS, float(_alphas(self.restitution)))
 
-    def describe(self) -> dict[str, Any]:
+    def _describe(self) -> dict[str, Any]:
         """Return what was given."""
-        return {name: value for name, value in super().describe().items() if value is not None}
+        return {name: value for name, value in super()._describe().items() if value is not None}
 
 
 @dataclass(frozen=True)
@@ -174,7 +173,7 @@ class ElasticPlastic(LossLaw):
     0.658558
     """
 
-    source: ClassVar[str] = "thornton1997"
+    _source: ClassVar[str] = "thornton1997"
     yield_velocity: Any = None
 
     @known_keywords
@@ -182,7 +181,7 @@ class ElasticPlastic(LossLaw):
         if yield_velocity is not None:
             self._keep(yield_velocity=yield_velocity)
 
-    def loss(self, pair: Pair, scales: Scales) -> LossNumbers:
+    def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss and the radius of the contact at yield, (V_y/V_1)^(2/5)."""
         own = self.yield_velocity
         velocity = yield_velocity(pair) if own is None else own
@@ -231,7 +230,7 @@ class StandardLinearSolid(LossLaw):
     0.927
     """
 
-    source: ClassVar[str] = "ting1966"
+    _source: ClassVar[str] = "ting1966"
     modulus_ratio: Any
     relaxation_time: Any
 
@@ -239,7 +238,7 @@ class StandardLinearSolid(LossLaw):
     def __init__(self, modulus_ratio: Any, relaxation_time: Value) -> None:
         self._keep(modulus_ratio=modulus_ratio, relaxation_time=relaxation_time)
 
-    def loss(self, pair: Pair, scales: Scales) -> LossNumbers:
+    def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss, tau V_1/d_max and E_0/E - 1."""
         ratio = self.modulus_ratio
         if np.ndim(ratio):

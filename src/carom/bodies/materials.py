@@ -7,8 +7,10 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any, TypeVar
 
+from carom.quantities.glossary import listed
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import checked_type, hint, nearest, refusal, refuse
+from carom.quantities.shown import Printed
 from carom.quantities.units import Value, number, positive
 
 STRENGTHS = ("yield_strength", "tensile_strength", "fracture_toughness", "flaw_size")
@@ -30,7 +32,7 @@ def unchecked(kind: type[T], **values: object) -> T:
 
 
 @dataclass(frozen=True, init=False)
-class Material:
+class Material(Printed):
     """An isotropic elastic material; numbers are in SI units, texts may carry a unit.
 
         G = E/(2 (1 + nu))
@@ -122,6 +124,28 @@ class Material:
         texts: dict[str, str] = entry.get("sources", {})
         return {key: text for key, text in texts.items() if getattr(self, key) == entry[key]}
 
+    def __str__(self) -> str:
+        values = {key: getattr(self, key) for key in VALUES}
+        known = {key: value for key, value in values.items() if value not in (None, math.inf)}
+        return "\n".join([self.name or "material", *listed(known)])
+
+
+class Catalogue(dict[str, Material], Printed):
+    """Materials by name; printed, a table."""
+
+    def __str__(self) -> str:
+        head = f"{'name':22s} {'E (GPa)':>9s} {'nu':>6s} {'rho (kg/m^3)':>13s} {'Y (MPa)':>9s}"
+        rows = [
+            f"{name:22s} {each.young / 1e9:9.4g} {each.poisson:6.3g} {each.density:13.5g} "
+            f"{_in_mega(each.yield_strength):>9s} {_in_mega(each.fracture_toughness):>16s}"
+            for name, each in self.items()
+        ]
+        return "\n".join([f"{head} {'K_c (MPa m^0.5)':>16s}", *rows])
+
+
+def _in_mega(value: float | None) -> str:
+    return "-" if value is None else f"{value / 1e6:.4g}"
+
 
 def _stiffness(young: Any) -> float:
     """Return a positive modulus, infinite for what does not deform, or raise InputError."""
@@ -136,8 +160,8 @@ def _catalogue() -> dict[str, dict[str, Any]]:
     return catalogue
 
 
-def materials() -> dict[str, Material]:
-    """Return the catalogue of materials by name, without "rigid".
+def materials() -> Catalogue:
+    """Return the catalogue of materials by name, without "rigid"; printed, a table.
 
     The values are typical of room temperature; `sources` of each names where they are from.
 
@@ -152,7 +176,7 @@ def materials() -> dict[str, Material]:
     >>> "soda-lime-glass" in carom.materials()
     True
     """
-    return {name: material(name) for name in _catalogue()}
+    return Catalogue({name: material(name) for name in _catalogue()})
 
 
 def material(name: str, **values: Value) -> Material:

@@ -25,7 +25,7 @@ SAME_BODIES = 1e-6  # part by which their numbers may differ, as written in few 
 
 @dataclass(frozen=True)
 class ContactScales:
-    """The scales of a contact in SI units."""
+    """SI scales of a contact: length, radius, force, pressure, tangential length and force."""
 
     length: float
     radius: float
@@ -37,7 +37,7 @@ class ContactScales:
 
 @dataclass(frozen=True)
 class Scales(ContactScales):
-    """The scales of an impact in SI units."""
+    """SI scales of an impact: those of its contact, and speed, time, energy, tangential speed."""
 
     speed: float
     time: float

@@ -10,11 +10,21 @@ from carom.bodies.materials import VALUES, Material, as_material, set_fields
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal
+from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative, positive
 
 
+class Body(Printed):
+    """A body of a material."""
+
+    material: Material
+
+    def __str__(self) -> str:
+        return named(self)
+
+
 @dataclass(frozen=True, init=False)
-class Sphere:
+class Sphere(Body):
     """A sphere, solid or hollow, or with a given radius of gyration.
 
         M = (4/3) pi rho (R^3 - R_i^3), K^2 = (2/5) (R^5 - R_i^5)/(R^3 - R_i^3)
@@ -94,7 +104,7 @@ class Sphere:
 
 
 @dataclass(frozen=True, init=False)
-class HalfSpace:
+class HalfSpace(Body):
     """A flat body that does not move as a whole.
 
     Parameters
@@ -127,7 +137,7 @@ class HalfSpace:
 
 
 @dataclass(frozen=True, init=False)
-class Cup:
+class Cup(Body):
     """A fixed spherical cup that a smaller sphere strikes from inside.
 
     Parameters
@@ -172,7 +182,7 @@ def sphere_fits(ball: Sphere) -> bool:
     return False
 
 
-def describe(body: Sphere | HalfSpace | Cup) -> dict[str, Any]:
+def describe(body: Body) -> dict[str, Any]:
     """Return what a body was made from, as plain numbers and words."""
     entries: dict[str, Any] = {"kind": type(body).__name__}
     for name in ("radius", "gyration_radius", "inner_radius"):
@@ -188,7 +198,7 @@ def describe(body: Sphere | HalfSpace | Cup) -> dict[str, Any]:
     return entries
 
 
-def named(body: Sphere | HalfSpace | Cup) -> str:
+def named(body: Body) -> str:
     """Return a body in a few words: its kind, material and sizes."""
     stuff = body.material
     words = [stuff.name or f"E = {text(stuff.young, 'Pa')}"]

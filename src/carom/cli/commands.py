@@ -55,8 +55,10 @@ def answer(arguments: list[str] | None) -> int:
         if type(error).__name__ == "NoArgsIsHelpError":  # no command: the message is the help
             typer.echo(error.format_message())
             return error.exit_code
-        asked = _option_meant(error) or "see carom --help or carom COMMAND --help"
-        raise InputError(f"{error.format_message().rstrip('.')}; {asked}") from None
+        meant_option = _option_meant(error)  # typer's own message has options of its choice, too
+        said = error.message if meant_option else error.format_message()
+        asked = meant_option or "see carom --help or carom COMMAND --help"
+        raise InputError(f"{said.rstrip('.')}; {asked}") from None
     except (Interrupted, typer.Abort) as error:
         raise KeyboardInterrupt(*error.args) from None
     if code == INTERRUPTED:  # what typer makes of Ctrl-C
@@ -75,4 +77,4 @@ def _option_meant(error: typer.TyperException) -> str:
     name = meant(word, names)
     if name:
         return f"write {names[name]}{remark(word, name).removeprefix(name)}"
-    return nearest(word.replace("_", "-"), [option.strip("-") for option in options])
+    return nearest(f"--{word.replace('_', '-')}", options)

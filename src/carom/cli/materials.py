@@ -20,6 +20,11 @@ OPTIONS = {
 }
 
 
+BELOW = """There is also the material rigid, which does not deform.
+carom materials NAME shows the sources of the values, carom materials --pairs measured restitution \
+and friction."""
+
+
 @described(OPTIONS)
 def materials_command(name: str | None = None, pairs: bool = False, as_json: bool = False) -> None:
     """List the materials that Carom knows by name.
@@ -47,7 +52,7 @@ def materials_command(name: str | None = None, pairs: bool = False, as_json: boo
     elif name is not None:
         typer.echo(_details(records))
     else:
-        typer.echo(_list(records))
+        typer.echo(f"{carom.materials()}\n{BELOW}")
 
 
 def _pairs() -> list[dict[str, Any]]:
@@ -95,29 +100,6 @@ def _record(name: str) -> dict[str, Any]:
     if stuff.is_rigid:
         values["young"] = None
     return values | {"sources": carom.material(name).sources}
-
-
-def _list(records: dict[str, dict[str, Any]]) -> str:
-    head = f"{'name':22s} {'E (GPa)':>9s} {'nu':>6s} {'rho (kg/m^3)':>13s} {'Y (MPa)':>9s}"
-    head += f" {'K_c (MPa m^0.5)':>16s}"
-    lines = [
-        f"{name:22s} {r['young'] / 1e9:9.4g} {r['poisson']:6.3g} {r['density']:13.5g} "
-        f"{_in_mega(r['yield_strength']):>9s} {_in_mega(r['fracture_toughness']):>16s}"
-        for name, r in records.items()
-    ]
-    return "\n".join(
-        [
-            head,
-            *lines,
-            "There is also the material rigid, which does not deform.",
-            "carom materials NAME shows the sources of the values, carom materials --pairs measured"
-            " restitution and friction.",
-        ]
-    )
-
-
-def _in_mega(value: float | None) -> str:
-    return "-" if value is None else f"{value / 1e6:.4g}"
 
 
 def _details(records: dict[str, dict[str, Any]]) -> str:

@@ -80,7 +80,7 @@ def sweep_command(
     design, chosen = plan(content, Path(case), named_values("column", column, "omega=spin"))
     if quantities is not None:
         chosen = [name.strip() for name in quantities.split(",")]
-    tell(design.doubts())
+    tell(design._doubts())
     with _stopping():
         threads = None if workers is None else whole("workers", workers, 1)
         how: dict[str, Any] = {"scheduler": scheduler, "workers": threads, "progress": progress}

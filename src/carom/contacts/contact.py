@@ -13,19 +13,27 @@ from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import now_at
 from carom.quantities.arrays import Array
+from carom.quantities.glossary import listed
+from carom.quantities.shown import Printed
 
 TIME_ROUNDING = 8.0 * np.finfo(np.float64).eps  # of a time that has passed through seconds
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
-    """A contact at one instant, of an impact or on a load path.
+class Contact(Printed):
+    """The contact of a pair at one instant, of an impact or on a load path; made by `contact`.
 
-    Penetration d, tangential displacement U, stick radius a, radius of the edge, density of the
-    pressure there and profile are dimensionless; `scales` gives them units. `slid` tells from
-    dimensionless radii the radial functions of the slip, in m, `slipping` those of its velocity in
-    m/s, None where there is no time. The surfaces of `viscous` bodies have moved by what acted
-    before, too, so that their displacements are not told.
+    `penetration`, `displacement`, `stick_radius` and `profile` are dimensionless; `scales` gives
+    them units. `attributes` hold the phase and the inputs.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=1.0)
+    >>> round(1e6 * path.contact().radius, 1)  # in micrometres
+    68.8
     """
 
     pair: Pair
@@ -34,22 +42,22 @@ class Contact:
     displacement: float
     stick_radius: float
     profile: Profile = field(repr=False)
-    slid: Callable[[Array], Array] = field(repr=False)
-    slipping: Callable[[Array], Array] | None = field(default=None, repr=False)
-    edge: float = nan
-    rim: float = 0.0
-    viscous: bool = False
-    scalars: Mapping[str, float] = field(default_factory=dict)
+    _slid: Callable[[Array], Array] = field(repr=False)  # in m, radial functions of radii
+    _slipping: Callable[[Array], Array] | None = field(default=None, repr=False)  # in m/s
+    _edge: float = field(default=nan, repr=False)  # its radius, and the pressure's density there
+    _rim: float = field(default=0.0, repr=False)
+    _viscous: bool = field(default=False, repr=False)  # surfaces have moved by what acted before
+    _scalars: Mapping[str, float] = field(default_factory=dict, repr=False)
     attributes: Mapping[str, Any] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
-        if isnan(self.edge):  # that of elastic bodies
-            object.__setattr__(self, "edge", float(np.sqrt(self.penetration)))
+        if isnan(self._edge):  # that of elastic bodies
+            object.__setattr__(self, "_edge", float(np.sqrt(self.penetration)))
 
     @property
     def radius(self) -> float:
         """Radius of the contact, in m."""
-        return self.edge * self.scales.radius
+        return self._edge * self.scales.radius
 
     def numbers(self) -> dict[str, float]:
         """Return the numbers that describe the contact by name, in SI units."""
@@ -59,8 +67,12 @@ class Contact:
             "displacement": self.displacement * self.scales.tangential_length,
             "contact_radius": self.radius,
             "stick_radius": self.stick_radius * self.scales.radius,
-            **self.scalars,
+            **self._scalars,
         }
+
+    def __str__(self) -> str:
+        phase = f"{self.attributes['phase_kind']} {' +-'[self.attributes['phase_sign']]}"
+        return "\n".join([f"Contact, {phase}".rstrip(), *listed(self.numbers())])
 
 
 def contact_in_impact(
@@ -99,12 +111,12 @@ def contact_in_impact(
         displacement=now["displacement"],
         stick_radius=0.0 if drift else now["stick_radius"],
         profile=state.profile,
-        slid=slid,
-        slipping=slipping,
-        edge=state.radius,
-        rim=state.rim,
-        viscous=isinstance(solution, LossySolution),
-        scalars={
+        _slid=slid,
+        _slipping=slipping,
+        _edge=state.radius,
+        _rim=state.rim,
+        _viscous=isinstance(solution, LossySolution),
+        _scalars={
             "time": time,
             "displacement": now["displacement"] * scales.tangential_length + drift * time,
             "normal_force": now["normal_force"] * scales.force,

@@ -65,7 +65,7 @@ def surface_fields(
 
 def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
     """Return pressure, traction and memory at n distances from the centre of the contact."""
-    r = np.linspace(0.0, contact.edge, n)
+    r = np.linspace(0.0, contact._edge, n)
     values, memory = _radial(contact, r), _memory(contact, r)
     limit = contact.pair.friction * contact.scales.pressure
     deflection = contact.scales.tangential_length
@@ -75,7 +75,7 @@ def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
         "traction_x": values[:, 1] * limit,
         "memory_g": memory[:, 0],
         "memory_q": memory[:, 1] * deflection,
-        "memory_limit": (borne(contact.profile, r) + contact.rim) * deflection,
+        "memory_limit": (borne(contact.profile, r) + contact._rim) * deflection,
     }
     variables: dict[str, Any] = {name: ("distance", value) for name, value in columns.items()}
     return labelled_dataset(
@@ -89,7 +89,7 @@ def _distances(contact: Contact, px: Array, py: Array) -> Array:
     """Return dimensionless distances from the centre, those at the edge freed from rounding."""
     with np.errstate(over="ignore"):
         r = np.minimum(np.hypot(px, py) / contact.scales.radius, FARTHEST)
-    edge = contact.edge
+    edge = contact._edge
     return np.where(np.abs(r - edge) <= RADIUS_ROUNDING * edge, edge, r)
 
 
@@ -97,9 +97,9 @@ def _radial(contact: Contact, r: Array) -> Array:
     """Return pressure, traction, u_z, u_0, u_2, w_0, w_2 for dimensionless radii."""
     out = np.empty((r.size, 5))
     d = contact.penetration
-    square = contact.edge**2 if contact.viscous else d
-    surface.sample(contact.profile, d, square, contact.rim, r, out)
-    return np.hstack((out, contact.slid(r)))
+    square = contact._edge**2 if contact._viscous else d
+    surface.sample(contact.profile, d, square, contact._rim, r, out)
+    return np.hstack((out, contact._slid(r)))
 
 
 def _memory(contact: Contact, r: Array) -> Array:
@@ -124,12 +124,12 @@ def _columns(contact: Contact, r: Array, radial: Array, cos: Array, sin: Array) 
         "slip_x": w_0 - lateral * w_2 * cos,
         "slip_y": -lateral * w_2 * sin,
     }
-    if not contact.viscous:
+    if not contact._viscous:
         columns["displacement_x"] = unit * (u_0 + lateral * u_2 * cos)
         columns["displacement_y"] = unit * lateral * u_2 * sin
         columns["displacement_z"] = u_z * scales.length
-    if contact.slipping is not None:
-        v_0, v_2 = np.moveaxis(_within(contact, r, contact.slipping), -1, 0)
+    if contact._slipping is not None:
+        v_0, v_2 = np.moveaxis(_within(contact, r, contact._slipping), -1, 0)
         columns["slip_velocity_x"] = v_0 - lateral * v_2 * cos
         columns["slip_velocity_y"] = -lateral * v_2 * sin
     return columns
@@ -149,7 +149,7 @@ def _zones(contact: Contact, r: Array) -> NDArray[np.int8]:
 
 
 def _in_contact(contact: Contact, r: Array) -> NDArray[np.bool_]:
-    return np.asarray((r <= contact.edge) & (contact.edge > 0.0))
+    return np.asarray((r <= contact._edge) & (contact._edge > 0.0))
 
 
 def stress_dataset(
@@ -161,7 +161,7 @@ def stress_dataset(
     """
     friction, poisson = _of_body(contact, body)
     reach = STRESS_REACH * (contact.radius or contact.scales.radius)
-    top = BELOW_EDGE * contact.radius if contact.rim else 0.0
+    top = BELOW_EDGE * contact.radius if contact._rim else 0.0
     default = {
         "x": np.linspace(-reach, reach, STRESS_POINTS[0]),
         "z": np.linspace(top, reach, STRESS_POINTS[1]),
@@ -169,17 +169,17 @@ def stress_dataset(
     dims, coords, at = places("xyz", {"x": x, "z": z}, default, points)
     _refuse_outside("z" if points is None else "points", at[..., 2], top)
 
-    of_body: Any = {"friction": friction, "poisson": poisson, "rim": contact.rim}
+    of_body: Any = {"friction": friction, "poisson": poisson, "rim": contact._rim}
     with np.errstate(over="ignore"):
         where = np.clip(at.reshape(-1, 3) / contact.scales.radius, -DEEPEST, DEEPEST)
     stress = contact.scales.pressure * stresses(where, contact.profile, **of_body)
     columns = {
         name: (dims, v.reshape(at.shape[:-1])) for name, v in _stress_columns(stress).items()
     }
-    shallow = BELOW_EDGE if contact.rim else 0.0
+    shallow = BELOW_EDGE if contact._rim else 0.0
     mises = largest(VON_MISES, contact.profile, **of_body, shallow=shallow)
     numbers = _entries(contact, "max_von_mises", mises)
-    if not contact.rim:
+    if not contact._rim:
         tension = largest(TENSION, contact.profile, **of_body, deepest=0.0)
         numbers |= _entries(contact, "max_tension", tension)
     return labelled_dataset(

@@ -21,7 +21,7 @@ from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
-from carom.quantities.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY, aligned
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import is_real
@@ -39,13 +39,13 @@ PATH_COLUMNS = (
 
 @dataclass(frozen=True, eq=False)
 class LoadPath(InContact, Result):
-    """A contact after each step of a load path, in SI units; made by `load_path`.
+    """The contact of a pair after each step of a load path, in SI units; made by `load_path`.
 
     A step is a straight line in penetration and displacement, and arrays have the shape (n,). The
     energy lost so far, `frictional_work`, and the stored `tangential_elastic_energy` add up to the
     work of F_x. The displacement U is that since the start, and F_x is positive if it opposes a
-    growing U; in two directions both have the shape (n, 2). The theory is that of Mindlin &
-    Deresiewicz (1953), J. Appl. Mech. 20:327.
+    growing U; in two directions both have the shape (n, 2). `scales` make lengths and forces
+    dimensionless. The theory is that of Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327.
 
     Examples
     --------
@@ -136,17 +136,22 @@ class LoadPath(InContact, Result):
             displacement=float(u[k]),
             stick_radius=float(path.results[k, paths.STICK]),
             profile=profile_of(path.stack),
-            slid=lambda radii: paths.slid(d, u, radii) * scales.tangential_length,
-            scalars={name: float(getattr(self, name)[k]) for name in PATH_COLUMNS[2:4]},
+            _slid=lambda radii: paths.slid(d, u, radii) * scales.tangential_length,
+            _scalars={name: float(getattr(self, name)[k]) for name in PATH_COLUMNS[2:4]},
             attributes=_state(path.stack) | {"inputs": self.inputs()},
         )
 
+    def _rows(self) -> dict[str, str]:
+        columns = {GLOSSARY[name]: getattr(self, name) for name in PATH_COLUMNS}
+        return {it.meaning: it.span(float(v.min()), float(v.max())) for it, v in columns.items()}
+
+    def __str__(self) -> str:
+        return "\n".join([f"Load path of {len(self)} steps", *aligned(self._rows())])
+
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        columns = {GLOSSARY[name]: getattr(self, name) for name in PATH_COLUMNS}
-        rows = {it.meaning: it.span(float(v.min()), float(v.max())) for it, v in columns.items()}
         figure = self.plot() if len(self) > 1 else None
-        return card(f"Load path of {len(self)} steps", rows, figure)
+        return card(f"Load path of {len(self)} steps", self._rows(), figure)
 
     def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
         return plots.plot_cone(dataset, **look)

@@ -7,7 +7,6 @@ Examples
 ('foerster1994', 'kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
 """
 
-from carom.datasets.shipped import load, names, parameters, path, table
+from carom.names import attach
 
-__all__ = ["load", "names", "parameters", "path", "table"]
-__dir__ = __all__.copy
+__getattr__, __dir__, __all__ = attach(__name__, __file__)

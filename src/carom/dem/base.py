@@ -20,7 +20,6 @@ from carom.dimensionless.rebounds import answered
 from carom.quantities.arrays import Array
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag, refusal
-from carom.quantities.shown import Shown
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
 
@@ -103,17 +102,18 @@ def described(names: re.Match[str]) -> str:
 
 
 @dataclass(frozen=True)
-class Law(Shown, ABC):
+class Law(ABC):
     """What gives psi_2 from psi_1 and chi: contact laws, a function, the exact table.
 
-    In docstrings of laws a line with names of `PARAMETERS` alone stands for what is said there.
+    Each has a `name`, and a `source` that says where it is from. In docstrings of laws a line with
+    names of `PARAMETERS` alone stands for what is said there.
     """
 
     name: ClassVar[str]
     source: ClassVar[str]
-    largest_chi: ClassVar[float] = np.inf
-    most_steps: ClassVar[int] = MOST_STEPS  # that are tried for a time step
-    statuses: ClassVar[type[WordedStatus]] = LawStatus  # of impacts
+    _largest_chi: ClassVar[float] = np.inf
+    _most_steps: ClassVar[int] = MOST_STEPS  # that are tried for a time step
+    _statuses: ClassVar[type[WordedStatus]] = LawStatus  # of impacts
 
     def __init_subclass__(cls) -> None:
         text, count = NAMES_ALONE.subn(described, cleandoc(cls.__doc__ or ""))
@@ -198,7 +198,7 @@ class Law(Shown, ABC):
             return result, status, reason
 
         arguments = {"psi_1": psi_1, "chi": chi} | ({} if kappa is None else {"kappa": kappa})
-        return answered(arguments, solve, self.statuses, return_status)
+        return answered(arguments, solve, self._statuses, return_status)
 
     def _why(self, psi: float, chi: float, kappa: float) -> str:
         """Return what the function of a law did wrong in an impact, "" if nothing."""
@@ -209,18 +209,18 @@ class Law(Shown, ABC):
 class ContactLaw(Law):
     """A law of the forces in a contact, from the first touch to separation."""
 
-    largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
-    symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
-    default_steps: ClassVar[int | None] = None  # None: of adaptive size
+    _largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
+    _symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
+    _default_steps: ClassVar[int | None] = None  # None: of adaptive size
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         raise NotImplementedError(f"{self.name} is more than coefficients")
 
     def _solved(
         self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
     ) -> tuple[Array, Codes]:
-        status = status_of(psi, chi, kappa, self.largest_chi)
+        status = status_of(psi, chi, kappa, self._largest_chi)
         result, good = np.full(psi.size, np.nan), np.flatnonzero(status == LawStatus.SOLVED)
 
         def solve(part: NDArray[np.intp]) -> None:
@@ -241,10 +241,10 @@ class ContactLaw(Law):
 
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
         """Return psi_2 of impacts with one chi."""
-        steps = steps or self.default_steps
+        steps = steps or self._default_steps
         if steps is None:
             out = np.empty(psi.size)
-            rebounds(self.coefficients(chi, kappa), psi, np.empty(WORK), out)
+            rebounds(self._coefficients(chi, kappa), psi, np.empty(WORK), out)
             return out
         sign, nothing = np.copysign(1.0, psi), np.empty((0, len(HISTORY)))
         each = (self._stepped(size, chi, kappa, steps, nothing)[1] for size in np.abs(psi).tolist())
@@ -254,7 +254,7 @@ class ContactLaw(Law):
         self, psi: float, chi: float, kappa: float, steps: int, record: Array
     ) -> tuple[int, float]:
         """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part."""
-        return stepped(self.coefficients(chi, kappa), psi, steps, np.empty(REMEMBERED), record)
+        return stepped(self._coefficients(chi, kappa), psi, steps, np.empty(REMEMBERED), record)
 
     def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
         return self._stepped(psi, chi, kappa, steps, record)[0]
@@ -298,7 +298,7 @@ class ContactLaw(Law):
         chi, psi_1 = positive("chi", chi), finite("psi_1", psi_1, "1")
         kappa = kappa_or_solid(kappa, chi)
         record = np.empty((MOST_DURATIONS * steps + 2, len(HISTORY)))
-        sign = float(np.copysign(1.0, psi_1)) if self.symmetric else 1.0
+        sign = float(np.copysign(1.0, psi_1)) if self._symmetric else 1.0
         count = self._recorded(sign * psi_1, chi, kappa, steps, record)
         if count < 0 or not np.all(np.isfinite(record[:count])):
             raise refusal("steps", steps, "the bodies do not part; take more steps")

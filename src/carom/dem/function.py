@@ -172,10 +172,10 @@ class ByFunction(Law):
     name: str = ""  # type: ignore[misc]  # of its own, not of the class
 
     source: ClassVar[str] = "a Python function"
-    written: ClassVar[str]  # how the function begins
+    _written: ClassVar[str]  # how the function begins
 
     def __post_init__(self) -> None:
-        _check_function(self.function, self.written)
+        _check_function(self.function, self._written)
         checked_type("name", self.name, str, "must be a text, e.g. name='my law'")
         own = str(getattr(self.function, "__name__", type(self.function).__name__))
         object.__setattr__(self, "name", clipped(self.name) or own)
@@ -195,7 +195,7 @@ class ByFunction(Law):
     def _solved(
         self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
     ) -> tuple[Array, Codes]:
-        status = status_of(psi, chi, kappa, self.largest_chi)
+        status = status_of(psi, chi, kappa, self._largest_chi)
         result = np.full(psi.size, np.nan)
         for i in np.flatnonzero(status == LawStatus.SOLVED):
             try:
@@ -252,9 +252,9 @@ class FunctionLaw(ByFunction, ContactLaw):
     (2.2352, 2.2352)
     """
 
-    written: ClassVar[str] = FORCE
-    symmetric: ClassVar[bool] = False  # unless the function is
-    most_steps: ClassVar[int] = DEFAULT_STEPS
+    _written: ClassVar[str] = FORCE
+    _symmetric: ClassVar[bool] = False  # unless the function is
+    _most_steps: ClassVar[int] = DEFAULT_STEPS
 
     _: KW_ONLY
     initial_state: Any = 0.0
@@ -353,7 +353,7 @@ class FunctionRebound(ByFunction):
     array([-0.4,  4. ])
     """
 
-    written: ClassVar[str] = REBOUND
+    _written: ClassVar[str] = REBOUND
 
     def _one(self, psi: float, chi: float, kappa: float, steps: int | None) -> float:
         return float(_number("psi_2", _answer(self.function, psi, chi), "1"))

@@ -48,7 +48,7 @@ class HardSphere(Law):
     def _solved(
         self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
     ) -> tuple[Array, Codes]:
-        status = status_of(psi, chi, kappa, self.largest_chi)
+        status = status_of(psi, chi, kappa, self._largest_chi)
         with np.errstate(over="ignore", invalid="ignore"):
             most = 2.0 * chi * (1.0 + self.restitution)
             lost = np.minimum(most, (1.0 + self.tangential_restitution) * np.abs(psi))

@@ -56,7 +56,7 @@ class ExactContactLaw(ContactLaw):
     name: ClassVar[str] = "exact, by springs"
     source: ClassVar[str] = "Barber (1979); Popov & Hess (2015), method of dimensionality reduction"
 
-    default_steps: ClassVar[int | None] = 2000  # which cost less than 2e-6 in psi_2
+    _default_steps: ClassVar[int | None] = 2000  # which cost less than 2e-6 in psi_2
 
     springs: int = 32
     restitution: float = 1.0

@@ -71,7 +71,7 @@ class LammpsMindlin(ContactLaw):
         one_of("damping", self.damping, RULES)
         super().__post_init__()
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         loading, unloading = KEPT[self.variant]
         damping = hertz_damping(self.restitution, self.damping)
         return hertzian(
@@ -111,7 +111,7 @@ class LiggghtsHertz(ContactLaw):
 
     restitution: float = 1.0
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         damping = hertz_damping(self.restitution)
         return hertzian(
             chi,
@@ -144,8 +144,8 @@ class EdemHertzMindlin(LiggghtsHertz):
     name: ClassVar[str] = "EDEM Hertz-Mindlin"
     source: ClassVar[str] = "EDEM documentation, Hertz-Mindlin (no slip)"
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        return super().coefficients(chi, kappa)._replace(limits_damping=True)
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
+        return super()._coefficients(chi, kappa)._replace(limits_damping=True)
 
 
 @dataclass(frozen=True)
@@ -176,7 +176,7 @@ class YadeMindlin(ContactLaw):
 
     restitution: float = 1.0
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         damping = 2.0 * sqrt(SPRING * MINDLIN) * thornton_damping(self.restitution)
         return hertzian(
             chi, damping, pulls=False, shear_damping=damping * kappa**-0.5, limits_damping=False
@@ -211,7 +211,7 @@ class LinearSpring(ContactLaw):
     restitution: float = 1.0
     tangential_damping: float = 0.0
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         damping = 2.0 * SPRING * damping_ratio(self.restitution)
         shear_damping = self.tangential_damping * damping / kappa
         return linear(
@@ -247,7 +247,7 @@ class HertzLinearHistory(ContactLaw):
     restitution: float = 1.0
     tangential_damping: float = 0.0
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         damping = hertz_damping(self.restitution)
         return hertzian(
             chi,
@@ -265,7 +265,7 @@ class BilinearLaw(ContactLaw):
     stiffness_ratio: float | None = None
     restitution: float = 1.0
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         return linear(chi, kappa, self.stiffness_ratio, unloading=self.restitution**-2)
 
@@ -320,7 +320,7 @@ class ThorntonLaw(ContactLaw):
     name: ClassVar[str] = "Thornton, incremental"
     source: ClassVar[str] = "Thornton & Yin (1991), Powder Technol. 65:153"
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         return Coefficients(chi=chi, shear=Shear.MINDLIN_DERESIEWICZ.value)
 
 
@@ -348,5 +348,5 @@ class WaltonBraunLaw(BilinearLaw):
     name: ClassVar[str] = "Walton & Braun"
     source: ClassVar[str] = "Walton & Braun (1986), J. Rheol. 30:949"
 
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        return super().coefficients(chi, kappa)._replace(shear=Shear.WALTON_BRAUN.value)
+    def _coefficients(self, chi: float, kappa: float) -> Coefficients:
+        return super()._coefficients(chi, kappa)._replace(shear=Shear.WALTON_BRAUN.value)

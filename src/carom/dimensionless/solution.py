@@ -40,7 +40,8 @@ class Solution(Trajectory):
     displacements U in mu d_max/kappa, and velocities psi in mu V_1/kappa. The tangential force is
     given as Q = (2/3) F_x/(mu P_max), and energies are such that the kinetic energy is psi^2/2. The
     theory is that of Maw, Barber & Fawcett (1976) in the form of Barber (1979), with traction (6),
-    stick (15) and gross slip (33).
+    stick (15) and gross slip (33). `status` is SOLVED or says why not, `phases` are in order, and
+    `shear_lost` is the energy lost to viscosity in shear, here none.
 
     Examples
     --------
@@ -71,7 +72,7 @@ class Solution(Trajectory):
     shear_lost: ClassVar[float] = 0.0
 
     @property
-    def scale(self) -> float:
+    def _scale(self) -> float:
         """Factor between the recorded impact and this one, which is 1 or -1 unless psi_1 is tiny.
 
         The impact is recorded at |psi_1|, and at 1e-6 if that is smaller, because all tangential
@@ -80,35 +81,8 @@ class Solution(Trajectory):
         return float(np.copysign(min(1.0, abs(self.psi_in) / LINEAR_PSI), self.psi_in))
 
     def at(self, time: ArrayLike) -> History:
-        """Return the state at the given times, one row for each.
-
-        The instant at which the phase changes belongs to the later phase.
-
-        Parameters
-        ----------
-        time : array_like
-            Time in units of d_max/V_1, from 0 to `duration`.
-
-        Returns
-        -------
-        History
-            Arrays of shape (n,) in the units of `Solution`: `time`, `penetration`, `speed`, `psi`,
-            `displacement`, `force`, `stick_radius`, `contact_radius`, `stored`, `dissipated`,
-            `shear_lost`, `normal_force`, `normal_stored` and `normal_lost`.
-
-        Raises
-        ------
-        InputError
-            If a time is outside the contact, or the impact is not solved.
-
-        Examples
-        --------
-        >>> import carom
-        >>> carom.solve(0.5, 1.44).at([0.0, 1.0]).psi.round(4)
-        array([ 0.5   , -0.0419])
-        """
         wanted = self._times_within(time)
-        rows, scale = np.empty((wanted.size, dense.SAMPLED)), self.scale
+        rows, scale = np.empty((wanted.size, dense.SAMPLED)), self._scale
         dense.sample(self._steps, wanted, rows)
         return History(
             time=wanted,
@@ -155,7 +129,7 @@ class Solution(Trajectory):
         True
         """
         now = states.now_at(self.at(self._time_within(at)))
-        return dense.memory_at(self._record, self._steps, now, self.scale or 1.0)
+        return dense.memory_at(self._record, self._steps, now, self._scale or 1.0)
 
     def _contact_at(self, time: float) -> ContactState:
         rate, now = self.slip_rate(time), states.now_at(self.at(self._time_within(time)))
@@ -174,7 +148,7 @@ class Solution(Trajectory):
     def _friction_work(self, radii: Array) -> Array:
         out = np.empty((radii.size, 2))
         slip.work(self._steps, radii, out)
-        return self.scale**2 * out
+        return self._scale**2 * out
 
     def _pressed(self, radii: Array) -> Array:
         out = np.empty(radii.size)
@@ -192,7 +166,7 @@ class Solution(Trajectory):
         """
         sign = self.phase_at(at).sign
         now = states.now_at(self.at(self._time_within(at)))
-        return now["psi"] - sign * abs(self.scale) * now["speed"] if sign else 0.0
+        return now["psi"] - sign * abs(self._scale) * now["speed"] if sign else 0.0
 
     @known_keywords
     def slid(self, at: float, radii: ArrayLike) -> Array:
@@ -229,7 +203,7 @@ class Solution(Trajectory):
         out = np.empty((places.size, 2))
         last = int(np.searchsorted(self._steps.times, now["time"], side="right")) - 1
         slip.slid(self._steps, last, now["contact_radius"], now["speed"], places, out)
-        return self.scale * out
+        return self._scale * out
 
     def slip_angles(self, lateral_ratio: float) -> tuple[SlipAngle, ...]:
         """Return the largest and the mean angle between slip and traction in each phase, in rad.
@@ -271,7 +245,7 @@ class Solution(Trajectory):
         middle, half = 0.5 * (phase.start + phase.end), 0.5 * (phase.end - phase.start)
         now = self.at(middle + half * np.sin(0.5 * np.pi * ABSCISSAS))
         power, turned = slip.directions(now.stick_radius / now.contact_radius, lateral_ratio)
-        rate = now.psi - phase.sign * abs(self.scale) * now.speed
+        rate = now.psi - phase.sign * abs(self._scale) * now.speed
         rate = np.abs(rate) * now.contact_radius**3
         rate *= WEIGHTS * np.cos(0.5 * np.pi * ABSCISSAS)
         return SlipAngle(float(np.arcsin(lateral_ratio)), float(rate @ turned / (rate @ power)))

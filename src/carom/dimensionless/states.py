@@ -15,13 +15,14 @@ from carom.dimensionless.numerics.arrays import Array
 from carom.quantities.arrays import pure_numbers, refuse_where
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal, refuse
+from carom.quantities.shown import Printed
 from carom.quantities.units import counted
 
 KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross slip"}
 
 
 class Phase(NamedTuple):
-    """A phase of an impact: its kind, sign of slip (0 in stick), times, and what ended it.
+    """A phase: its kind, sign of slip (0 in stick), start and end, and the cause of the end.
 
     Times are in d_max/V_1 in a `Solution`, in s in an `Impact`.
     """
@@ -42,7 +43,11 @@ class SlipAngle(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """An impact at some times, in the dimensionless units of `Solution`."""
+    """An impact at some times, in the units of `Solution`.
+
+    `psi` and `force` are tangential; energies are `stored` elastically, `dissipated` by friction,
+    `shear_lost` to viscosity, and `normal_stored` and `normal_lost` of the normal motion.
+    """
 
     time: Array
     penetration: Array
@@ -64,7 +69,7 @@ class History:
 
 
 class ContactState(NamedTuple):
-    """A contact at an instant: radius, density of the pressure at the edge, tractions, slip.
+    """A contact at an instant: radius, `rim` (pressure's density at the edge), profile, slip.
 
     `slid` and `slipping` give the radial functions w_0, w_2 of slip and its rate at radii, (n, 2).
     """
@@ -76,19 +81,54 @@ class ContactState(NamedTuple):
     slipping: Callable[[Array], Array]
 
 
-class Trajectory(ABC):
+class Trajectory(Printed, ABC):
     """A solved impact and its state at any time."""
 
     psi_in: float
     chi: float
+    psi_out: float
     duration: float
     max_radius: float
     status: Status
     phases: tuple[Phase, ...]
 
+    def __str__(self) -> str:
+        rows = [
+            f"  {p.kind:10s} {' +-'[p.sign]} {p.start:8.4f} to {p.end:.4f} d_max/V_1: {p.cause}"
+            for p in self.phases
+        ]
+        head = f"psi_1 = {self.psi_in:g}, chi = {self.chi:g}: psi_2 = {self.psi_out:.6g}"
+        return "\n".join([f"{head} ({self.status.message})", *rows])
+
     @abstractmethod
     def at(self, time: ArrayLike) -> History:
-        """Return the state at the given times, one row for each."""
+        """Return the state at the given times, one row for each.
+
+        The instant at which the phase changes belongs to the later phase.
+
+        Parameters
+        ----------
+        time : array_like
+            Time in units of d_max/V_1, from 0 to `duration`.
+
+        Returns
+        -------
+        History
+            Arrays of shape (n,) in the units of `Solution`: `time`, `penetration`, `speed`, `psi`,
+            `displacement`, `force`, `stick_radius` (what stick zones add up to), `contact_radius`,
+            `stored`, `dissipated`, `shear_lost`, `normal_force`, `normal_stored`, `normal_lost`.
+
+        Raises
+        ------
+        InputError
+            If a time is outside the contact, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).at([0.0, 1.0]).psi.round(4)
+        array([ 0.5   , -0.0419])
+        """
 
     @abstractmethod
     def _contact_at(self, time: float) -> ContactState:

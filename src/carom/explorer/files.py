@@ -82,7 +82,7 @@ class NumbersImpact:
         numbers = {"friction": 1.0, "max_pressure": solution.max_pressure}
         inputs: dict[str, Any] = {"psi_in": solution.psi_in, "chi": solution.chi}
         if isinstance(solution, LossySolution):
-            inputs["losses"] = solution.losses._asdict()
+            inputs["losses"] = solution._losses._asdict()
         columns = columns_of_numbers(solution.history(n))
         return _in_theory(labelled(columns, numbers, solution.phases, inputs))
 

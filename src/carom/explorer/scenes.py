@@ -233,7 +233,7 @@ def _rim(solution: Solution | LossySolution, speed: Array) -> Array:
     """Return what the density of the pressure ends with at the edge, in units of the largest."""
     if isinstance(solution, Solution):
         return np.zeros(speed.size)
-    alpha = solution.losses.parameter
+    alpha = solution._losses.parameter
     return np.asarray(alpha * np.maximum(speed, 0.0) / solution.max_radius**2)
 
 

@@ -110,7 +110,7 @@ def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
 
 def taken(columns: Mapping[str, Column], fitted: Fit | None = None) -> list[dict[str, str]]:
     """Return for each column its head, what it was taken for, and the unit it was read in."""
-    ignored = () if fitted is None else fitted.best.model.problem.ignored
+    ignored = () if fitted is None else fitted._best.model.problem.ignored
     empty = [name.partition(" ")[0] for name in ignored if "(" in name]
     return [_taken(name, columns[name], entry(name) in empty) for name in columns]
 
@@ -132,7 +132,7 @@ def shown_fit(
     result: Fit, name: str, bodies_from: str, columns: list[dict[str, str]]
 ) -> dict[str, Any]:
     """Return all that the page shows of a fit, as JSON can hold it."""
-    problem, dataset = result.best.model.problem, result.to_dataset()
+    problem, dataset = result._best.model.problem, result.to_dataset()
     drops = problem.is_normal and result.losses is not None
     charts = [_drops(dataset)] if drops else [_chart(dataset, str(n)) for n in problem.responses]
     return {

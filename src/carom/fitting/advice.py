@@ -26,7 +26,7 @@ HALVED = 4.0  # what a variance is divided by where its interval is halved
 
 @dataclass(frozen=True)
 class Incidence:
-    """An incidence to measure at, and how often there would halve the interval by itself."""
+    """An angle to measure at, its regime, and how many are `needed` to halve the interval."""
 
     angle: float
     regime: str
@@ -103,7 +103,7 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
 
 def _with_all(fit: FitRecord) -> Best:
     """Return the fit with what could not be determined free again."""
-    best = fit.best
+    best = fit._best
     missing = tuple(
         name
         for name, each in fit.estimates.items()

@@ -42,12 +42,12 @@ LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """A law fitted: by how much its criterion exceeds the least, and Akaike's weight, or NaN."""
+    """A law fitted: the excess of its criterion over the least, and Akaike's weight, or NaN."""
 
     law: str
     excess: float
     weight: float
-    best: Best = field(repr=False)
+    _best: Best = field(repr=False)
 
     @property
     def cells(self) -> tuple[str, str]:
@@ -70,14 +70,14 @@ class LawFit(Standing):
     @property
     def values(self) -> dict[str, float]:
         """The parameters of the law, and the offset of the spin if it was fitted."""
-        offset = (OFFSET,) if OFFSET in self.best.model.free else ()
-        values = self.best.values
-        return {name: values[name] for name in (*self.best.model.law.names, *offset)}
+        offset = (OFFSET,) if OFFSET in self._best.model.free else ()
+        values = self._best.values
+        return {name: values[name] for name in (*self._best.model.law.names, *offset)}
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Laws by Akaike's criterion on the same data, corrected for few values (AICc)."""
+    """Standings of laws by Akaike's criterion on the same data, corrected for few values (AICc)."""
 
     standings: tuple[LawFit, ...]
 
@@ -113,7 +113,7 @@ class Comparison:
             each.law: {
                 "aicc": or_none(each.criterion),
                 **each.to_dict(),
-                "free": _free(each.best),
+                "free": _free(each._best),
                 "parameters": each.values,
             }
             for each in self.standings
@@ -227,12 +227,12 @@ class FitRecord:
     confidence: float
     regimes: Mapping[str, int]
     notes: tuple[str, ...]
-    best: Best = field(repr=False)
+    _best: Best = field(repr=False)
 
     @cached_property
     def comparison(self) -> Comparison:
         """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""
-        return compare(self.best)
+        return compare(self._best)
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,14 +251,14 @@ class LossFit(Standing):
 
     def restitution(self, normal_speed: Array) -> Array:
         """Return the restitution at normal speeds."""
-        model = self.best.model
-        values = model.values(self.best.at[np.newaxis])
+        model = self._best.model
+        values = model.values(self._best.at[np.newaxis])
         return np.asarray(model.law.restitution(model.problem.pair, normal_speed, values)[0])
 
 
 @dataclass(frozen=True, eq=False)
 class LossComparison:
-    """Laws of losses by Akaike's criterion on the same normal velocities, the best one first."""
+    """Standings of laws of losses by Akaike's criterion: speeds, measured restitutions, errors."""
 
     standings: tuple[LossFit, ...]
     speeds: Array
@@ -325,7 +325,7 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
         law = profile.best.model.law
         parameter = estimate_of(profile, law.names[0])
         standings.append(LossFit(law.name, excess[place], weights[place], profile.best, parameter))
-    measured, errors = _restitutions(problem, standings[0].best)
+    measured, errors = _restitutions(problem, standings[0]._best)
     return LossComparison(tuple(standings), problem.motion.normal_speed, measured, errors)
 
 

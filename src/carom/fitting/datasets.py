@@ -31,8 +31,8 @@ WIDE, ALONG = ("row", "response"), ("curve", "response")
 
 def fit_dataset(fit: FitRecord, losses: LossComparison | None = None) -> "xr.Dataset":
     """Return a fit as a dataset, as `Fit.to_dataset`."""
-    problem = fit.best.model.problem
-    variables = {**_rows(fit.best), **_curves(fit), **_parameters(fit)}
+    problem = fit._best.model.problem
+    variables = {**_rows(fit._best), **_curves(fit), **_parameters(fit)}
     coords: dict[str, Any] = {}
     if losses is not None:
         laws = [each.law for each in losses.standings]
@@ -97,9 +97,9 @@ def _losses(losses: LossComparison) -> dict[str, Any]:
 
 
 def _curves(fit: FitRecord) -> dict[str, Any]:
-    best = fit.best
+    best = fit._best
     angles, motion = _usual(best.model.problem)
-    fits = [each.best for each in fit.comparison]
+    fits = [each._best for each in fit.comparison]
     lines = [each.model.expected(each.at[np.newaxis], motion)[0] for each in fits]
     half_width = _band(fit, motion)
     mu, kappa, e = (best.values[name] for name in ("friction", "kappa", "restitution"))
@@ -134,7 +134,7 @@ def _usual(problem: FitProblem) -> tuple[Array, IncomingMotion]:
 
 def _band(fit: FitRecord, motion: IncomingMotion) -> Array:
     """Return half the width of the band of the curve, to first order in the parameters."""
-    best = fit.best
+    best = fit._best
     model = best.model
 
     def lines(at: Array) -> Array:
@@ -173,7 +173,7 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     count = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
     if seed is not None:
         counted("seed", seed, 0, MOST_SEED)
-    best = fit.best
+    best = fit._best
     low, high = best.model.bounds
     residuals = best.model.residuals(best.weights, best.loss)
     stopped: list[BaseException] = []
@@ -211,7 +211,7 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
 def _dataset(
     fit: FitRecord, chain: Array, times: Array, steps: int, seed: int | None
 ) -> "xr.Dataset":
-    model = fit.best.model
+    model = fit._best.model
     values = model.values(chain)
     variables: dict[str, Any] = {name: ("sample", values[name][:, 0]) for name in model.free}
     if "kappa" in model.free:

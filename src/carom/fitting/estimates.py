@@ -24,7 +24,7 @@ LIMITS = {  # what a parameter can be at all
 
 @dataclass(frozen=True)
 class Estimate(Printed):
-    """A fitted parameter: its value and interval, or the reason why it has none.
+    """A fitted parameter: name, value, interval from low to high, or the reason why it has none.
 
     An end of the interval that the data leave open is the end of the possible values: 0, 1 or
     infinity. If the data do not determine a parameter, its ends are NaN, `reason` says why, and its

@@ -195,7 +195,7 @@ ELASTIC_KAPPA = (2.0 / 3.0, 1.0)  # for Poisson's ratios from 1/2 to 0
 
 def as_text(fit: FitRecord) -> str:
     """Return a small table of the parameters, and what else is to be known."""
-    problem = fit.best.model.problem
+    problem = fit._best.model.problem
     head = (
         f"{problem.count} value{'s' * (problem.count != 1)} of {', '.join(problem.responses)} in "
         f"{len(problem.rows)} row{'s' * (len(problem.rows) != 1)}; "

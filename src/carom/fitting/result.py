@@ -32,7 +32,8 @@ class Fit(FitRecord, Result):
     """Parameters from measured rebounds; made by `carom.fit`.
 
     `estimates` holds friction, kappa, chi, restitution and spin_offset by name, `fit["friction"]`
-    one of them. `regimes` counts the rows in each regime, `notes` has remarks on the fit.
+    one of them, with intervals at the level `confidence`. `regimes` counts the rows in each regime,
+    `notes` has remarks on the fit.
 
     Examples
     --------
@@ -73,13 +74,13 @@ class Fit(FitRecord, Result):
     @property
     def pair(self) -> Pair:
         """The bodies with the fitted friction."""
-        bodies = self.best.model.problem.pair
+        bodies = self._best.model.problem.pair
         return Pair(bodies.first, bodies.second, self.friction.value)
 
     @property
     def lmfit_result(self) -> Any:
         """The result of lmfit in transformed coordinates, which are log friction and log kappa."""
-        return self.best.result
+        return self._best.result
 
     @cached_property
     def losses(self) -> LossComparison | None:
@@ -95,7 +96,7 @@ class Fit(FitRecord, Result):
         >>> print(carom.fit(heights, pair=pair).losses.verdict)
         the restitution depends on the speed as in ElasticPlastic; the data rule out KelvinVoigt
         """
-        return compare_losses(self.best, self.confidence)
+        return compare_losses(self._best, self.confidence)
 
     def advice(self, n: int = 5, parameter: str | None = None) -> Advice:
         """Return the incidences to measure next, and how much shorter they make an interval.
@@ -202,8 +203,8 @@ class Fit(FitRecord, Result):
         return {
             "parameters": {name: each.to_dict() for name, each in self.estimates.items()},
             "confidence": self.confidence,
-            "values": self.best.model.problem.count,
-            "rows": len(self.best.model.problem.rows),
+            "values": self._best.model.problem.count,
+            "rows": len(self._best.model.problem.rows),
             "regimes": dict(self.regimes),
             "notes": list(self.notes),
             "comparison": self.comparison.to_dict(),
@@ -232,13 +233,13 @@ class Fit(FitRecord, Result):
         """
         lossy = (VISCOUS,) if self.restitution.value < 1.0 else ()
         keys = (*FITS, *lossy, *(SAMPLES if posterior else ()))
-        doi = self.best.model.problem.doi
+        doi = self._best.model.problem.doi
         return "\n".join([bibtex(*keys), *([with_doi(doi)] if doi else [])])
 
     def _draw(self, dataset: Any, **look: Any) -> "Figure":
         from carom.plots.fits import plot_drops, plot_fit  # which loads matplotlib
 
-        is_drops = self.losses is not None and self.best.model.problem.is_normal
+        is_drops = self.losses is not None and self._best.model.problem.is_normal
         return (plot_drops if is_drops else plot_fit)(dataset, **look)
 
     def _repr_html_(self) -> str:

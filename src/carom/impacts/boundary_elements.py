@@ -83,7 +83,8 @@ class HalfspaceImpact(ImpactResult):
     """The result of `impact` by boundary elements, with estimates of its error.
 
     The method is that of Love (1929) and Kalker (1990), section 4.2, see `BoundaryElements`. Units
-    are SI, signs are those of `Impact`. Phases are those that the grid resolves: short phases are
+    are SI, signs are those of `Impact`; `solution` is the same in `scales` of `pair` and speed, and
+    `losses` are None. Phases are those that the grid resolves: short phases are
     missing, and phases may alternate where only a small part of the contact slips.
 
     Examples
@@ -100,7 +101,7 @@ class HalfspaceImpact(ImpactResult):
     """
 
     solution: HalfspaceSolution = field(repr=False)
-    coarser: tuple[float, float] = field(kw_only=True)  # psi_out, a quarter and half as fine
+    _coarser: tuple[float, float] = field(kw_only=True)  # psi_out, a quarter and half as fine
 
     @property
     def normal_spin_out(self) -> float:
@@ -122,7 +123,7 @@ class HalfspaceImpact(ImpactResult):
 
         In 98 % of 200 impacts the true error was smaller.
         """
-        return refinement_error(*self.coarser, self.solution.psi_out)
+        return refinement_error(*self._coarser, self.solution.psi_out)
 
     @property
     def dissipated_energy(self) -> float:
@@ -312,7 +313,7 @@ def solve_by_elements(
         *motion,
         solution,
         scales=scales,
-        coarser=(coarse[0].psi_out, coarse[1].psi_out),
+        _coarser=(coarse[0].psi_out, coarse[1].psi_out),
         normal_spin=normal_spin,
     )
 

@@ -42,9 +42,10 @@ DEEPEST = 100.0  # of the depth from which on peaks are searched for, in contact
 class Impact(ImpactResult, InContact):
     """The result of `impact`: the rebound, every phase, and what happens inside the contact.
 
-    SI units. Tangential speeds are those of the first body relative to the second. Positive spin
-    adds to the tangential speed of the contact point: V_x = v_t + R omega + R_2 omega_2. The theory
-    is that of Maw, Barber & Fawcett (1976), in the form of Barber (1979).
+    SI units; `solution` is the same without units, in `scales` of `pair` and speed, with `losses`
+    if there are any. Tangential speeds are those of the first body relative to the second. Positive
+    spin adds to the tangential speed of the contact point: V_x = v_t + R omega + R_2 omega_2. The
+    theory is that of Maw, Barber & Fawcett (1976), in the form of Barber (1979).
 
     Examples
     --------
@@ -63,7 +64,7 @@ class Impact(ImpactResult, InContact):
         """Whether the assumptions of the theory hold, as numbers with limits and verdicts."""
         if not isinstance(self.solution, LossySolution):
             return judge(self, self._strength)
-        losses = judge_losses(self.solution.losses, self.normal_restitution, self.pair.chi)
+        losses = judge_losses(self.solution._losses, self.normal_restitution, self.pair.chi)
         return judge(self, self._strength, (losses,))
 
     @cached_property
@@ -202,7 +203,7 @@ class Impact(ImpactResult, InContact):
         return peaks_dataset(self.pair, bodies, {"inputs": self.inputs()})
 
     def _refuse_stress(self) -> None:
-        if isinstance(self.solution, LossySolution) and self.solution.losses.loss == Loss.PLASTIC:
+        if isinstance(self.solution, LossySolution) and self.solution._losses.loss == Loss.PLASTIC:
             unknown = "what stress a yielded contact leaves below it is not known"
             cure = "take KelvinVoigt, or leave losses out"
             raise refusal("losses", self.losses, f"{unknown}; {cure}")
@@ -220,7 +221,7 @@ class Impact(ImpactResult, InContact):
         >>> [line for line in hit.cite().splitlines() if line.startswith("@")]
         ['@software{carom,', '@article{barber1979,', '@article{maw1976,']
         """
-        source = () if self.losses is None else (self.losses.source,)
+        source = () if self.losses is None else (self.losses._source,)
         return bibtex(*IMPACT, *source)
 
     def _phase_columns(self) -> dict[str, list[float]]:
@@ -250,7 +251,7 @@ def _solution(
     if losses is None:
         solution = solve(psi, pair.chi)
     else:
-        loss, *numbers = checked_law(losses).loss(pair, scales)
+        loss, *numbers = checked_law(losses)._loss(pair, scales)
         if any(map(np.ndim, numbers)):
             raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
         solution = solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))

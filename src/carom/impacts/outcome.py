@@ -205,7 +205,7 @@ class Outcome(Kinematics):
             "friction": self.pair.friction,
             "normal_speed": self.normal_speed,
             **self.before._asdict(),
-            **({} if self.losses is None else {"losses": self.losses.describe()}),
+            **({} if self.losses is None else {"losses": self.losses._describe()}),
         }
 
 

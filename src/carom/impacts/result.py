@@ -20,7 +20,7 @@ from carom.impacts.spectrum import read_frequencies, spectrum_dataset
 from carom.io.labels import MARKS, Validity, labelled, phases_at
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
-from carom.quantities.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY, listed
 from carom.quantities.prefixes import column, text
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted, number, or_none
@@ -39,17 +39,8 @@ NOTES = {
     "halfspace": "  * angle between the slip and x in degrees",
 }
 SHOWN = (  # in a notebook
-    "psi_in",
-    "psi_out",
-    "rebound_speed",
-    "rebound_angle",
-    "spin_out",
-    "contact_restitution",
-    "normal_restitution",
-    "dissipated_energy",
-    "duration",
-    "max_force",
-    "max_radius",
+    *("psi_in", "psi_out", "rebound_speed", "rebound_angle", "spin_out", "contact_restitution"),
+    *("normal_restitution", "dissipated_energy", "duration", "max_force", "max_radius"),
 )
 
 
@@ -315,12 +306,12 @@ def _impact_text(hit: ImpactResult) -> str:
     note = NOTES["lossy" if hit.losses is not None else method]
     loses = hit.losses is not None or (method != "exact" and hit.pair.dundurs_beta != 0.0)
     shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
+    if loses and not scalars["shear_lost_energy"]:  # as of spheres that yield
+        shown.remove("shear_lost_energy")
     shown += [name for name in OF_ELEMENTS if name in scalars]
     if len(hit.pair.moving) == 1:
         shown.remove("spin2_out")
-    lines = [
-        f"  {GLOSSARY[name].meaning:58s} {GLOSSARY[name].text(scalars[name])}" for name in shown
-    ]
+    lines = listed({name: scalars[name] for name in shown}, width=58)
     times, unit = _phase_times(hit.phases)
     phases = [
         f"  {_slip(p.kind, p.sign):14s}{start:>12s} {end:>12s}"

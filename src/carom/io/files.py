@@ -4,6 +4,8 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
+import numpy as np
+
 from carom.io.extras import extra
 from carom.io.netcdf_format import read_netcdf, write_netcdf
 from carom.io.paths import accessing, checked_output, checked_path, ending_of, opened, replace_whole
@@ -35,9 +37,10 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
 
     `carom.read` reads a NetCDF file, which holds everything. A CSV file is one table for other
     programs, which is not read as a dataset again: one row a point, along the dimensions of the
-    first variable that has most of them, with units in the header. An existing file is replaced
-    whole or not at all, and of a link the file to which it points. The data are written into a pipe
-    or a device, as CSV if its name has no ending.
+    first variable that has most of them, of an impact with the phase at that time, and with units
+    in the header; single numbers and attributes are only in .nc. An existing file is replaced whole
+    or not at all, and of a link the file to which it points. The data are written into a pipe or a
+    device, as CSV if its name has no ending.
 
     Parameters
     ----------
@@ -95,6 +98,10 @@ def _table(dataset: "xr.Dataset") -> str:
     import pandas as pd
 
     table = max((tuple(item.dims) for item in dataset.data_vars.values()), key=len, default=())
+    if table == ("time",) and "phase" in dataset.dims:  # the phase at each time, as in a history
+        later = dataset["phase_start"].values[1:]
+        which = np.searchsorted(later, dataset["time"].values, side="right")
+        dataset = dataset.isel(phase=("time", which))
     along = {dim: dataset.sizes[dim] for dim in table}
     coords = sorted(dataset.coords, key=lambda name: [*table, name].index(name))
     columns = {}

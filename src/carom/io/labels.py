@@ -27,7 +27,7 @@ MARKS = {True: "ok   ", False: "FAILS", None: "?    "}  # of an assumption
 
 @with_old_fields
 class Finding(NamedTuple):
-    """One number that tells whether the theory holds: value, limit, and a plain verdict."""
+    """A number that tells whether the theory holds: its name, value, limit and a plain verdict."""
 
     name: str
     value: float
@@ -43,7 +43,16 @@ class Finding(NamedTuple):
 
 @dataclass(frozen=True)
 class Validity(Printed):
-    """All findings on one impact."""
+    """All `findings` on one impact: whether the assumptions of the theory hold; printed, a table.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> carom.impact(pair, speed=0.002, angle="30 deg").validity.holds
+    True
+    """
 
     findings: tuple[Finding, ...]
 

@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
+from itertools import compress
 from math import nan, pi
 from typing import Any, NamedTuple
 
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, clipped, nearest
+from carom.quantities.shown import Printed
 from carom.quantities.symbols import meant
 from carom.quantities.texts import UNCHANGED
 from carom.quantities.units import PURE_UNITS, WHY_POSITIVE, factor_of, finite_or_text, number
@@ -24,7 +26,8 @@ Mask = NDArray[np.bool_]
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
 CASE = "# case:"  # begins a comment that holds the bodies as JSON
-MOST_NAMED_ROWS = 5  # rows that a message names
+MOST_NAMED_ROWS, MOST_NAMED_VALUES = 5, 3  # that a message names
+SHOWN_ROWS = 20  # by print
 GAP = "-"  # a cell of what was not measured
 ERROR = "_error"  # ends the name of a column of standard deviations
 CORRECT_OR_DELETE = "correct or delete it"
@@ -63,11 +66,11 @@ class Rows:
 
 
 @dataclass(frozen=True, eq=False)
-class UserTable(Rows):
+class UserTable(Rows, Printed):
     """Columns by name as given, `cells`, and in SI units, `columns`, as far as they were read.
 
     `rows` are the numbers of the rows, `word` is what they are called, lines of a file or rows,
-    and `comments` are those of a file, by key.
+    and `comments` are those of a file, by key. `faults` collects what is wrong with it.
     """
 
     cells: Mapping[str, Column]
@@ -82,6 +85,12 @@ class UserTable(Rows):
 
     def __getitem__(self, name: str) -> Any:
         return self.columns[name]
+
+    def __str__(self) -> str:
+        import pandas as pd
+
+        columns = self.columns or {name: column.cells for name, column in self.cells.items()}
+        return str(pd.DataFrame(dict(columns), index=self.rows).to_string(max_rows=SHOWN_ROWS))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -129,9 +138,18 @@ class UserTable(Rows):
     def refuse(self, name: str, bad: Mask, allowed: str) -> None:
         """Add to the faults that a column is bad in some rows, naming them."""
         if bad.any():
-            value = f"{float(self[name][bad][0]):g}"
+            values = list(dict.fromkeys(f"{value:g}" for value in self[name][bad].tolist()))
+            some = ", ".join(values[:MOST_NAMED_VALUES]) + ", ..." * (
+                len(values) > MOST_NAMED_VALUES
+            )
             where = self.named(bad)
-            self.faults.add(f"{spelled(name)}: {value} in {where} cannot be used; {allowed}")
+            self.faults.add(f"{spelled(name)}: {some} in {where} cannot be used; {allowed}")
+
+    def kept(self, where: Mask) -> "UserTable":
+        """Return a table of some of the rows."""
+        cells = {n: c._replace(cells=[*compress(c.cells, where)]) for n, c in self.cells.items()}
+        columns = {name: values[where] for name, values in self.columns.items()}
+        return replace(self, cells=cells, columns=columns, rows=self.rows[where])
 
 
 def spelled(name: str) -> str:
@@ -303,8 +321,10 @@ def _column(name: str, table: UserTable, open_ended: bool) -> Array:
     missing = ~np.isfinite(values) & ~gap
     if missing.any():
         todo = f"write '{GAP}' where nothing was measured" if open_ended else CORRECT_OR_DELETE
-        message = f"not a number in {table.named(missing)}; {reason or todo}"
-        raise InputError(f"{spelled(name)}: {message}")
+        known = reason.removeprefix(f"{spelled(name)}: ")
+        raise InputError(
+            f"{spelled(name)}: not a number in {table.named(missing)}; {known or todo}"
+        )
     return values
 
 

@@ -1,5 +1,5 @@
 """Rebound laws: the exact one as a table, and those that are used in its place."""
 
-import lazy_loader
+from carom.names import attach
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = attach(__name__, __file__)

@@ -89,7 +89,7 @@ class ReboundLaw(Law):
 
     name: ClassVar[str] = "exact rebound"
     source: ClassVar[str] = "Maw, Barber & Fawcett (1976), Wear 38:101"
-    statuses: ClassVar[type[WordedStatus]] = Status
+    _statuses: ClassVar[type[WordedStatus]] = Status
 
     chi: float | tuple[float, float]
     restitution: float
@@ -256,7 +256,7 @@ class ReboundLaw(Law):
         if self._losses is None:
             return float(hertz.DURATION)
         psi, chi = np.zeros(1), np.ones(1)
-        return float(lossy_rebounds(psi, chi, self._losses.scale_free()).duration[0])
+        return float(lossy_rebounds(psi, chi, self._losses._scale_free()).duration[0])
 
     @property
     def nbytes(self) -> int:

@@ -10,7 +10,7 @@ Examples
 86.0
 """
 
-import lazy_loader
+from carom.names import attach
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, __all__ = attach(__name__, __file__)
 __all__.remove("style")

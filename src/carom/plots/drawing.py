@@ -9,6 +9,7 @@ from typing import Any, ParamSpec, TypeAlias, TypeVar
 import numpy as np
 
 from carom.plots import style
+from carom.plots.legends import make_room_around
 from carom.plots.look import Look, into, quiet
 from carom.quantities.refusals import InputError, hint, refuse
 
@@ -25,8 +26,7 @@ SEVERAL_TEXT = (
 )
 LOOK_TEXT = """**look : width, font_size, style, ax
     Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`. What
-    has one panel is drawn into `ax`, Axes of your own, if you give them; legends have room in a
-    figure of `plt.subplots(layout="constrained")`."""
+    has one panel is drawn into `ax`, Axes of your own, if you give them."""
 AT_TEXT = """at : float or str, optional
     Of a result: the time in s of an impact, by default that of the largest normal force, or the
     step of a load path, by default the last."""
@@ -104,6 +104,8 @@ def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
     own = nullcontext() if axes is not None and not wanted else style.style(**wanted)
     with own, into(axes), quiet():
         yield
+        if axes is not None:
+            make_room_around(axes)
 
 
 def documented(draw: Callable[P, T], drawn: str = "") -> Callable[P, T]:

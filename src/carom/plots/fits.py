@@ -6,19 +6,18 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from carom.io.extras import extra
 from carom.plots import style
-from carom.plots.bands import STICK, Band, mirrored, shade
+from carom.plots.bands import mirrored, shade
 from carom.plots.drawing import Drawable, draws
 from carom.plots.legends import legend_outside
 from carom.plots.look import Look
+from carom.plots.regimes import REGIMES
 from carom.quantities.glossary import GLOSSARY
 
 ACROSS = 2  # responses side by side
 UPPER, LOWER = 48.0, 20.0  # heights of curves and residuals, in mm
-TINTS = (STICK, *(Band(tint, tint, "") for tint in ("#FBEBCB", "#F6DDE8", "#E4E4E4")))
 LAW_STYLES: dict[str, Any] = {
     "exact": {"color": style.BLACK, "lw": 1.3, "zorder": 4},
     "rigid Coulomb": {"color": style.VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},
@@ -67,7 +66,7 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         last = axes[2 * ((len(names) - 1 - column) // across) + 1, column]
         last.set_xlabel(_incidence(dataset))
         last.tick_params(labelbottom=True)
-    legend_outside(figure, _key(dataset), across + 1)
+    legend_outside(figure, _key(), across + 1)
     return figure
 
 
@@ -127,8 +126,8 @@ def _draw_response(axes: Any, dataset: xr.Dataset, name: str) -> None:
     line = np.degrees(data["curve_incidence"].values)
     ends = np.degrees([0.0, *dataset["border"].values, 0.5 * np.pi])
     for axis in axes:
-        for tint, start, end in mirrored(TINTS, ends, line[0], line[-1]):
-            shade(axis, start, end, tint)
+        for regime, start, end in mirrored(REGIMES, ends, line[0], line[-1]):
+            shade(axis, start, end, REGIMES[regime])
     for law, stroke in LAW_STYLES.items():
         upper.plot(line, scale * data["curve_expected"].sel(law=law).values, **stroke)
     band = (scale * data[f"curve_{end}"].values for end in ("low", "high"))
@@ -162,8 +161,6 @@ def _incidence(dataset: xr.Dataset) -> str:
     return "incidence of the contact point (deg)" if spinning else "angle of incidence (deg)"
 
 
-def _key(dataset: xr.Dataset) -> list[Any]:
+def _key() -> list[Any]:
     laws: list[Any] = [Line2D([], [], label=law, **stroke) for law, stroke in LAW_STYLES.items()]
-    names = ["stick from the first touch", *map(str, dataset["regime_border"].values)]
-    tints = zip(TINTS, names, strict=True)
-    return [*laws, *(Patch(facecolor=tint.face, label=name) for tint, name in tints)]
+    return [*laws, *(band.key(name) for name, band in REGIMES.items())]

@@ -16,8 +16,8 @@ from carom.plots import style
 from carom.plots.bands import MINUS
 from carom.plots.drawing import Drawable, draws
 from carom.plots.legends import legend_outside
-from carom.plots.look import Look
-from carom.plots.regimes import draw_borders
+from carom.plots.look import AXES, Look
+from carom.plots.regimes import ABOVE, draw_borders
 from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import pure_number
 
@@ -30,6 +30,7 @@ SAME_PSI = 1e-6  # laws closer than this in psi_2 share a line
 SAMPLE = (-0.085, -0.015)  # where a bar shows its line, in widths of its axes
 LABEL_WIDTH = 32  # in characters
 PITCH, EDGE = 5.6, 22.0  # height of a bar and of what is around them, in mm
+BESIDE = 0.16  # of the width: room for the name of a border, if no layout makes it
 NOTED = 0.1  # an error that is outlined
 CONTOURS: Any = {"colors": "0.25", "linewidths": 0.6, "linestyles": ["--", "-"]}
 LARGEST_LIMIT = 1e100
@@ -192,10 +193,13 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
     axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi"))
     draw_borders(axis)
     over = limit is not None and bool(finite.size) and finite.max() > most
-    bar = figure.colorbar(drawn, ax=axis, extend="both" if over else "neither", aspect=30)
+    plain = AXES.get() is not None and figure.get_layout_engine() is None
+    apart: Any = {"pad": BESIDE} if plain else {}
+    bar = figure.colorbar(drawn, ax=axis, extend="both" if over else "neither", aspect=30, **apart)
     bar.set_label(r"error in $\psi_2$")
     title = style.with_formulas(_title(dataset))
-    legend_outside(figure, keys, 3, title=title, alignment="left")
+    above: Any = {"bbox_to_anchor": (-0.02, ABOVE)} if AXES.get() else {}
+    legend_outside(figure, keys, 3, title=title, alignment="left", **above)
     return figure
 
 

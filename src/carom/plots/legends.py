@@ -1,5 +1,6 @@
 """Legends above axes and figures, in as many columns as there is room: they cover no data."""
 
+from contextlib import suppress
 from functools import lru_cache
 from typing import Any
 
@@ -14,6 +15,7 @@ from carom.plots.look import AXES, RC, own_figure
 SPARE = 1.03  # letters on a screen are wider than their outlines
 SPACES = ("handlelength", "handletextpad", "columnspacing", "borderpad")  # of a legend
 HINTS = 1.1  # by which text can be wider on a screen than its outlines
+LOWEST = 0.1  # of the height of a figure: axes are left at least so high
 LABEL_ROOM = 5.0  # beside axes, in sizes of the font
 
 
@@ -28,7 +30,7 @@ def legend_above(axis: Axes, columns: int, **options: Any) -> None:
     room = own_figure(axis).get_figwidth() * 72.0 / across - LABEL_ROOM * RC["font.size"]
     columns = fitting_columns(handles, columns, room, **options)
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (-0.02, 1.0)}
-    axis.legend(handles=handles, ncols=columns, **place, **options)
+    axis.legend(handles=handles, ncols=columns, **{**place, **options})
 
 
 def legend_outside(figure: Figure, handles: list[Any], columns: int, **options: Any) -> None:
@@ -42,6 +44,31 @@ def legend_outside(figure: Figure, handles: list[Any], columns: int, **options: 
         return
     columns = fitting_columns(handles, columns, 72.0 * figure.get_figwidth(), **options)
     figure.legend(handles=handles, loc="outside upper center", ncols=columns, **options)
+
+
+def make_room_around(axis: Any) -> None:
+    """Let a user's figure hold what stands around Axes, unless a layout of its own does that."""
+    figure, cell = axis.figure, axis.get_subplotspec()
+    if cell is None or figure.get_layout_engine() is not None:
+        return
+    own_figure(axis).draw_without_rendering()
+
+    def extent(each: Any) -> Any:
+        return each.get_tightbbox().transformed(figure.transSubfigure.inverted())
+
+    box, pars = extent(axis), figure.subplotpars
+    above = [extent(each).y0 for each in figure.axes if each.bbox.y0 >= axis.bbox.y1]
+    excess = max(box.y1 - min(above, default=1.0), 0.0)
+    room = {"left": pars.left + max(-box.x0, 0.0), "right": pars.right - max(box.x1 - 1.0, 0.0)}
+    room["bottom"] = pars.bottom + max(-box.y0, 0.0)
+    room["top"] = pars.top if above else pars.top - excess
+    if excess and above:  # between rows of axes
+        rows = cell.get_topmost_subplotspec().get_gridspec().nrows
+        whole = room["top"] - room["bottom"]
+        gap = excess + pars.hspace * whole / (rows + pars.hspace * (rows - 1))
+        room["hspace"] = gap * rows / max(whole - gap * (rows - 1), LOWEST)
+    with suppress(ValueError):  # of a figure that is too small
+        figure.subplots_adjust(**room)
 
 
 def fitting_columns(handles: list[Any], most: int, room: float, **options: Any) -> int:

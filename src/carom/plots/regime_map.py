@@ -4,9 +4,9 @@ from collections import Counter
 from itertools import chain, groupby
 from typing import Any, NamedTuple, Unpack
 
-import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, PathPatch
 
@@ -14,33 +14,22 @@ from carom.plots import style
 from carom.plots.drawing import Drawable, draws
 from carom.plots.legends import fitting_columns, font_size, wrapped
 from carom.plots.look import AXES, Look
-from carom.plots.regimes import draw_borders
-from carom.plots.region_labels import (
-    PITCH,
-    SMALLEST_LABEL,
-    Label,
-    Labels,
-    find_labels,
-    in_letters,
-    signed,
-)
+from carom.plots.regimes import ABOVE, REGIMES, draw_borders, regime_of
+from carom.plots.region_labels import PITCH, SMALLEST_LABEL, Label, Labels, find_labels, in_letters
 from carom.plots.regions import Region, area, limits, regions
 from carom.quantities.arrays import Array
 
-HUES = {"gross slip +": "Oranges", "gross slip -": "Blues"}
-OTHER = "Greys"  # of what ends in stick or a slip ring, as few impacts do
-PALEST, DARKEST = 0.08, 0.62  # of the colours of a map of matplotlib
-MANY = 5  # reversals of slip, of which the colour is the darkest at least
+MANY = 7  # reversals of slip, of which the colour is the darkest at least
+DARKEST = 8.0  # power of the colour of a regime that makes it dark
 NAMED = "sequence_met", "sequence_name", "border_left", "border_right"  # of which all are listed
 KEY = (
     "G gross slip, S stick, s slip in a ring around a stick region; "
     "+ and \u2212: sign of the slip velocity"
 )
-ENDS = "ends in {}, reversals of slip:"
-SHORT = "Colours: the last phase, and how often slip reverses. Labels:"
+BEGINS = "{}; reversals of slip:"
+SHORT = "Colours: how the impact begins, and how often slip reverses. Labels:"
 EDGE: Any = {"ec": "0.2", "lw": 0.4}
 SPACING: Any = {"handlelength": 1.6, "handletextpad": 0.5, "columnspacing": 1.0}
-ABOVE = 1.1  # where the key to a user's Axes begins, above the names of borders
 UNDER = 0.8  # of the way from the middle of a label to its edge: where a leader line ends
 UNSEEN = 1e-6  # of the area of the largest region: colours that the key leaves out
 LISTED = 40  # sequences below a map, of those that are not marked
@@ -49,9 +38,9 @@ MARGIN = 11.0  # of text beside a figure's edges, in points
 
 
 class Group(NamedTuple):
-    """Regimes that end in the same way, in which slip reverses its sense as often."""
+    """Impacts of one regime in which slip reverses its sense as often."""
 
-    ending: str
+    regime: str
     reversals: int
 
 
@@ -59,7 +48,7 @@ def group_of(name: str) -> Group:
     """Return to which group a sequence of phases belongs."""
     phases = name.split(", ")
     senses = [phase[-1] for phase in phases if phase[-1] in "+-"]
-    return Group(phases[-1], len(list(groupby(senses))) - 1 if senses else 0)
+    return Group(regime_of(name), len(list(groupby(senses))) - 1 if senses else 0)
 
 
 @draws(
@@ -70,11 +59,11 @@ def group_of(name: str) -> Group:
 def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw which phases follow which over psi_1 and chi, with the borders 1, 2 chi, 4 chi - 1.
 
-    The colour of a region shows how the impact ends and how often slip reverses. Its label is the
-    sequence of phases in letters, at the end of a line where it has no room inside, or a number
-    that is explained below the map. Regions narrower than 0.2 mm are listed there. A dataset
-    without outlines is drawn by its borders, to a thousandth of its width, if it is of version 0.2,
-    else by its points.
+    The colour of a region is that of its regime, how the impact begins, the darker the more often
+    slip reverses. Its label is the sequence of phases in letters, at the end of a line where it has
+    no room inside, or a number that is explained below the map. Regions narrower than 0.2 mm are
+    listed there. A dataset without outlines is drawn by its borders, to a thousandth of its width,
+    if it is of version 0.2, else by its points.
 
     Examples
     --------
@@ -103,22 +92,22 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
 def _colours(groups: set[Group]) -> dict[Group, Any]:
     most = max(MANY, *(group.reversals for group in groups)) if groups else MANY
-    shades = np.linspace(PALEST, DARKEST, most + 1)
+    shades = np.linspace(1.0, DARKEST, most + 1)
     return {
-        group: matplotlib.colormaps[HUES.get(group.ending, OTHER)](shades[group.reversals])
+        group: tuple(np.array(to_rgb(REGIMES[group.regime].face)) ** shades[group.reversals])
         for group in groups
     }
 
 
 def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> None:
-    """Add what colours and letters mean: a row for each ending, a column for each number."""
+    """Add what colours and letters mean: a row for each regime, a column for each number."""
     room = _room(figure)
     counts = sorted({group.reversals for group in groups})
-    endings = sorted({group.ending for group in groups})
+    regimes = [name for name in REGIMES if name in {group.regime for group in groups}]
     blank: Any = {"fc": "none", "ec": "none"}
-    handles = [Patch(label=ENDS.format(signed(ending)), **blank) for ending in endings]
+    handles = [Patch(label=BEGINS.format(name), **blank) for name in regimes]
     blanks = []
-    for group in (Group(ending, count) for count in counts for ending in endings):
+    for group in (Group(name, count) for count in counts for name in regimes):
         face = {"fc": colours[group], **EDGE} if group in groups else blank
         handles.append(Patch(label=str(group.reversals), **face))
         blanks += [] if group in groups else handles[-1:]
@@ -126,7 +115,7 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
     if fitting_columns(handles, columns, room, **SPACING) < columns:
         key = f"{SHORT} {KEY}"
         handles = [
-            Patch(fc=colours[group], label=f"{signed(group.ending)}, {group.reversals}", **EDGE)
+            Patch(fc=colours[group], label=f"{group.regime}, {group.reversals}", **EDGE)
             for group in groups
         ]
         columns = fitting_columns(handles, 4, room, **SPACING)
@@ -198,7 +187,9 @@ def _list(figure: Figure, labels: Labels) -> None:
 
 def _room(figure: Figure) -> float:
     """Return how wide text across a figure may be, in points."""
-    return 72.0 * figure.get_figwidth() - MARGIN
+    axis = AXES.get()
+    beside = 0.0 if axis is None else float(axis.get_position().x0)
+    return 72.0 * figure.get_figwidth() * (1.0 - beside) - MARGIN
 
 
 def _tied(name: str) -> str:

@@ -19,7 +19,8 @@ from carom.quantities.arrays import Array
 Named: TypeAlias = tuple[str, tuple[float, float]]  # a name and the place that it is for
 
 MARKERS = "os^Dv"
-REGIMES = {
+ABOVE = 1.1  # where a key to a user's Axes begins, above the names of borders
+REGIMES = {  # of all figures: how the impact begins
     "stick": STICK,
     "gross slip, stick": BANDS["slip", 1],
     "gross slip, slip": BANDS["gross slip", 1],
@@ -88,6 +89,13 @@ def shade_regimes(axis: Axes, borders: Array | None, low: float, high: float) ->
             shade(axis, start, end, REGIMES[name])
             shown[name] = REGIMES[name].key(name)
     return list(shown.values())
+
+
+def regime_of(sequence: str) -> str:
+    """Return the regime of a sequence of phases."""
+    kinds = [phase.rstrip(" +-") for phase in sequence.split(", ")]
+    later = next((kind for kind in kinds if kind != "gross slip"), "only")
+    return "stick" if kinds[0] == "stick" else f"gross slip{', ' * (later != 'only') or ' '}{later}"
 
 
 def draw_borders(axis: Axes, restitution: float = 1.0) -> None:

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
 from carom import plots
-from carom.quantities.shown import Shown
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
 DPI = 80
 
 
-class Result(Shown, ABC):
+class Result(ABC):
     """A result that is stored and drawn from one dataset, shown in notebooks, and cited."""
 
     @abstractmethod

@@ -36,6 +36,12 @@ from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed as prefixed
 from carom.quantities.refusals import InputError
 
+__all__ = [
+    *("BLACK", "BLUE", "DASHES", "DOUBLE", "GREEN", "LINES", "MAP", "POINTS", "PURPLE"),
+    *("SIGNED_MAP", "SINGLE", "VERMILION"),
+    *("label", "new_figure", "style", "styled", "zero_line"),
+]
+__dir__ = __all__.copy
 P = ParamSpec("P")
 T = TypeVar("T")
 

@@ -4,6 +4,7 @@ They stand in `data/glossary.csv`.
 """
 
 import csv
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -34,6 +35,18 @@ class Quantity(NamedTuple):
         '0 to 845.996 N'
         """
         return span(low, high, self.unit, digits)
+
+
+def listed(numbers: Mapping[str, float], width: int = 0) -> list[str]:
+    """Return quantities by name as lines to read."""
+    return aligned({GLOSSARY[n].meaning: GLOSSARY[n].text(v) for n, v in numbers.items()}, width)
+
+
+def aligned(rows: Mapping[str, str], width: int = 0) -> list[str]:
+    """Return names and texts as lines to read, without marks of formulas, the texts aligned."""
+    plain = {name.replace("$", ""): text for name, text in rows.items()}
+    width = width or max(map(len, plain), default=0)
+    return [f"  {name:{width}s} {text}" for name, text in plain.items()]
 
 
 FILE = Path(__file__).parents[1] / "data" / "glossary.csv"

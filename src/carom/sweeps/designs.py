@@ -14,7 +14,6 @@ from carom.bodies.plausibility import doubts_of_values
 from carom.dimensionless.numerics.permutation import fractions, secrets
 from carom.quantities.arrays import Array, numbers, refuse_where
 from carom.quantities.refusals import checked_type, one_of, refusal, refuse
-from carom.quantities.shown import Shown
 from carom.quantities.units import counted, number, without_unit
 from carom.sweeps.inputs import (
     CHOSEN,
@@ -155,20 +154,20 @@ MOST_SEED = 2**128 - 1
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Design(Shown, ABC):
+class Design(ABC):
     """What a sweep needs to know of its points: the names of their inputs, and how these vary.
 
-    `choices` are what the codes of an input that has names stand for. Points are `sampled` if their
-    inputs are variables along `point`, rather than coordinates.
+    `_choices` are what the codes of an input that has names stand for. Points are `_sampled` if
+    their inputs are variables along `point`, rather than coordinates.
     """
 
     names: tuple[str, ...]
-    choices: Choices
+    _choices: Choices = field(repr=False)
     _by_input: Mapping[str, Any] = field(repr=False)
-    sampled: ClassVar[bool] = True
+    _sampled: ClassVar[bool] = True
 
     def __init__(self, choices: Choices, by_input: Mapping[str, Any], **more: Any) -> None:
-        fields = {"names": tuple(by_input), "choices": choices, "_by_input": by_input, **more}
+        fields = {"names": tuple(by_input), "_choices": choices, "_by_input": by_input, **more}
         for name, value in fields.items():
             object.__setattr__(self, name, value)
 
@@ -182,7 +181,7 @@ class Design(Shown, ABC):
     def shape(self) -> tuple[int, ...]:
         """Number of points along every dimension."""
 
-    def coords(self) -> dict[str, Any]:
+    def _coords(self) -> dict[str, Any]:
         """Return the coordinates for `carom.io.labels.labelled_dataset`, if there are any."""
         return {}
 
@@ -191,25 +190,25 @@ class Design(Shown, ABC):
         """Return the inputs of the points of a box in C order: SI numbers, or codes of choices."""
 
     @abstractmethod
-    def description(self) -> dict[str, Any]:
+    def _description(self) -> dict[str, Any]:
         """Return what tells this design from others, as JSON can hold it."""
 
-    def doubts(self) -> tuple[str, ...]:
+    def _doubts(self) -> tuple[str, ...]:
         """Return what is hardly meant among the inputs, in words."""
         numbers = [
             (leaf(name), values[:2] if isinstance(values, Range) else values)
             for name, values in self._by_input.items()
-            if name not in self.choices
+            if name not in self._choices
         ]
-        for choice in chain.from_iterable(self.choices.values()):
+        for choice in chain.from_iterable(self._choices.values()):
             numbers += choice.values.items()
         return doubts_of_values(numbers)
 
     def _described(self, describe: Callable[[Any], Any]) -> dict[str, Any]:
         """Return by input its choices, or what describes its values or range."""
         return {
-            name: [choice.description() for choice in self.choices[name]]
-            if name in self.choices
+            name: [choice.description() for choice in self._choices[name]]
+            if name in self._choices
             else describe(values)
             for name, values in self._by_input.items()
         }
@@ -242,7 +241,7 @@ class Grid(Design):
     (('angle', 'friction'), (9, 1))
     """
 
-    sampled: ClassVar[bool] = False
+    _sampled: ClassVar[bool] = False
 
     def __init__(self, axes: Mapping[str, Any]) -> None:
         choices = _choices("axes", axes)
@@ -262,10 +261,10 @@ class Grid(Design):
     def shape(self) -> tuple[int, ...]:
         return tuple(values.size for values in self._by_input.values())
 
-    def coords(self) -> dict[str, Any]:
-        labels = {name: [one.label for one in self.choices[name]] for name in self.choices}
+    def _coords(self) -> dict[str, Any]:
+        labels = {name: [one.label for one in self._choices[name]] for name in self._choices}
         return {
-            dim: (dim, labels.get(name, values), input_attributes(name, self.choices))
+            dim: (dim, labels.get(name, values), input_attributes(name, self._choices))
             for dim, (name, values) in zip(self.dims, self._by_input.items(), strict=True)
         }
 
@@ -274,7 +273,7 @@ class Grid(Design):
         lattice = np.meshgrid(*parts, indexing="ij")
         return {name: at.ravel() for name, at in zip(self.names, lattice, strict=True)}
 
-    def description(self) -> dict[str, Any]:
+    def _description(self) -> dict[str, Any]:
         axes = self._described(np.ndarray.tolist)
         return {"kind": "grid", "order": list(self.names), "axes": axes}
 
@@ -335,10 +334,10 @@ class LatinHypercube(Design):
         inputs: dict[str, NDArray[Any]] = {}
         for (name, reach), secret in zip(self._by_input.items(), words, strict=True):
             values = reach.at(fractions(index, self.samples, secret))
-            inputs[name] = values.astype(CODE) if name in self.choices else values
+            inputs[name] = values.astype(CODE) if name in self._choices else values
         return inputs
 
-    def description(self) -> dict[str, Any]:
+    def _description(self) -> dict[str, Any]:
         whole = {"samples": self.samples, "seed": self.seed, "order": list(self.names)}
         return {"kind": "latin hypercube", **whole, "ranges": self._described(Range._asdict)}
 

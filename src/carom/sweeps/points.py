@@ -190,7 +190,7 @@ def evaluate(
 def solve_block(outcome: Outcome, law: LossLaw | None, status: Codes, threads: int | None) -> None:
     """Fill in the solution of the impacts whose status is SOLVED, and what became of them."""
     solution = cast(BlockSolution, outcome.solution)
-    loss, *numbers = (None,) if law is None else law.loss(outcome.pair, outcome.scales)
+    loss, *numbers = (None,) if law is None else law._loss(outcome.pair, outcome.scales)
     arguments = (outcome.psi_in, outcome.pair.chi, *numbers)
     psi, chi, *parameters = (np.broadcast_to(x, status.shape) for x in arguments)
     run = status == PointStatus.SOLVED

@@ -73,7 +73,7 @@ class Common:
         for key in self.numbers:
             values = [
                 {**choice.strengths, **choice.values}.get(key, np.nan)
-                for choice in self.design.choices[name]
+                for choice in self.design._choices[name]
             ]
             numbers[f"{name}.{key}"] = np.array([*values, np.nan])[codes]
         return numbers
@@ -111,7 +111,7 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
     losses = [name for name in cases.LOSSES if name in names or case.get(name) is not None]
     kinds: tuple[str, ...] = (one_of("kind", second.get("kind", cases.KINDS[0]), cases.KINDS),)
     if "second.kind" in names:
-        kinds = tuple(choice.label for choice in design.choices["second.kind"])
+        kinds = tuple(choice.label for choice in design._choices["second.kind"])
     inherits = second.get("material") is None and "second.material" not in names
     fixed = {name: value for name, value in _numbers(case) if not _replaced(name, names)}
     yields = "yield_velocity" in losses and "yield_velocity" not in (*names, *fixed)
@@ -189,21 +189,9 @@ def _refuse_missing(whole: Common) -> None:
 
 
 OUTPUTS = (
-    "psi_in",
-    "psi_out",
-    "chi",
-    "rebound_speed",
-    "rebound_angle",
-    "tangential_speed_out",
-    "spin_out",
-    "spin2_out",
-    "tangential_restitution",
-    "contact_restitution",
-    "dissipated_energy",
-    "duration",
-    "max_force",
-    "max_penetration",
-    "max_radius",
+    *("psi_in", "psi_out", "chi", "rebound_speed", "rebound_angle", "tangential_speed_out"),
+    *("spin_out", "spin2_out", "tangential_restitution", "contact_restitution"),
+    *("dissipated_energy", "duration", "max_force", "max_penetration", "max_radius"),
     "max_pressure",
 )
 OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")
@@ -268,13 +256,13 @@ class SweepProblem:
             )
             for name in self.outputs:
                 outputs[name][where] = values[name]
-        sampled = inputs.items() if self.design.sampled else ()
+        sampled = inputs.items() if self.design._sampled else ()
         whole = {**{variable(n): v for n, v in sampled}, **outputs, "status": status}
         return {name: values.reshape(shape) for name, values in whole.items()}
 
     def variables(self) -> dict[str, VariableInfo]:
         """Return type and attributes of everything that `block` returns."""
-        sampled = self.design.names if self.design.sampled else ()
+        sampled = self.design.names if self.design._sampled else ()
         inputs = {variable(name): self._input_info(name) for name in sampled}
         outputs = {name: VariableInfo("float64", dict(attributes(name))) for name in self.outputs}
         meanings = flags([status.message for status in PointStatus], first=PointStatus.NOT_RUN)
@@ -292,7 +280,7 @@ class SweepProblem:
         return {
             "case": dict(sorted(numbers.items())),
             "second": list(self._common.kinds),
-            "design": self.design.description(),
+            "design": self.design._description(),
             "outputs": list(self.outputs),
         }
 
@@ -300,7 +288,7 @@ class SweepProblem:
         """Return the strengths of the materials that are inputs, None where not known."""
         return {
             f"{name}.{strength}": [choice.strengths.get(strength) for choice in choices]
-            for name, choices in self.design.choices.items()
+            for name, choices in self.design._choices.items()
             if leaf(name) == "material"
             for strength in self._common.strengths
         }
@@ -322,10 +310,10 @@ class SweepProblem:
                 yield missing and f"{name}: {what}; give it in its material"
 
     def _input_info(self, name: str) -> VariableInfo:
-        meaning = input_attributes(name, self.design.choices)
-        if name not in self.design.choices:
+        meaning = input_attributes(name, self.design._choices)
+        if name not in self.design._choices:
             return VariableInfo("float64", meaning)
-        labels = ["unreadable", *(choice.label for choice in self.design.choices[name])]
+        labels = ["unreadable", *(choice.label for choice in self.design._choices[name])]
         return VariableInfo(np.dtype(CODE).name, {**meaning, **flags(labels, first=UNREADABLE)})
 
 

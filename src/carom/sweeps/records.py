@@ -69,7 +69,7 @@ def blank_dataset(
     }
     title = f"sweep of oblique impacts of {spheres(problem.loses)}"
     attributes = {"title": title, "inputs": identity(problem)}
-    return labelled_dataset(variables, problem.design.coords(), attributes)
+    return labelled_dataset(variables, problem.design._coords(), attributes)
 
 
 def identity(problem: SweepProblem) -> dict[str, Any]:
@@ -88,14 +88,8 @@ def _condensed(value: Any) -> Any:
 
 
 MAIN = (
-    "rebound_speed",
-    "rebound_angle",
-    "spin_out",
-    "normal_restitution",
-    "tangential_restitution",
-    "dissipated_energy",
-    "lost_energy",
-    "shear_lost_energy",
+    *("rebound_speed", "rebound_angle", "spin_out", "normal_restitution"),
+    *("tangential_restitution", "dissipated_energy", "lost_energy", "shear_lost_energy"),
 )
 
 

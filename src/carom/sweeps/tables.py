@@ -73,11 +73,13 @@ class Table(Design):
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
         return {name: values[box[0]] for name, values in self._by_input.items()}
 
-    def description(self) -> dict[str, Any]:
+    def _description(self) -> dict[str, Any]:
         digest = hashlib.sha256()
         for values in self._by_input.values():
             digest.update(np.ascontiguousarray(values).tobytes())
-        choices = {name: [one.description() for one in self.choices[name]] for name in self.choices}
+        choices = {
+            name: [one.description() for one in self._choices[name]] for name in self._choices
+        }
         whole = {"inputs": list(self.names), "rows": self.shape[0], "choices": choices}
         return {"kind": "table", **whole, "sha256": digest.hexdigest()}
 

@@ -223,7 +223,7 @@ def wear_of_many(
     count = counted("n", n, 2, MOST_RADII)
     per_load = None if coefficient is None else read_coefficient(coefficient)
     spread = None if area is None else positive("area", area)
-    if losses is not None and any(map(np.ndim, checked_law(losses).loss(pair, pair.scales(1.0)))):
+    if losses is not None and any(map(np.ndim, checked_law(losses)._loss(pair, pair.scales(1.0)))):
         raise refusal("losses", losses, "wear takes one number; carom.sweep takes many")
     motion = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
     motion |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2, "counts": counts}
@@ -239,7 +239,7 @@ def wear_of_many(
         columns |= {} if per_load is None else {"spread_wear_depth": per_load * many.total / spread}
     inputs: dict[str, Any] = {"first": describe(pair.first), "second": describe(pair.second)}
     inputs |= {"friction": pair.friction}
-    inputs |= {} if losses is None else {"losses": losses.describe()}
+    inputs |= {} if losses is None else {"losses": losses._describe()}
     return labelled_dataset(columns, coords, {"title": "wear by many impacts", "inputs": inputs})
 
 

@@ -8,9 +8,6 @@ Examples
 ('exact, 32 springs', 0.001)
 """
 
-import lazy_loader
+from carom.names import attach
 
-from carom.old_names import with_old_names
-
-_load, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
-__getattr__ = with_old_names(__name__, _load)
+__getattr__, __dir__, __all__ = attach(__name__, __file__)

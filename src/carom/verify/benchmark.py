@@ -31,10 +31,10 @@ COLUMNS = ":<32s max:7.3f at:5.2f rms:7.3f law:8.1e seconds:8.2f"
 
 
 class Measured(NamedTuple):
-    """How a law of a program came out: errors in psi_2, and why it did not, if so.
+    """A law, `entry`, run in a program: its errors and how many seconds it took, or its failure.
 
-    `max_error` and `rms_error` against the exact impact; `law_error` the largest difference from
-    Carom's own law at the same steps.
+    `max_error` (at psi_1 = `worst`) and `rms_error` against the exact impact; `law_error` the
+    largest difference from Carom's own law at the same steps.
     """
 
     entry: Entry
@@ -55,7 +55,11 @@ class Measured(NamedTuple):
 @with_old_fields
 @dataclass(frozen=True)
 class Bench:
-    """Impacts in a DEM program against the exact impact, the best law first; made by `bench`."""
+    """Impacts in a DEM program against the exact impact, the best law first; made by `bench`.
+
+    `engine` and `version` are the program, `pair`, all `psi` and `steps` the impacts. Each of
+    `measured` is a law with its errors, and `outcomes` has its impacts by name.
+    """
 
     engine: str
     version: str
@@ -202,8 +206,8 @@ def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
             supported.append(entry)
     if not supported:
         labels = ", ".join(entry.label for entry in entries)
-        builds = engine.builder and labels == EXACT
-        until = f" until {engine.builder} has built it" if builds else ""
+        builds = engine._builder and labels == EXACT
+        until = f" until {engine._builder} has built it" if builds else ""
         others = "; ".join(entry.label for entry in filter(has, CATALOGUE))
         raise refusal("law", labels, f"{engine.name} does not have it{until}; it has {others}")
     return supported

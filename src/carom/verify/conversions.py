@@ -27,9 +27,9 @@ class Stiffnesses(NamedTuple):
     """Stiffnesses of one contact in the conventions of codes; SI units.
 
     `normal` and `tangential` are of linear springs that are pressed as far as Hertz's contact, so
-    that k_t/k_n = kappa; `normal_by_duration` lets the contact last as long instead. `hertz` is k_n
-    of F_n = k_n sqrt(R*) d^(3/2), 4 E*/3; `mindlin` k_t of F_t = k_t a U, 2 G* (8 G_eff, as codes
-    write it); `steepest` the largest dF_n/dd during the impact, 2 E* a_max.
+    that their `ratio` is kappa; `normal_by_duration` lets the contact last as long instead. `hertz`
+    is k_n of F_n = k_n sqrt(R*) d^(3/2), 4 E*/3; `mindlin` k_t of F_t = k_t a U, 2 G* (8 G_eff, as
+    codes write it); `steepest` the largest dF_n/dd during the impact, 2 E* a_max.
     """
 
     normal: float

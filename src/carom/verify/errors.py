@@ -31,7 +31,7 @@ STEPS_GROW_BY = 2.0**0.5
 
 
 class ForceError(NamedTuple):
-    """Error of the tangential force through an impact, in units of mu P_max."""
+    """Error of the tangential force through an impact, largest and rms, in units of mu P_max."""
 
     largest: float
     rms: float
@@ -255,7 +255,7 @@ def force_error(
 
 
 class TimeSteps(NamedTuple):
-    """Steps per duration of the elastic contact, and the error in psi_2 that they cause."""
+    """Time steps per duration of the elastic contact, and the error in psi_2 that they cause."""
 
     steps: int
     error: float
@@ -366,7 +366,7 @@ def advised_steps(
         return None
     held: list[TimeSteps] = []
     wanted = float(FEWEST_STEPS)
-    while wanted <= min(MOST_STEPS, law.most_steps):
+    while wanted <= min(MOST_STEPS, law._most_steps):
         steps = round(wanted)
         error = largest(met.rebound(law, steps) - converged)
         held = [*held, TimeSteps(steps, error)] if error <= bound else []

@@ -38,9 +38,9 @@ COLUMNS = ":<32s max:7.3f at:5.2f rms:7.3f force:7.3f steps:6d fine:5d"
 
 
 class Standing(NamedTuple):
-    """A law in a ranking: its errors in psi_2 and force, its gain of energy, the steps it needs.
+    """A law of a ranking, `entry`: its errors in psi_2 and force, gain of energy, steps it needs.
 
-    `worst` is the psi_1 of the largest error in psi_2. `force_error` is the rms error of the
+    `max_error` is the largest in psi_2, at psi_1 = `worst`. `force_error` is the rms error of the
     tangential force in the impact where it is largest, in units of mu P_max. `energy_gain` is the
     largest |psi_2| - |psi_1|. `step` has the fewest time steps per contact whose own error is below
     that of the law, `fine_step` those with an error below 0.01. `restitution` is the e of the law,
@@ -74,7 +74,7 @@ class Standing(NamedTuple):
 @with_old_fields
 @dataclass(frozen=True)
 class Ranking(Result):
-    """Contact laws by their largest error in psi_2, the best first; made by `rank`.
+    """Contact laws by their largest error in psi_2 at all `psi`, the best first; made by `rank`.
 
     Each of `standings` is a law with its errors in psi_2 and in the force, and the time step that
     it needs.

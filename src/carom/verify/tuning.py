@@ -50,10 +50,10 @@ COLUMNS = ":<32s parameter:>24s value:8.4f max:7.3f rms:7.3f as~given:9.3f steps
 
 
 class TunedLaw(NamedTuple):
-    """A law with the parameter that comes closest, and the error in psi_2 that remains.
+    """A law with the value of its parameter that comes closest, and its largest error, `max_error`.
 
-    `before` is the largest error of the law as it was given; `step` the fewest steps per contact
-    that cost less than a tenth of what remains.
+    `rms_error` is the root mean square; `before` is the largest error of the law as it was given;
+    `step` the fewest steps per contact that cost less than a tenth of what remains.
     """
 
     law: Law

@@ -113,7 +113,7 @@ def _panels_of(
 
 
 class Annulus(NamedTuple):
-    """Part of a contact: laid in stick (sign 0), or brought to its limit by slip of one sign."""
+    """Part of a contact, `inner` to `outer`: laid in stick, sign 0, or at its limit by slip."""
 
     inner: float
     outer: float
@@ -123,7 +123,7 @@ class Annulus(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Memory:
-    """The memory of a contact at one instant, from which every traction follows.
+    """The memory of a contact at one instant, its annuli, from which every traction follows.
 
     g = -dq/ds, |g| <= 1, is the paper's function in (6); q(s) is the density of the transformed
     traction, |q| <= d - s; s = r^2/(R* d_max). `rim` is q at the edge: zero but for bodies that

@@ -38,7 +38,7 @@ class LossNumbers(NamedTuple):
 class ScaleFreeLaw(Protocol):
     """What an impact needs of a law of losses, free of units."""
 
-    def scale_free(self) -> LossNumbers:
+    def _scale_free(self) -> LossNumbers:
         """Return the loss and its parameters; InputError if they depend on the speed."""
 
 
@@ -58,7 +58,7 @@ class LossyRebounds(NamedTuple):
 
 def scale_free(losses: ScaleFreeLaw) -> LossNumbers:
     """Return what is given as a law of losses in numbers, or raise InputError."""
-    return checked_law(losses).scale_free()
+    return checked_law(losses)._scale_free()
 
 
 def checked_law(losses: Law) -> Law:

@@ -21,14 +21,8 @@ class LossySolution(Trajectory):
     """One oblique impact with losses, solved; made by `solve`.
 
     Units are those of `Solution`, of the elastic impact at the same speed. Kinetic energy of the
-    normal motion, `normal_stored` and `normal_lost` add up to 1.
-
-    Examples
-    --------
-    >>> import carom
-    >>> s = carom.solve(1.5, 1.44, losses=carom.KelvinVoigt(restitution=0.9))
-    >>> round(s.psi_out, 6), round(s.restitution, 10)
-    (-0.366922, 0.9)
+    normal motion, `normal_stored` and `normal_lost` of its history add up to 1. `status` is SOLVED
+    or says why not, `phases` are in order, `shear_lost` is the energy lost to viscosity in shear.
     """
 
     psi_in: float
@@ -43,7 +37,7 @@ class LossySolution(Trajectory):
     max_radius: float
     max_pressure: float
     shear_lost: float
-    losses: LossNumbers = field(repr=False)
+    _losses: LossNumbers = field(repr=False)
     _first: float = field(repr=False)  # psi_1 of the record
 
     @property
@@ -71,11 +65,6 @@ class LossySolution(Trajectory):
         return self._scale**2 * work
 
     def at(self, time: ArrayLike) -> History:
-        """Return the state at the given times, 0 <= time <= duration, one row for each.
-
-        `stick_radius` is what the stick zones add up to, wherever they lie. Raises InputError for
-        a time outside the contact, or if the impact is not solved.
-        """
         wanted = self._times_within(time)
         rows, scale, excess = self._sampled(wanted), self._scale, self._excess
         first, psi = self._first, rows[layout.AT_PSI]
@@ -106,7 +95,7 @@ def outcome(
     """Return what a solution tells as numbers."""
     values = named(numbers, losses.loss, Status(status))._asdict()
     columns = {name: float(value) for name, value in values.items() if name != "status"}
-    return {"psi_in": psi, "chi": chi, "losses": losses, **columns, "status": Status(status)}
+    return {"psi_in": psi, "chi": chi, "_losses": losses, **columns, "status": Status(status)}
 
 
 def phases_of(

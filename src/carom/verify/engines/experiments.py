@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from carom.bodies.materials import set_fields
 from carom.bodies.pairs import Pair, Scales, checked_scales, with_friction
 from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dem.base import ContactLaw
@@ -37,7 +38,8 @@ class Outcomes(NamedTuple):
 class Experiment:
     """Impacts of one pair at one normal speed, with one contact law, in fixed time steps.
 
-    The second body does not spin, so that psi_1 = kappa (v_t + R omega)/(mu V_1).
+    The second body does not spin, so that psi_1 = kappa (v_t + R omega)/(mu V_1). `scales` are
+    those of Hertz's impact.
 
     Parameters
     ----------
@@ -94,16 +96,13 @@ class Experiment:
                 f"spin: {len(spins)} values for {len(speeds)} of tangential_speed; "
                 "give one of each per impact"
             )
-        normal_speed = positive("normal_speed", self.normal_speed)
-        read: dict[str, Any] = {
-            "normal_speed": normal_speed,
-            "tangential_speed": speeds,
-            "spin": spins,
-        }
-        read["scales"] = checked_scales(self.pair, normal_speed)
-        read["steps"] = counted("steps", self.steps, 10, MOST_STEPS)
-        for name, value in read.items():
-            object.__setattr__(self, name, value)
+        speed = positive("normal_speed", self.normal_speed)
+        scales, steps = (
+            checked_scales(self.pair, speed),
+            counted("steps", self.steps, 10, MOST_STEPS),
+        )
+        set_fields(self, normal_speed=speed, tangential_speed=speeds, spin=spins)
+        set_fields(self, scales=scales, steps=steps)
 
     def __len__(self) -> int:
         return len(self.tangential_speed)

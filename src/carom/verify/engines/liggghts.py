@@ -42,13 +42,12 @@ class Liggghts(Engine):
     """
 
     name: ClassVar[str] = "LIGGGHTS"
-    versions: ClassVar[str] = "3.8.0"
-    called: ClassVar[str] = "liggghts"
-    arguments: ClassVar[tuple[str, ...]] = ("-in", INPUT)
+    _called: ClassVar[str] = "liggghts"
+    _arguments: ClassVar[tuple[str, ...]] = ("-in", INPUT)
     advice: ClassVar[str] = "install Debian's package liggghts, or carom liggghts build"
-    greeting: ClassVar[str] = r"LIGGGHTS-PUBLIC ([\w.]+)"
-    builder: ClassVar[str] = "carom liggghts build"
-    result: ClassVar[str] = RESULT
+    _greeting: ClassVar[str] = r"LIGGGHTS-PUBLIC ([\w.]+)"
+    _builder: ClassVar[str] = "carom liggghts build"
+    _result: ClassVar[str] = RESULT
 
     def executable(self) -> Path | None:
         built = liggghts.program()

@@ -20,7 +20,6 @@ import numpy as np
 
 from carom.dem.base import ContactLaw
 from carom.quantities.refusals import refusal, refuse
-from carom.quantities.shown import Shown
 from carom.quantities.units import positive
 from carom.verify.engines.arrangement import outcomes_of, read_dump
 from carom.verify.engines.experiments import Experiment, Outcomes
@@ -41,8 +40,10 @@ class EngineKilled(EngineError):
 
 
 @dataclass(frozen=True)
-class Engine(Shown, ABC):
+class Engine(ABC):
     """A DEM program that is driven by files and a command: the one at a path, else by its name.
+
+    `name` is what messages call it, `advice` says how to get it.
 
     Parameters
     ----------
@@ -53,13 +54,12 @@ class Engine(Shown, ABC):
     path: str | Path | None = None
 
     name: ClassVar[str]
-    versions: ClassVar[str]  # that it was tested with
-    called: ClassVar[str]  # its executable
-    arguments: ClassVar[tuple[str, ...]]  # that run its inputs
+    _called: ClassVar[str]  # its executable
+    _arguments: ClassVar[tuple[str, ...]]  # that run its inputs
     advice: ClassVar[str]  # how to get it
-    greeting: ClassVar[str]  # the pattern in which it prints its version
-    builder: ClassVar[str] = ""  # the command that builds it with the exact law
-    result: ClassVar[str] = ""  # the dump that it leaves
+    _greeting: ClassVar[str]  # the pattern in which it prints its version
+    _builder: ClassVar[str] = ""  # the command that builds it with the exact law
+    _result: ClassVar[str] = ""  # the dump that it leaves
 
     @abstractmethod
     def supports(self, law: ContactLaw) -> bool:
@@ -71,7 +71,7 @@ class Engine(Shown, ABC):
 
     def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
         """Return what a run has left in its folder; ValueError or OSError if it is not there."""
-        return outcomes_of(experiment, read_dump(folder / self.result))
+        return outcomes_of(experiment, read_dump(folder / self._result))
 
     @property
     def remedy(self) -> str:
@@ -82,21 +82,21 @@ class Engine(Shown, ABC):
 
     def executable(self) -> Path | None:
         """Return where the program is, or None."""
-        path = shutil.which(self.called if self.path is None else self.path)
+        path = shutil.which(self._called if self.path is None else self.path)
         return Path(path).absolute() if path else None
 
     def command(self, folder: Path) -> list[str]:
         """Return the command that runs the inputs in a folder."""
-        return [str(self.executable() or self.called), *self.arguments]
+        return [str(self.executable() or self._called), *self._arguments]
 
     def version(self, printed: str) -> str:
         """Return the version that the program has printed."""
-        greeting = re.search(self.greeting, printed, re.MULTILINE)
+        greeting = re.search(self._greeting, printed, re.MULTILINE)
         return greeting.group(1) if greeting else "unknown"
 
 
 class Run(NamedTuple):
-    """The outcomes of an experiment, the version of the program, and how long it took in s."""
+    """The outcomes of an experiment, the version of the program, and the seconds that it took."""
 
     outcomes: Outcomes
     version: str

@@ -48,11 +48,10 @@ class Yade(Engine):
     """
 
     name: ClassVar[str] = "YADE"
-    versions: ClassVar[str] = "2023.02a"
-    called: ClassVar[str] = "yade"
-    arguments: ClassVar[tuple[str, ...]] = ("-j1", "-n", "-x", SCRIPT)
+    _called: ClassVar[str] = "yade"
+    _arguments: ClassVar[tuple[str, ...]] = ("-j1", "-n", "-x", SCRIPT)
     advice: ClassVar[str] = "install Debian's package yade"
-    greeting: ClassVar[str] = r"Welcome to Yade (\S+)"
+    _greeting: ClassVar[str] = r"Welcome to Yade (\S+)"
 
     def supports(self, law: ContactLaw) -> bool:
         """Tell whether the program has this law; its springs have no dashpot of their own."""

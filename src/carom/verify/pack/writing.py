@@ -119,7 +119,7 @@ def program_files() -> dict[str, str]:
         case, inputs = frozen.case_of(folder), frozen.inputs_of(folder)
         for name, (program, _) in PROGRAMS.items():
             experiment = experiment_of(name, case, inputs)
-            command = " ".join([program.called, *program.arguments])
+            command = " ".join([program._called, *program._arguments])
             files = {**program.files(experiment), "run.sh": run.substitute(command=command)}
             texts |= {f"{folder}/{name}/{file}": text for file, text in files.items()}
     return texts

@@ -68,11 +68,11 @@ def score(
     results : str, Path, mapping, pandas.DataFrame, Law or callable
         A CSV file with a header, comments after #; or columns by name, each of shape (n,), or the
         fields of a structured array. SI units, or with a unit in the name of a column: "spin
-        [rpm]", "angle (deg)". Speeds of two spheres are relative; normal_speed is positive before
-        and normal_speed_out after; positive spin adds to the tangential speed of the contact point;
-        tangential_force is positive against V_x > 0. At least 3 points, or 20 rows with a force. Or
-        a contact law, or a function as of `carom.dem.FunctionLaw`: its psi_2 at the 15 incidences
-        of `rank`.
+        [rpm]", "angle (deg)"; "-" after the impact leaves a row out. Speeds of two spheres are
+        relative; normal_speed is positive before and normal_speed_out after; positive spin adds to
+        the tangential speed of the contact point; tangential_force is positive against V_x > 0. At
+        least 3 points, or 20 rows with a force. Or a contact law, or a function as of
+        `carom.dem.FunctionLaw`: its psi_2 at the 15 incidences of `rank`.
     case : str, Path, mapping, Pair or Impact, optional
         The bodies and their friction, as in a case file for `carom impact`. They are needed unless
         the results are psi_1 and psi_2, or a comment of the file, "# case:", holds them as JSON. A
@@ -132,16 +132,29 @@ def score(
         raise refusal("chi", chi, "it follows from the case; leave it out")
     with Faults() as faults:
         unused = [name for name in others(table, names, faults) if name not in NAMES]
-        quantities = in_units(table, names, faults=faults)
+        quantities = in_units(table, names, (*AFTER, "psi_out"), faults)
         faults.settle()
+        table, quantities, gaps = _measured(table, quantities)
         scored = SCORERS[kind](quantities, scored_case(case, chi, table.case, restitution), limit)
     most = 1 if kind == "history" else MOST_ORIGINS
     origins, notes = origins_of(table, {"code": code, "law": law}, most)
     ignored = (f"columns that were not used: {', '.join(unused)}",) if unused else ()
-    notes = *scored.notes, *notes, *ignored, *law_notes
+    notes = *scored.notes, *notes, *gaps, *ignored, *law_notes
     return Score(
         kind, limit, scored.points, scored.audit, notes, scored.inputs, scored.forces, origins
     )
+
+
+def _measured(
+    table: UserTable, quantities: UserTable
+) -> tuple[UserTable, UserTable, tuple[str, ...]]:
+    """Return the rows without a gap after the impact, and a note on the others."""
+    after = [quantities[name] for name in ("psi_out", *AFTER) if name in quantities.columns]
+    missing = np.any(np.isnan(after), axis=0)
+    if not np.any(missing):
+        return table, quantities, ()
+    note = f"left out, as nothing was measured after the impact: {quantities.named(missing)}"
+    return table.kept(~missing), quantities.kept(~missing), (note,)
 
 
 def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:

@@ -150,7 +150,9 @@ def _check_units(time: Array, force: Array, scales: Scales) -> None:
 class Forces(NamedTuple):
     """A history of forces against time since the first touch, and the exact one; SI units.
 
-    Errors of forces are in units of P_max and mu P_max; `psi` of the contact point is as the
+    `hit` is the exact impact, with `exact_normal_force` and `exact_tangential_force` at the times
+    of the `samples`. `normal_error`, `tangential_error` and `peak_error` are in units of P_max and
+    mu P_max, `duration_error` in the exact duration; `psi` of the contact point is as the
     tangential force that was given makes it, `restitution` as the normal one does.
     """
 

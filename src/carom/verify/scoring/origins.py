@@ -28,7 +28,7 @@ class Origin(NamedTuple):
 
 
 class Origins(NamedTuple):
-    """The distinct origins of results in their order, and the place there of each row's."""
+    """The distinct origins of results in their order, and the places there of those of all rows."""
 
     distinct: tuple[Origin, ...]
     places: NDArray[np.int64]

@@ -28,7 +28,7 @@ PRINTED_DIGITS = 1e-3  # of the limit: numbers were rounded when printed
 
 
 class Group(NamedTuple):
-    """Errors in psi_2 of some points: how many they are, largest, root mean square and mean."""
+    """Errors in psi_2 of the points of one name: `max_error`, `rms_error` and `mean_error`."""
 
     name: str
     points: int
@@ -42,7 +42,8 @@ class Points(Rows):
     """Rebounds of a user and the exact ones; `energy_change` is that after less that before.
 
     It is in J, or in units of m_t (mu V_1/kappa)^2/2 where all is dimensionless: psi_2^2 - psi_1^2.
-    With losses the regimes of the exact impacts stand for the sequences of their phases.
+    `sequence` counts into `sequence_names`; with losses the regimes of the exact impacts stand for
+    the sequences of their phases. `rows` have their places, lines or rows by `word`.
     """
 
     psi_in: Array

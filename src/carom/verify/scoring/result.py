@@ -43,7 +43,8 @@ class Score(Result):
 
     Results pass if no psi_2 is off by more than the tolerance, and every finding of the audit is
     within it, too. Findings are in units of psi; errors of forces are in units of the largest
-    forces, mu P_max and P_max.
+    forces, mu P_max and P_max. `kind` says what was scored, `points` are the rebounds and `forces`
+    a history, `origins` their codes and laws; `inputs` made the exact answer, `notes` are remarks.
 
     Examples
     --------

@@ -178,7 +178,7 @@ class MarchedSolution(LossySolution):
     @cached_property
     def _frames(self) -> Frames:
         """What springs did, of which fields are made."""
-        return Frames(self._first, self.chi, solid_of(self.losses))
+        return Frames(self._first, self.chi, solid_of(self._losses))
 
     def _contact_at(self, time: float) -> ContactState:
         frames, scale = self._frames, self._scale

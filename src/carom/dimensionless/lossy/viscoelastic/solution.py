@@ -27,7 +27,17 @@ SHORTEST_PHASE = 1e-6  # in units of d_max/V_1: structure is not told any finer
 
 @dataclass(frozen=True, eq=False)
 class ViscoelasticSolution(LossySolution):
-    """A viscoelastic impact, solved on panels of time; see LossySolution."""
+    """An impact of Kelvin-Voigt solids, solved on panels of time; made by `solve` with losses.
+
+    Units are those of `carom.results.Solution`, of the elastic impact at the same speed.
+
+    Examples
+    --------
+    >>> import carom
+    >>> s = carom.solve(1.5, 1.44, losses=carom.KelvinVoigt(restitution=0.9))
+    >>> round(s.psi_out, 6), round(s.restitution, 10)
+    (-0.366922, 0.9)
+    """
 
     _record: Trace = field(repr=False)
 
@@ -56,16 +66,16 @@ class ViscoelasticSolution(LossySolution):
         return ContactState(instant.radius, instant.shift, profile, slid, slipping)
 
     def _recorded_work(self, radii: Array) -> Array:
-        return friction_work.work(self._record, self._replay, self.losses.parameter, radii)
+        return friction_work.work(self._record, self._replay, self._losses.parameter, radii)
 
     def _pressed(self, radii: Array) -> Array:
-        return friction_work.pressed(self._record, self.losses.parameter, radii)
+        return friction_work.pressed(self._record, self._losses.parameter, radii)
 
     def _slip_borders(self) -> Array:
         return friction_work.borders(self._record)
 
     def _replay(self, number: int) -> Replay:
-        return replay(self._first, self.chi, self.losses.parameter, number)
+        return replay(self._first, self.chi, self._losses.parameter, number)
 
     def _touched(self, radii: Array) -> Array:
         return np.array([self._read(*at, layout.AT_TIME) for at in self._touches(radii)])

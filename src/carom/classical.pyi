@@ -1,0 +1,6 @@
+from .contacts.classical import (
+    Obliquity as Obliquity,
+    cattaneo_mindlin as cattaneo_mindlin,
+    critical_obliquity as critical_obliquity,
+    loop_energy as loop_energy,
+)

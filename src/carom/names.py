@@ -1,0 +1,57 @@
+"""Public names: each is loaded when it is first used; one that is not there is told where it is."""
+
+import os
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+import lazy_loader
+
+from carom.old_names import NEW_PLACES, old_value
+
+GROUPS = (
+    *("carom", "carom.classical", "carom.datasets", "carom.dem", "carom.laws"),
+    *("carom.plots", "carom.results", "carom.status", "carom.verify"),
+)
+
+
+def attach(
+    package: str, file: str
+) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+    """Return `__getattr__`, `__dir__` and `__all__` of a module with its public names in a stub."""
+    is_folder = os.path.basename(file).startswith("__init__.")
+    home = package if is_folder else package.rpartition(".")[0]
+    load, __dir__, __all__ = lazy_loader.attach_stub(home, file)
+
+    def __getattr__(name: str) -> Any:
+        path, module = f"{package}.{name}", sys.modules[package]
+        if name in __dir__():
+            value = load(name)
+            if not is_folder:
+                vars(sys.modules[home]).pop(name, None)  # where the loader has left it, too
+        elif path in NEW_PLACES:
+            value = old_value(path)
+        else:
+            where = "" if name.startswith("_") else f"; {_hint(package, name)}"
+            raise AttributeError(f"{package} has no {name}{where}", name=name)
+        setattr(module, name, value)  # one warning of an old name
+        return value
+
+    return __getattr__, __dir__, __all__
+
+
+def _hint(package: str, name: str) -> str:
+    """Return where a name is, or the nearest to it, in this group before the others."""
+    from difflib import get_close_matches
+
+    of_groups = {group: import_module(group).__all__ for group in GROUPS}
+    own = {each: f"{package}.{each}" for each in of_groups[package]}
+    every = {path.rpartition(".")[2]: new for path, new in NEW_PLACES.items()}
+    every |= {each: f"{group}.{each}" for group in GROUPS for each in of_groups[group]}
+    if name in every:
+        return f"it is {every[name]}"
+    for places in (own, every):
+        if near := get_close_matches(name, places, n=1):
+            return f"did you mean {places[near[0]]}?"
+    return f"dir({package}) lists its names"
