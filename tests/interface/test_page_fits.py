@@ -4,6 +4,7 @@ import csv
 import io
 import json
 from base64 import b64encode
+from functools import cache
 
 import numpy as np
 import pytest
@@ -19,6 +20,11 @@ from carom.explorer.worker import Worker
 
 PAIR = View().pair
 ANGLES = range(4, 76, 4)
+
+
+@cache
+def fitted(name):
+    return carom.fit(carom.datasets.path(name))
 
 
 def sent(content):
@@ -51,7 +57,7 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("name", carom.datasets.names())
 def test_a_fit_is_the_librarys(name):
-    reply, result = answer({"data": name}), carom.fit(carom.datasets.path(name))
+    reply, result = answer({"data": name}), fitted(name)
     assert reply == json.loads(json.dumps(reply, allow_nan=False))
     assert reply["words"] == str(result)
     assert reply["bodies"]["from"] == "file"
@@ -86,25 +92,38 @@ def test_bodies_are_asked_for_where_the_file_does_not_tell_them():
     assert low < 0.123 < high
 
 
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        ("angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
-        ("angel [deg],contact_beta\n10,0.5\n", "did you mean"),
-        ("colour,size\n1,2\n", "no measured response"),
-        ("angle,contact_beta\n10,0.5\n", "for degrees write"),
-    ],
-)
+WRONG = [
+    ("angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
+    ("angel [deg],contact_beta\n10,0.5\n", "did you mean"),
+    ("colour,size\n1,2\n", "no measured response"),
+    ("angle,contact_beta\n10,0.5\n", "for degrees write"),
+]
+
+
+@pytest.mark.parametrize(("content", "words"), WRONG)
 def test_bodies_are_not_asked_for_in_vain(content, words):
     refused(words, asked, content)
 
 
 def test_bodies_of_the_file_are_not_those_of_the_page():
+<<<<<<< HEAD
     file = carom.datasets.path("kharaz2001")
     reply = asked(file.read_bytes(), "given=bodies&radius=9")
     assert reply["bodies"]["from"] == "file"
     assert "2.5 mm" in reply["bodies"]["text"]
     assert reply["words"] == str(carom.fit(file))
+||||||| cf5d7ef
+    file = carom.datasets.path("kharaz2001")
+    told = asked(file.read_bytes(), "given=bodies&radius=9")
+    assert told["bodies"]["from"] == "file"
+    assert "2.5 mm" in told["bodies"]["text"]
+    assert told["words"] == str(carom.fit(file))
+=======
+    told = asked(carom.datasets.path("kharaz2001").read_bytes(), "given=bodies&radius=9")
+    assert told["bodies"]["from"] == "file"
+    assert "2.5 mm" in told["bodies"]["text"]
+    assert told["words"] == str(fitted("kharaz2001"))
+>>>>>>> speeda
 
 
 def test_columns_say_what_they_were_taken_for():
@@ -132,10 +151,7 @@ def test_drops_are_told_as_restitution_against_speed():
     [
         *((b"what", "me.csv"), (b"a" * 1_000_001, "must be at most 1000000 bytes")),
         (b"angle [deg],contact_restitution\n" + b"10,0.2\n" * 2001, "at most 2000 rows"),
-        *((b"", "me.csv"), (b"colour,size\n1,2\n3,4\n", "no measured response")),
-        (b"angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
-        (b"angle [deg],contact_beta\n10,0.5\n", "cannot determine"),
-        (b"angle,contact_beta\n10,0.5\n20,0.4\n", "angle"),
+        *((b"", "me.csv"), (b"angle [deg],contact_beta\n10,0.5\n", "cannot determine"), *WRONG),
     ],
 )
 def test_what_cannot_be_fitted_is_refused_in_the_words_of_the_page(content, words, folder):
