@@ -166,17 +166,6 @@ def test_bad_case_files(refusal, text, message):
     assert re.search(message, refusal("impact", "case.toml"))
 
 
-def test_an_existing_file_survives_a_failed_write(refusal, monkeypatch):
-    def full(*_, **__):
-        raise OSError("disk full")
-
-    Path("keep.csv").write_text("precious")
-    monkeypatch.setattr(Path, "write_text", full)
-    assert "disk full" in refusal(*BALL, *SPEED, "--output", "keep.csv")
-    assert Path("keep.csv").read_text() == "precious"
-    assert [path.name for path in Path().iterdir()] == ["keep.csv"]
-
-
 def test_start_up_loads_nothing_that_is_not_needed():
     """Of what takes long: nothing until something is computed, and little for an impact."""
     steps = ["import carom", "from carom.cli import main; main(['--help'])"]

@@ -85,12 +85,6 @@ def test_map_as_a_table(verify):
     assert Path("laws.csv").read_text().splitlines()[1].startswith("rigid Coulomb,")
 
 
-def test_figure_of_all_laws(verify):
-    code, _, _ = verify("laws", "--psi", "1", "--psi", "3", "--psi", "5", "--plot", "laws.png")
-    assert code == 0
-    assert Path("laws.png").read_bytes().startswith(b"\x89PNG")
-
-
 def test_tune_without_bodies(verify, few_laws):
     code, out, err = verify("tune", "--chi", "1.4412", "--from", "0.5", "--to", "4", "--json")
     expected = few_laws(chi=1.4412, psi=np.linspace(0.5, 4.0, 61)).to_dict()

@@ -112,14 +112,6 @@ def test_none_at_all(tmp_path, monkeypatch):
     shared_library.opened.cache_clear()
 
 
-@needs_library
-def test_numba_is_not_even_loaded():
-    """Nor is anything else that takes long, for an impact in numbers."""
-    run = subprocess.run([sys.executable, "-c", FIRST], capture_output=True, text=True, check=True)
-    value, loaded = run.stdout.split()
-    assert (float(value), loaded) == (carom.rebound(0.5, 1.44), "False")
-
-
 def first_by(way):
     """The first number of a process whose environment says by what kernels are run."""
     environment = {**os.environ, "CAROM_KERNELS": way}
