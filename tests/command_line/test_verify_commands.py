@@ -92,7 +92,6 @@ def test_tune_without_bodies(verify, few_laws):
     assert (code, err) == (0, "")
     assert {name: record[name] for name in expected} == expected
     assert (record["inputs"], record["normal_speed"], record["duration"]) == ({}, None, None)
-    assert verify("tune", "--chi", "1.4412")[1].count("linear spring") == 1
 
 
 def test_tune_by_another_measure_and_kappa(verify, few_laws):
@@ -148,6 +147,7 @@ def test_tune_a_case_without_motion(verify):
     code, out, _ = verify("tune", "ball.toml")
     assert code == 0
     assert "At a normal speed of 1 m/s the contact lasts " in out
+    assert out.count("linear spring") == 1
 
 
 @engine
