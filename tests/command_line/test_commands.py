@@ -60,18 +60,16 @@ def test_case_file_and_flags_that_override_it(run):
 
 
 def test_output_files(run):
-    code, _, err = run(*BALL, *SPEED, "--output", "hit.nc", "--plot", "hit.png")
-    assert code == 0
-    assert "hit.nc" in err
+    for name in ("hit.nc", "hit.csv"):
+        code, _, err = run(*BALL, *SPEED, "--output", name)
+        assert (code, err) == (0, f"Carom has stored {name}.\n")
     with xr.open_dataset("hit.nc", engine="h5netcdf") as stored:
         assert stored.tangential_force.units == "N"
         assert json.loads(stored.attrs["inputs"])["friction"] == 0.2
-    assert Path("hit.png").read_bytes().startswith(b"\x89PNG")
-    run(*BALL, *SPEED, "--output", "hit.csv")
     table = pd.read_csv("hit.csv")
     assert table["time [s]"][0] == 0.0
     assert len(table) == 400
-    assert {path.name for path in Path().iterdir()} == {"hit.nc", "hit.png", "hit.csv"}
+    assert {path.name for path in Path().iterdir()} == {"hit.nc", "hit.csv"}
 
 
 def test_animation(run, refusal, monkeypatch):
