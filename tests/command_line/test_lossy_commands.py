@@ -62,6 +62,8 @@ def test_the_table_tells_what_was_lost_where_something_was(run):
     _, elastic, _ = run(*BALL, *SPEED)
     assert [meaning in lossy for meaning in meanings] == [True, True, True]
     assert [meaning in elastic for meaning in meanings] == [False, False, False]
+    assert "gross slip +" in elastic
+    assert "18.6" in elastic
     told = dict(line.strip().rsplit("  ", 1) for line in lossy.splitlines() if "  " in line.strip())
     values = {key.strip(): value for key, value in told.items()}
     assert float(values[meanings[0].strip()]) == pytest.approx(0.9, abs=1e-5)
