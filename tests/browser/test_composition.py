@@ -20,14 +20,6 @@ EMPTIEST = 1 / 3  # of a card
 ABOUT = 28  # pixels around what a card holds that are not empty
 STAGES = script("stages")
 REDRAWN = script("redrawn")
-<<<<<<< HEAD
-SLIDERS = (
-    "[...document.querySelectorAll('#fields input[type=range]')].filter(x => x.checkVisibility())"
-)
-||||||| cf5d7ef
-SLIDERS = "[...document.querySelectorAll('#fields input[type=range]')].filter(x => x.checkVisibility())"
-=======
->>>>>>> speeda
 EMPTY = script("empty")
 WORDS = script("page_words")
 CANVAS_WORDS = script("canvas_words")

@@ -31,13 +31,6 @@ radius = "1 cm"
 """
 
 
-def test_impact_from_flags(run):
-    code, out, _ = run(*BALL, *SPEED)
-    assert code == 0
-    assert "gross slip +" in out
-    assert "18.6" in out
-
-
 def test_impact_as_json_equals_the_library(run, hit):
     code, out, err = run(*BALL, *SPEED, "--json")
     record = json.loads(out)
@@ -60,18 +53,16 @@ def test_case_file_and_flags_that_override_it(run):
 
 
 def test_output_files(run):
-    code, _, err = run(*BALL, *SPEED, "--output", "hit.nc", "--plot", "hit.png")
-    assert code == 0
-    assert "hit.nc" in err
+    for name in ("hit.nc", "hit.csv"):
+        code, _, err = run(*BALL, *SPEED, "--output", name)
+        assert (code, err) == (0, f"Carom has stored {name}.\n")
     with xr.open_dataset("hit.nc", engine="h5netcdf") as stored:
         assert stored.tangential_force.units == "N"
         assert json.loads(stored.attrs["inputs"])["friction"] == 0.2
-    assert Path("hit.png").read_bytes().startswith(b"\x89PNG")
-    run(*BALL, *SPEED, "--output", "hit.csv")
     table = pd.read_csv("hit.csv")
     assert table["time [s]"][0] == 0.0
     assert len(table) == 400
-    assert {path.name for path in Path().iterdir()} == {"hit.nc", "hit.png", "hit.csv"}
+    assert {path.name for path in Path().iterdir()} == {"hit.nc", "hit.csv"}
 
 
 def test_animation(run, refusal, monkeypatch):
@@ -167,17 +158,6 @@ def test_bad_case_files(refusal, text, message):
     assert re.search(message, refusal("impact", "case.toml"))
 
 
-def test_an_existing_file_survives_a_failed_write(refusal, monkeypatch):
-    def full(*_, **__):
-        raise OSError("disk full")
-
-    Path("keep.csv").write_text("precious")
-    monkeypatch.setattr(Path, "write_text", full)
-    assert "disk full" in refusal(*BALL, *SPEED, "--output", "keep.csv")
-    assert Path("keep.csv").read_text() == "precious"
-    assert [path.name for path in Path().iterdir()] == ["keep.csv"]
-
-
 def test_python_runs_the_commands_too():
     done = subprocess.run([sys.executable, "-m", "carom", "--version"], capture_output=True)
     assert done.stdout.decode().strip() == carom.__version__
@@ -186,7 +166,7 @@ def test_python_runs_the_commands_too():
 def test_start_up_loads_nothing_that_is_not_needed():
     """Of what takes long: nothing until something is computed, and little for an impact."""
     steps = ["import carom", "from carom.cli import main; main(['--help'])"]
-    steps += [f"main({[*BALL[:2], '0.005', *BALL[3:], '--speed', '2']!r})"]
+    steps += [f"main({[*BALL, *SPEED]!r})"]
     slow = ["numpy", "numba", "scipy", "xarray", "pint", "matplotlib", "pandas", "rich"]
     told = f"; import sys; print('loaded', *[name for name in {slow!r} if name in sys.modules])\n"
     command = [sys.executable, "-c", "".join(step + told for step in steps)]

@@ -88,18 +88,17 @@ MODULES = {
     "zarr.core.array": [*SWEEP_COMMAND, "--store", "sweep.zarr"],
 }
 LATE = {  # what has to be forgotten for a module to be imported
+    "xarray": ("xarray",),
+    "pandas": ("pandas",),
+    "matplotlib": ("matplotlib", "carom.plots"),
     "h5py": ("h5py", "h5netcdf"),
     "matplotlib.backends._backend_agg": ("matplotlib.backends",),
     "emcee": ("emcee", "lmfit"),  # which imports it if it is there
     "zarr.core.array": ("zarr", "carom.io.stores", "carom.sweeps.stores"),
 }
 
-LIKE_OTHERS = ("numpy", "xarray", "matplotlib", "pandas")
 AT_MODULES = [("SIGTERM", "unicodedata"), ("SIGTERM", "h5py")]
-AT_MODULES += [
-    pytest.param("SIGINT", module, marks=[pytest.mark.slow] * (module in LIKE_OTHERS))
-    for module in MODULES
-]
+AT_MODULES += [("SIGINT", module) for module in MODULES]
 
 
 @pytest.mark.parametrize(("number", "module"), AT_MODULES)
@@ -189,10 +188,11 @@ carom.fitting.result.sample = sample
     ids=lambda words: words[0],
 )
 def test_a_signal_at_any_time_ends_in_one_line(arguments, number, there):
-    """From when Python runs `run`, which is told, through the first seconds."""
+    """From when Python runs `run`, which is told, through the first seconds, the two by turns."""
     (there / "sweep.toml").write_text(SWEEP)
+    delays = (0.0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8, 1.2, 1.7, 2.3, 3.0)
     program = "import carom.cli as c; print('ready', flush=True); c.run()"
-    for delay in (0.0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8, 1.2, 1.7, 2.3, 3.0):
+    for delay in delays[number == "SIGTERM" :: 2]:
         process = subprocess.Popen(
             [sys.executable, "-c", program, *arguments],
             cwd=there,

@@ -15,21 +15,15 @@ CASE = f'{checks.CASE}[output]\nspectrum = "forces.nc"\n'
 
 
 def test_the_file_is_the_spectrum_of_the_library(run, hit):
-    code, out, err = run(*BALL, *SPEED, "--spectrum", "forces.csv", "--json")
-    assert (code, err) == (0, "Carom has stored forces.csv.\n")
+    files = ["--output", "hit.csv", "--spectrum", "forces.csv"]
+    code, out, err = run(*BALL, *SPEED, *files, "--json")
+    assert (code, err) == (0, "Carom has stored hit.csv.\nCarom has stored forces.csv.\n")
     assert "result" in json.loads(out)
     table = pd.read_csv("forces.csv")
     assert list(table.columns[:2]) == ["frequency [Hz]", "normal_spectrum [N s]"]
     expected = hit.spectrum().normal_spectrum.values
     assert table["normal_spectrum [N s]"].values == pytest.approx(expected)
     assert len(table) == 601
-
-
-def test_beside_the_history(run):
-    code, _, err = run(*BALL, *SPEED, "--output", "hit.nc", "--spectrum", "forces.nc")
-    assert (code, err) == (0, "Carom has stored hit.nc.\nCarom has stored forces.nc.\n")
-    assert "time" in carom.read("hit.nc").dims
-    assert "frequency" in carom.read("forces.nc").dims
 
 
 def test_a_case_file_asks_for_it(run, hit):
@@ -39,17 +33,6 @@ def test_a_case_file_asks_for_it(run, hit):
     assert carom.read("forces.nc").identical(hit.spectrum())
     code, _, err = run("impact", "case.toml", "--spectrum", "other.csv")
     assert (code, err) == (0, "Carom has stored other.csv.\n")
-
-
-@pytest.mark.parametrize(
-    "more", [["--yield-velocity", "0.1 m/s"], ["--restitution", "0.9"], ["--friction", "0"]]
-)
-def test_of_impacts_of_other_kinds(run, more):
-    without = BALL[:-2] if "--friction" in more else BALL
-    code, _, err = run(*without, *SPEED, *more, "--spectrum", "forces.nc")
-    assert (code, err) == (0, "Carom has stored forces.nc.\n")
-    data = carom.read("forces.nc")
-    assert float(data.normal_spectrum[0]) == pytest.approx(float(data.normal_impulse), rel=1e-5)
 
 
 @pytest.mark.parametrize(

@@ -64,6 +64,8 @@ def test_the_table_tells_what_was_lost_where_something_was(run):
     assert [meaning in elastic for meaning in meanings] == [False, False, False]
     _, yielding, _ = run(*BALL, *SPEED, "--yield-velocity", "0.1 m/s")
     assert [meaning in yielding for meaning in meanings] == [True, True, False]
+    assert "gross slip +" in elastic
+    assert "18.6" in elastic
     rows = [line.strip().rsplit("  ", 1) for line in lossy.splitlines() if "  " in line.strip()]
     values = {key.strip(): value for key, value in rows}
     assert float(values[meanings[0].strip()]) == pytest.approx(0.9, abs=1e-5)

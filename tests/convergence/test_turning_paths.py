@@ -73,7 +73,7 @@ def away(actual, expected, depths):
     [
         pytest.param(circle(0.3, 40), marks=pytest.mark.slow),
         pytest.param(circle(0.9, 80, 0.5), marks=pytest.mark.slow),
-        spiral(60),
+        spiral(40),
     ],
 )
 def test_boundary_elements_agree(path):
@@ -130,7 +130,7 @@ def test_steps_are_straight_however_they_are_cut():
 
 def test_the_axes_do_not_matter():
     """A path turned or mirrored has its force turned or mirrored."""
-    depths, moved = spiral(6)
+    depths, moved = spiral(4)
     plain = pull(follow(depths, moved))
     for matrix in (np.array([[0.6, -0.8], [0.8, 0.6]]), np.diag([1.0, -1.0])):
         assert away(pull(follow(depths, moved @ matrix)), plain @ matrix, depths) < 1e-8
@@ -138,7 +138,7 @@ def test_the_axes_do_not_matter():
 
 def test_forces_lead_back_to_their_displacements():
     """The forces of a path by displacements, wanted, move the bodies as before."""
-    depths, moved = circle(0.5, 24)
+    depths, moved = circle(0.5, 12)
     path = follow(depths, moved)
     again = follow(depths, pull(path), by_force=True)
     np.testing.assert_allclose(again[:, :2], moved, atol=1e-5)

@@ -470,7 +470,7 @@ def test_no_motion_whatever_leaves_the_law(functions, precision, decades):
         return float(10.0 ** rng.uniform(*limits))
 
     refused = 0
-    for _ in range(300):
+    for _ in range(150):
         parts, springs = int(rng.integers(4)), int(rng.choice([16, 32, 64]))
         if decades == "all" and precision:
             parts &= ~LEDGER  # its energies are numbers with units, and in single precision
@@ -496,4 +496,4 @@ def test_no_motion_whatever_leaves_the_law(functions, precision, decades):
             assert np.all(np.isfinite(answer))
             assert np.all(np.isfinite(kept))
             assert np.hypot(load.x, load.y) <= friction * load.normal * (1.0 + 1e-9)
-    assert refused > 50
+    assert refused > 25

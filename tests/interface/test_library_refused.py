@@ -112,14 +112,6 @@ def test_none_at_all(tmp_path, monkeypatch):
     shared_library.opened.cache_clear()
 
 
-@needs_library
-def test_numba_is_not_even_loaded():
-    """Nor is anything else that takes long, for an impact in numbers."""
-    run = subprocess.run([sys.executable, "-c", FIRST], capture_output=True, text=True, check=True)
-    value, loaded = run.stdout.split()
-    assert (float(value), loaded) == (carom.rebound(0.5, 1.44), "False")
-
-
 def first_by(way):
     """The first number of a process whose environment says by what kernels are run."""
     environment = {**os.environ, "CAROM_KERNELS": way}
@@ -146,15 +138,15 @@ def test_a_word_that_is_no_way_is_refused():
         ("", "there is no C compiler"),
     ],
 )
-def test_no_library_is_built_without_a_compiler(compiler, words, tmp_path):
+def test_no_library_is_built_without_a_compiler(compiler, words, tmp_path, monkeypatch, capsys):
     """In one line, and nothing is left behind."""
-    environment = {**os.environ, "PATH": str(tmp_path), "CC": compiler}
-    command = [sys.executable, "-m", "carom.native.building", str(tmp_path / "lib")]
-    run = subprocess.run(command, capture_output=True, text=True, env=environment)
-    assert run.returncode == 1
-    assert run.stderr.startswith("carom: no compiled library: ")
-    assert words in run.stderr
-    assert run.stderr.count("\n") == 1
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("CC", compiler)
+    assert building.main([str(tmp_path / "lib")]) == 1
+    told = capsys.readouterr().err
+    assert told.startswith("carom: no compiled library: ")
+    assert words in told
+    assert told.count("\n") == 1
     assert not list(tmp_path.rglob("libcarom*"))
 
 

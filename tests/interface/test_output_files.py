@@ -57,8 +57,12 @@ def left(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
-@pytest.mark.parametrize("ending", WRITERS)
-@pytest.mark.parametrize("there", [True, False], ids=["there", "dangling"])
+DANGLING = ((ending, False) for ending in (".nc", ".csv", ".h"))
+
+
+@pytest.mark.parametrize(
+    ("ending", "there"), [*((ending, True) for ending in WRITERS), *DANGLING], ids=str
+)
 def test_a_link_stays_and_its_file_is_written(ending, there, tmp_path):
     """Through two links, into another folder; also where the file is yet to be made."""
     (tmp_path / "data").mkdir()

@@ -53,19 +53,9 @@ def texts(figure):
 
 def test_every_figure_has_the_width_and_the_font_that_were_asked_for(drawers, usual):
     """The larger font is that of labels; no text keeps the size of the usual one."""
-<<<<<<< HEAD
     for name, values in drawers.items():
-        usual = {text.get_fontsize() for text in texts(getattr(plots, name)(values))}
-        figure = getattr(plots, name)(values, width=150.0, font_size=9.5)
-||||||| cf5d7ef
-    for name, given in drawers.items():
-        usual = {text.get_fontsize() for text in texts(getattr(plots, name)(given))}
-        figure = getattr(plots, name)(given, width=150.0, font_size=9.5)
-=======
-    for name, given in drawers.items():
         small = {text.get_fontsize() for text in usual[name].findobj(Text)}
-        figure = getattr(plots, name)(given, width=150.0, font_size=9.5)
->>>>>>> speeda
+        figure = getattr(plots, name)(values, width=150.0, font_size=9.5)
         assert figure.get_figwidth() == pytest.approx(150.0 * MM, rel=1e-12), name
         sizes = {round(text.get_fontsize(), 3) for text in texts(figure)}
         assert max(sizes) == pytest.approx(9.5), name
@@ -215,25 +205,13 @@ def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers, usual):
     """As it is without; the rest of the figure, its size and a user's settings stay."""
     fields = drawers["plot_profiles"].fields("21 us")
     one = {"plot_profiles": (fields, plots.plot_profiles(fields))}
-    one = {name: (given, usual[name]) for name, fields in drawers.items()} | one
-    for name, (given, same) in one.items():
+    one = {name: (values, usual[name]) for name, values in drawers.items()} | one
+    for name, (values, same) in one.items():
         if name in SEVERAL:
             continue
         figure, (left, right) = pyplot.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")
-<<<<<<< HEAD
-        if name == "plot_profiles":
-            fields = fields.fields("21 us")
-        assert getattr(plots, name)(fields, ax=right) is figure, name
-        alone = getattr(plots, name)(fields).axes[0]
-||||||| cf5d7ef
-        if name == "plot_profiles":
-            given = given.fields("21 us")
-        assert getattr(plots, name)(given, ax=right) is figure, name
-        alone = getattr(plots, name)(given).axes[0]
-=======
-        assert getattr(plots, name)(given, ax=right) is figure, name
+        assert getattr(plots, name)(values, ax=right) is figure, name
         alone = same.axes[0]
->>>>>>> speeda
         assert not left.has_data(), name
         for kind in ("lines", "patches", "collections", "texts"):
             kinds = [len(getattr(axis, kind)) for axis in (right, alone)]

@@ -358,18 +358,3 @@ def test_what_is_no_file_is_refused(tmp_path):
         "table.xls": r"must end in \.nc, or be the store of a sweep, \.zarr",
     }.items():
         refused(f"file: .*{name}.* cannot be used; {reason}", read, tmp_path / name)
-
-
-def test_netcdf_that_may_not_grow_leaves_the_process_and_the_older_file_alone(tmp_path):
-    """HDF5 would take the process down when it ends, if not before; nothing is left behind."""
-    resource = pytest.importorskip("resource")
-    (tmp_path / "curve.nc").write_text("older")
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    for limit in (0, 100, 4096, 8000):
-        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
-        try:
-            refused("cannot be written; File too large$", save, curve(), tmp_path / "curve.nc")
-        finally:
-            resource.setrlimit(resource.RLIMIT_FSIZE, before)
-        assert [path.name for path in tmp_path.iterdir()] == ["curve.nc"]
-        assert (tmp_path / "curve.nc").read_text() == "older"

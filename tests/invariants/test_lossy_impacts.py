@@ -179,10 +179,10 @@ def test_impacts_come_no_further_apart(law: str) -> None:
     losses, few = MANY[law], MANY[law].loss is not Loss.VISCOUS
     for chi in (1.44,) if few else (1.44, 0.5, 2.8):
         for start, step, count in ((0.0, 0.1, 51), (0.95, 8e-4, 30), (2.0, 1e-5, 20)):
-            psi = start + step * np.arange(count)
-            rebounds = lossy_rebounds(psi, np.full(count, chi), losses)
+            psi = start + step * np.arange(count)[:: 2 if few else 1]
+            rebounds = lossy_rebounds(psi, np.full(psi.size, chi), losses)
             assert np.all(rebounds.status == Status.SOLVED)
-            apart = np.max(np.abs(np.diff(rebounds.psi_out)) - step)
+            apart = np.max(np.abs(np.diff(rebounds.psi_out)) - np.diff(psi))
             assert apart < 2.0 * CLOSE[losses.loss] * (1.0 + psi[-1])
 
 
@@ -257,7 +257,7 @@ def test_ledgers_where_rings_end(psi: float, chi: float, e: float) -> None:
 @pytest.mark.parametrize("psi", [1.1e4, -1e8, 1e300])
 def test_whatever_is_faster_slides(law: Loss, psi: float) -> None:
     """f = mu p all the time, which takes psi_1 - psi_2 = 2 chi (1 + e), and friction the energy."""
-    for chi in (0.3, 1.44, 1000.0):
+    for chi in (0.3, 1000.0):
         s = solve_lossy(psi, chi, LossNumbers(law, 0.3, 1.0))
         h, mirror = s.history(2001), np.sign(psi)
         sliding = 2.0 / 3.0 * h.normal_force

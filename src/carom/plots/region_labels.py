@@ -269,13 +269,7 @@ def without_overlaps(spots: list[list[Spot]]) -> list[Label | None]:
 def _meeting(labels: list[Label]) -> Callable[[int], Mask]:
     """Return what tells which labels one of them meets: by its place or by leader lines.
 
-<<<<<<< HEAD
-    Or cross its box: a line that passes a label crosses one of its diagonals.
-||||||| cf5d7ef
-    Or cross its box, as it those of others: a line that passes a label crosses one of its diagonals.
-=======
     A line that passes a label crosses one of its diagonals.
->>>>>>> speeda
     """
     at, end = (np.array([getattr(label, name) for label in labels]) for name in ("at", "end"))
     start = np.array([one.at if one.start is None else one.start for one in labels])
