@@ -1,10 +1,10 @@
 """Collisions in three dimensions against Newton's and Euler's equations, solved pair by pair."""
 
 from itertools import product
-from math import pi
 
 import numpy as np
 import pytest
+from tests.oracles.rigid_bodies import NAMES, collided, inertia, walton
 
 import carom
 
@@ -21,7 +21,6 @@ PAIRS = {
     "half-space": carom.Pair(SHELL, carom.HalfSpace(material=STEEL), friction=0.3),
     "cup": carom.Pair(BALL, carom.Cup(radius=20e-3, material=GLASS), friction=0.1),
 }
-NAMES = ("velocity1", "spin1", "velocity2", "spin2")
 
 
 def random_collisions(pair, count, seed):
@@ -38,43 +37,6 @@ def random_collisions(pair, count, seed):
     return moving | ({"spin2": spin2} if isinstance(pair.second, carom.Sphere) else {})
 
 
-def inertia(body):
-    """Return radius, mass and moment of inertia, by volume integrals of shells of radius r."""
-    if not isinstance(body, carom.Sphere):
-        return 0.0, np.inf, np.inf
-    outer, inner, density = body.radius, body.inner_radius, body.material.density
-    mass = 4.0 * pi * density * (outer**3 - inner**3) / 3.0
-    if body.gyration_radius is not None:
-        return outer, mass, mass * body.gyration_radius**2
-    return outer, mass, 8.0 * pi / 3.0 * density * (outer**5 - inner**5) / 5.0
-
-
-def cross_matrix(r):
-    return np.array([[0.0, -r[2], r[1]], [r[2], 0.0, -r[0]], [-r[1], r[0], 0.0]])
-
-
-def collided(pair, tangential, normal, restitution=1.0, **motion):
-    """Return motions after one collision: J from the 3 x 3 compliance of the contact points.
-
-    `tangential(V_t, V_n, compliance ratio)` returns V_t' of the contact points.
-    """
-    (radius1, mass1, moment1), (radius2, mass2, moment2) = inertia(pair.first), inertia(pair.second)
-    v1, w1, v2 = (motion[name] for name in NAMES[:3])
-    w2 = motion.get("spin2", np.zeros(3))
-    arm1, arm2 = radius1 * normal, -radius2 * normal
-    V = v1 + np.cross(w1, arm1) - v2 - np.cross(w2, arm2)
-    closing = V @ normal
-    sliding = V - closing * normal
-    compliance = np.eye(3) * (1.0 / mass1 + 1.0 / mass2)
-    for arm, moment in ((arm1, moment1), (arm2, moment2)):
-        compliance -= cross_matrix(arm) @ cross_matrix(arm) / moment
-    ratio = np.trace(compliance) / 2.0 - (along := normal @ compliance @ normal) / 2.0
-    out = tangential(sliding, closing, ratio / along) - restitution * closing * normal
-    J = np.linalg.solve(compliance, V - out)
-    spin1, spin2 = w1 + np.cross(arm1, -J) / moment1, w2 + np.cross(arm2, J) / moment2
-    return v1 - J / mass1, spin1, v2 + J / mass2, spin2
-
-
 def exact_rebound(pair):
     """Return V_t' of the exact theory; E*, G* of Hertz and Mindlin, chi of the compliances."""
     one, two = pair.first.material, pair.second.material
@@ -86,17 +48,6 @@ def exact_rebound(pair):
         scale = kappa / (pair.friction * closing)
         psi = scale * np.linalg.norm(sliding)
         return sliding * (carom.rebound(psi, 0.5 * kappa * ratio) / psi)
-
-    return tangential
-
-
-def walton(friction, beta, restitution):
-    """Return V_t' of Walton's law, as a force balance: stick if Coulomb's law allows."""
-
-    def tangential(sliding, closing, ratio):
-        speed = np.linalg.norm(sliding)
-        slowed = friction * (1.0 + restitution) * closing * ratio
-        return sliding * (-beta if speed * (1.0 + beta) <= slowed else 1.0 - slowed / speed)
 
     return tangential
 

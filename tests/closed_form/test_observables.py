@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.oracles.rigid_bodies import followed
 
 import carom
 from carom import HalfSpace, Material, Pair, Sphere
@@ -22,73 +23,6 @@ PAIRS = {
     ),
 }
 OF_SECOND = {"spin2", "spin2_out"}
-
-
-def hole(body):
-    return body.inner_radius / body.radius
-
-
-def mass(body):
-    return 4 / 3 * math.pi * body.radius**3 * (1 - hole(body) ** 3) * body.material.density
-
-
-def inertia(body):
-    whole = 8 / 15 * math.pi * body.radius**5 * body.material.density
-    return whole * (1 - hole(body) ** 5)
-
-
-def followed(pair, motion, impulse, restitution):
-    """Return all quantities from the motion of each body in the laboratory, second body included.
-
-    The first body lies above the plane z = 0 of the contact and falls; the impulse on it is
-    (-J, J_n). Angular velocities are counted about +y with x to the right and z up, so that a
-    contact point below the centre moves by -R omega_y, and Carom's spin is -omega_y there; the
-    contact point of the second body, above its centre, moves by +R omega_y.
-    """
-    normal, tangential, spin, spin2 = motion
-    one, two = pair.first, pair.second if isinstance(pair.second, Sphere) else None
-    wall = two is None
-    m_1, m_2 = mass(one), math.inf if wall else mass(two)
-    push = (1 + restitution) * normal / (1 / m_1 + 1 / m_2)
-    v_1, v_2 = np.array([0.3 + tangential, 0.1 - normal]), np.array([0.3, 0.1])
-    omega_1, omega_2 = -spin, -spin2
-    after_1 = v_1 + np.array([-impulse, push]) / m_1
-    after_2 = v_2 - np.array([-impulse, push]) / m_2
-    # torque r x F about +y: z F_x - x F_z, with r = (0, -R) and (0, R_2)
-    after_omega_1 = omega_1 + (-one.radius) * (-impulse) / inertia(one)
-    after_omega_2 = omega_2 if wall else omega_2 + two.radius * impulse / inertia(two)
-
-    def contact(v_1, v_2, omega_1, omega_2):
-        """Relative tangential velocity of the two points that touch."""
-        return v_1[0] - one.radius * omega_1 - v_2[0] - (0 if wall else two.radius * omega_2)
-
-    before, after = v_1 - v_2, after_1 - after_2
-    slip = contact(v_1, v_2, omega_1, omega_2)
-    slip_out = contact(after_1, after_2, after_omega_1, after_omega_2)
-    unit = pair.friction * normal / pair.kappa
-    return {
-        "speed": math.hypot(*before),
-        "angle": math.atan(before[0] / -before[1]),
-        "normal_speed": -before[1],
-        "tangential_speed": before[0],
-        "spin": spin,
-        "spin2": spin2,
-        "contact_angle": math.atan(slip / -before[1]),
-        "psi_in": slip / unit,
-        "normal_restitution": -after[1] / before[1],
-        "normal_speed_out": after[1],
-        "tangential_speed_out": after[0],
-        "spin_out": -after_omega_1,
-        "spin2_out": -after_omega_2,
-        "rebound_speed": math.hypot(*after),
-        "rebound_angle": math.atan(after[0] / after[1]),
-        "contact_rebound_angle": math.atan(slip_out / after[1]),
-        "tangential_restitution": after[0] / before[0],
-        "contact_restitution": slip_out / slip,
-        "contact_beta": -slip_out / slip,
-        "impulse_ratio": impulse / push,
-        "psi_out": slip_out / unit,
-    }
 
 
 def impacts(name, n=7):
