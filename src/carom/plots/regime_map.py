@@ -20,7 +20,13 @@ from carom.plots.regions import Region, area, limits, regions
 from carom.quantities.arrays import Array
 
 MANY = 7  # reversals of slip, of which the colour is the darkest at least
-DARKEST = 8.0  # power of the colour of a regime that makes it dark
+DARK = {  # towards which faces go
+    "stick": style.BLUE,
+    "gross slip, stick": style.VERMILION,
+    "gross slip, slip": style.PURPLE,
+    "gross slip only": style.BLACK,
+}
+DARKEST = 0.8  # share of it
 NAMED = "sequence_met", "sequence_name", "border_left", "border_right"  # of which all are listed
 KEY = (
     "G gross slip, S stick, s slip in a ring around a stick region; "
@@ -92,11 +98,14 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
 def _colours(groups: set[Group]) -> dict[Group, Any]:
     most = max(MANY, *(group.reversals for group in groups)) if groups else MANY
-    shades = np.linspace(1.0, DARKEST, most + 1)
-    return {
-        group: tuple(np.array(to_rgb(REGIMES[group.regime].face)) ** shades[group.reversals])
-        for group in groups
-    }
+    shares = np.linspace(0.0, DARKEST, most + 1)
+
+    def mixed(group: Group) -> Any:
+        ends = REGIMES[group.regime].face, DARK[group.regime]
+        share = shares[group.reversals]
+        return tuple((1.0 - share) * np.array(to_rgb(ends[0])) + share * np.array(to_rgb(ends[1])))
+
+    return {group: mixed(group) for group in groups}
 
 
 def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> None:
