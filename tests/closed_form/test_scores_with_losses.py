@@ -55,7 +55,7 @@ def test_groups_are_the_regimes():
 
 def test_a_damped_law_has_the_error_of_the_ranking():
     law = carom.dem.LammpsMindlin("mindlin_rescale/force", restitution=0.7)
-    psi = np.array(carom.verify.rank([law], chi=CHI).psi)
+    psi = np.array(carom.verify.rank([law], chi=CHI).psi_in)
     result = score({"psi_1": psi, "psi_2": law.rebound(psi, CHI)}, chi=CHI, restitution=0.7)
     expected = carom.verify.rank([law], chi=CHI).standings[0].max_error
     assert result.max_error == pytest.approx(expected, abs=1e-9)
