@@ -8,8 +8,9 @@ throughout. What follows the first phase is richer than the usual solid sphere, 
 suggests: slip that turns back, rings that close, stick that returns.
 
 The colour of a region is that of its regime, how the impact begins, the darker the more often slip
-reverses. The letters in it are the phases in their order. The borders are curves that bisection finds between the points of the
-map, so that regions narrower than the distance of the points appear as well.
+reverses. The letters in it are the phases in their order. The borders are curves that bisection
+finds between the points of the map, so that regions narrower than the distance of the points appear
+as well.
 
 Maw, Barber & Fawcett (1976), Wear 38:101; borders after (34) of Barber (1979), ZAMP 30:468.
 """

@@ -122,7 +122,6 @@ class Solution(Trajectory):
 
         Examples
         --------
-        >>> import carom
         >>> memory = carom.solve(0.5, 1.44).memory(1.0)  # the whole contact sticks
         >>> bool(abs(memory.g(0.0)) < 1.0)
         True
@@ -190,7 +189,6 @@ class Solution(Trajectory):
 
         Examples
         --------
-        >>> import carom
         >>> carom.solve(0.5, 1.44).slid(1.0, [0.0, 0.5])  # the whole contact sticks
         array([[0., 0.],
                [0., 0.]])
@@ -227,7 +225,6 @@ class Solution(Trajectory):
 
         Examples
         --------
-        >>> import carom
         >>> [round(angle.largest, 4) for angle in carom.solve(0.5, 1.44).slip_angles(0.3 / 1.7)]
         [0.0, 0.1774, 0.0]
         """

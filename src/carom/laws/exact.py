@@ -205,7 +205,6 @@ class ReboundLaw(Law):
 
         Examples
         --------
-        >>> import carom
         >>> carom.laws.ReboundLaw(1.44).impulse([0.5, 6.0]).round(3)
         array([0.079, 1.   ])
         """
@@ -233,7 +232,6 @@ class ReboundLaw(Law):
 
         Examples
         --------
-        >>> import carom
         >>> carom.laws.ReboundLaw(1.44).dissipation([0.5, 6.0]).round(3)
         array([ 0.248, 35.942])
         """
@@ -335,7 +333,6 @@ class ReboundLaw(Law):
 
         Examples
         --------
-        >>> import carom
         >>> law = carom.laws.ReboundLaw(1.44)
         >>> carom.laws.ReboundLaw.from_dict(law.to_dict())(0.5) == law(0.5)
         True
