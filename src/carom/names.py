@@ -2,7 +2,6 @@
 
 import os
 import sys
-from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
@@ -10,22 +9,18 @@ import lazy_loader
 
 from carom.old_names import NEW_PLACES, old_value
 
-GROUPS = (
-    *("carom", "carom.classical", "carom.datasets", "carom.dem", "carom.laws"),
-    *("carom.plots", "carom.results", "carom.status", "carom.verify"),
-)
+NAMES_OF_GROUPS = ("classical", "datasets", "dem", "laws", "plots", "results", "status", "verify")
+GROUPS = ("carom", *(f"carom.{name}" for name in NAMES_OF_GROUPS))
 
 
-def attach(
-    package: str, file: str
-) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+def attach(package: str, file: str) -> tuple[Any, Any, list[str]]:
     """Return `__getattr__`, `__dir__` and `__all__` of a module with its public names in a stub."""
     is_folder = os.path.basename(file).startswith("__init__.")
     home = package if is_folder else package.rpartition(".")[0]
     load, __dir__, __all__ = lazy_loader.attach_stub(home, file)
 
     def __getattr__(name: str) -> Any:
-        path, module = f"{package}.{name}", sys.modules[package]
+        path = f"{package}.{name}"
         if name in __dir__():
             value = load(name)
             if not is_folder:
@@ -35,7 +30,7 @@ def attach(
         else:
             where = "" if name.startswith("_") else f"; {_hint(package, name)}"
             raise AttributeError(f"{package} has no {name}{where}", name=name)
-        setattr(module, name, value)  # one warning of an old name
+        setattr(sys.modules[package], name, value)  # one warning of an old name
         return value
 
     return __getattr__, __dir__, __all__

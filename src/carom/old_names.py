@@ -26,9 +26,10 @@ NEW_NAMES = {
     "carom.verify.damping": "carom.verify.damping_from_restitution",
     "carom.verify.restitution": "carom.verify.restitution_from_damping",
 }
-CALLS: dict[str, Callable[..., Any]] = {  # what a name alone no longer gives
-    "carom.MixtureLaw": lambda low, high: _get("carom.laws.ReboundLaw")((low, high)),
-    "carom.material_sources": lambda name: dict(_get("carom.material")(name).sources),
+FINDERS: dict[str, Callable[[], Any]] = {  # of what a name alone no longer gives
+    "carom.MixtureLaw": lambda: lambda low, high: _get("carom.laws.ReboundLaw")((low, high)),
+    "carom.material_sources": lambda: lambda name: dict(_get("carom.material")(name).sources),
+    "carom.verify.CATALOGUE": lambda: _get("carom.verify.catalogue")(),
 }
 NEW_PLACES = {
     **NEW_NAMES,
@@ -50,9 +51,7 @@ def _get(path: str) -> Any:
 def old_value(path: str) -> Any:
     """Return what a name of version 0.2 stands for, with a warning that gives the new name."""
     _warn(path, NEW_PLACES[path], stacklevel=4)
-    if path == "carom.verify.CATALOGUE":
-        return _get("carom.verify.catalogue")()
-    return CALLS.get(path) or _get(NEW_NAMES[path])
+    return FINDERS[path]() if path in FINDERS else _get(NEW_NAMES[path])
 
 
 def with_old_fields(record: type[Record]) -> type[Record]:

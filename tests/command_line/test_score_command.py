@@ -126,7 +126,7 @@ BAD = {
     "psi_1,psi_2,chi\n1,1,1\n2,2,-1\n3,3,1\n": "chi: -1 in line 3",
     "psi_1,psi_2,chi\n1,1,1\n2,2,1\n": "too few points: 2",
     "psi_1,psi_2,chi\n1,1,1\n\n# a\n2,nan,1\n3,,1\n": "psi_2: not a number in lines 5 and 6",
-    "psi_1,psi_2,chi\n1,1,1\n2,one,1\n3,3,1\n": "psi_2: not a number in line 3; psi_2: 'one'",
+    "psi_1,psi_2,chi\n1,1,1\n2,one,1\n3,3,1\n": "psi_2: not a number in line 3; 'one'",
     "psi_1 [mm],psi_2,chi\n1,1,1\n": "psi_1: 'mm' cannot be used; it has a unit",
     SPEEDS + "1,0,0,0\n" * 3: "case: missing; give the bodies, --case",
 }

@@ -19,12 +19,27 @@ from carom.native.emission import object_code
 from carom.native.numba_internals import CODE, PATCHES
 
 PACKAGE = Path(carom.__file__).parent
-OWN = {  # private to Carom: classes that share a file or a folder
-    "laws/exact.py": {"_hold", "_of", "_rule", "_table"},
-    "laws/header.py": {"_one_chi", "_rule"},
+OWN = {  # private to Carom: what its files know of each other's classes, and users do not see
+    "cli/sweep.py": {"_doubts"},
+    "contacts/fields.py": {"_edge", "_rim", "_slid", "_slipping", "_viscous"},
+    "dimensionless/lossy/law.py": {"_scale_free"},
+    "impacts/exact.py": {"_loss", "_losses", "_source"},
+    "impacts/outcome.py": {"_describe"},
     "impacts/wear.py": {"_slip_borders"},
+    "laws/exact.py": {"_hold", "_of", "_rule", "_scale_free", "_table"},
+    "laws/header.py": {"_one_chi", "_rule"},
+    "sweeps/points.py": {"_loss"},
+    "sweeps/problem.py": {"_choices", "_description", "_sampled"},
+    "sweeps/records.py": {"_coords"},
+    "sweeps/wearing.py": {"_describe", "_loss"},
+    "verify/benchmark.py": {"_builder"},
+    "verify/engines/lammps.py": {"_called"},
     "verify/entries.py": {"_damped"},
-    "verify/errors.py": {"_why"},
+    "verify/errors.py": {"_most_steps", "_why"},
+    "verify/pack/writing.py": {"_arguments", "_called"},
+    **{f"explorer/{name}.py": {"_losses"} for name in ("files", "scenes")},
+    **{f"fitting/{name}.py": {"_best"} for name in ("advice", "comparison", "datasets", "report")},
+    "explorer/uploads.py": {"_best"},
 }
 PUBLIC = {"_replace", "_asdict", "_fields", "_make", "_value_", "_exit"}  # documented by Python
 NUMBA = {

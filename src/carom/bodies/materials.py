@@ -116,7 +116,6 @@ class Material(Printed):
     def sources(self) -> dict[str, str]:
         """Sources of the values that are those of the catalogue, each by its name.
 
-        >>> import carom
         >>> sorted(carom.material("steel").sources)
         ['density', 'poisson', 'yield_strength', 'young']
         """

@@ -50,7 +50,7 @@ def materials_command(name: str | None = None, pairs: bool = False, as_json: boo
     if as_json:
         typer.echo(json.dumps(records, indent=2, ensure_ascii=False))
     elif name is not None:
-        typer.echo(_details(records))
+        typer.echo(_details(carom.material(name)))
     else:
         typer.echo(f"{carom.materials()}\n{BELOW}")
 
@@ -99,15 +99,12 @@ def _record(name: str) -> dict[str, Any]:
     values = {key: getattr(stuff, key) for key in VALUES}
     if stuff.is_rigid:
         values["young"] = None
-    return values | {"sources": carom.material(name).sources}
+    return values | {"sources": stuff.sources}
 
 
-def _details(records: dict[str, dict[str, Any]]) -> str:
-    lines = []
-    for name, record in records.items():
-        lines.append(name if record["young"] else f"{name}: does not deform")
-        for key in VALUES:
-            if key in record["sources"]:
-                lines.append(f"  {GLOSSARY[key].meaning:18s} {GLOSSARY[key].text(record[key])}")
-                lines.append(f"      {record['sources'][key]}")
+def _details(stuff: carom.Material) -> str:
+    lines = [f"{stuff.name}{': does not deform' * stuff.is_rigid}"]
+    for key in filter(stuff.sources.__contains__, VALUES):
+        value = GLOSSARY[key].text(getattr(stuff, key))
+        lines += [f"  {GLOSSARY[key].meaning:18s} {value}", f"      {stuff.sources[key]}"]
     return "\n".join(lines)

@@ -180,7 +180,6 @@ class Law(ABC):
 
         Examples
         --------
-        >>> import carom
         >>> law = carom.dem.LammpsMindlin("mindlin")
         >>> round(law.rebound(0.75, 1.4412), 3), round(carom.rebound(0.75, 1.4412), 3)
         (0.591, 0.014)
@@ -289,7 +288,6 @@ class ContactLaw(Law):
 
         Examples
         --------
-        >>> import carom
         >>> history = carom.dem.LinearSpring().history(0.5, 1.44)
         >>> round(float(history["normal_force"].max()), 3)
         0.8

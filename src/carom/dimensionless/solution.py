@@ -123,7 +123,6 @@ class Solution(Trajectory):
 
         Examples
         --------
-        >>> import carom
         >>> memory = carom.solve(0.5, 1.44).memory(1.0)  # the whole contact sticks
         >>> bool(abs(memory.g(0.0)) < 1.0)
         True
@@ -193,7 +192,6 @@ class Solution(Trajectory):
 
         Examples
         --------
-        >>> import carom
         >>> carom.solve(0.5, 1.44).slid(1.0, [0.0, 0.5])  # the whole contact sticks
         array([[0., 0.],
                [0., 0.]])
@@ -230,7 +228,6 @@ class Solution(Trajectory):
 
         Examples
         --------
-        >>> import carom
         >>> [round(angle.largest, 4) for angle in carom.solve(0.5, 1.44).slip_angles(0.3 / 1.7)]
         [0.0, 0.1774, 0.0]
         """

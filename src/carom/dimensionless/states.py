@@ -125,7 +125,6 @@ class Trajectory(Printed, ABC):
 
         Examples
         --------
-        >>> import carom
         >>> carom.solve(0.5, 1.44).at([0.0, 1.0]).psi.round(4)
         array([ 0.5   , -0.0419])
         """
@@ -207,7 +206,6 @@ class Trajectory(Printed, ABC):
 
         Examples
         --------
-        >>> import carom
         >>> carom.solve(0.5, 1.44).phase_at(1.0).kind
         'stick'
         """
@@ -239,7 +237,6 @@ class Trajectory(Printed, ABC):
 
         Examples
         --------
-        >>> import carom
         >>> gross = carom.solve(9.0, 1.44)  # the traction is mu times the pressure
         >>> gross.traction(0.5 * gross.duration, [0.0, 0.6]).round(6)
         array([1. , 0.8])
@@ -269,7 +266,6 @@ class Trajectory(Printed, ABC):
 
         Examples
         --------
-        >>> import carom
         >>> carom.solve(0.5, 1.44).history(3).penetration.round(9)
         array([0., 1., 0.])
         """

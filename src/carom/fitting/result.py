@@ -88,9 +88,6 @@ class Fit(FitRecord, Result):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> heights = {"drop_height": [0.1, 0.2, 0.4, 0.8],
         ...            "rebound_height": [0.06, 0.1, 0.17, 0.29]}
         >>> print(carom.fit(heights, pair=pair).losses.verdict)
@@ -127,7 +124,6 @@ class Fit(FitRecord, Result):
 
         Examples
         --------
-        >>> import carom
         >>> found = carom.fit(carom.datasets.load("kharaz2001"))
         >>> advised = found.advice(3, "friction")
         >>> len(advised.places), advised.shorter < 1.0
@@ -169,7 +165,6 @@ class Fit(FitRecord, Result):
 
         Examples
         --------
-        >>> import carom
         >>> found = carom.fit(carom.datasets.load("kharaz2001"))
         >>> samples = found.posterior(100, seed=1)
         >>> bool(abs(samples.friction.mean() - found.friction.value) < 0.01)
@@ -226,7 +221,6 @@ class Fit(FitRecord, Result):
 
         Examples
         --------
-        >>> import carom
         >>> found = carom.fit(carom.datasets.load("kharaz2001"), fixed={"restitution": 1.0})
         >>> [line for line in found.cite().splitlines() if line.startswith("@")][-2:]
         ['@software{newville2014,', '@article{kharaz2001,']

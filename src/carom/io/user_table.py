@@ -221,14 +221,7 @@ def in_units(
 
 
 def with_errors(names: Iterable[str]) -> tuple[str, ...]:
-    """Return names of columns, and of the columns of their standard deviations.
-
-    Examples
-    --------
-    >>> from carom.io.user_table import with_errors
-    >>> with_errors(["angle", "spin_out"])
-    ('angle', 'angle_error', 'spin_out', 'spin_out_error')
-    """
+    """Return names of columns, and of the columns of their standard deviations."""
     return tuple(each for name in names for each in (name, name + ERROR))
 
 
@@ -237,13 +230,6 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
 
     Adds to the faults, which are raised as InputError if they are not given, one that is likely to
     be a known one misspelt, with the nearest, and an error without its column.
-
-    Examples
-    --------
-    >>> from carom.io.user_table import others
-    >>> from carom.io.tables import read_table
-    >>> others(read_table({"angle": [0.1], "run": [1]}), ["angle", "spin_out"])
-    ('run',)
     """
     names, faults = list(names), faults or Faults()
     unknown = tuple(name for name in table.names if name not in names)
@@ -257,14 +243,7 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
 
 
 def entry(name: str) -> str:
-    """Return the name in the glossary of what a column holds, be it values or their errors.
-
-    Examples
-    --------
-    >>> from carom.io.user_table import entry
-    >>> entry("spin_out"), entry("spin_out_error")
-    ('spin_out', 'spin_out')
-    """
+    """Return the name in the glossary of what a column holds, be it values or their errors."""
     return name.removesuffix(ERROR)
 
 
@@ -334,12 +313,6 @@ def column_in_si(name: str, si: str, unit: Any, cells: Any) -> tuple[Array, str]
     A bare number is in the unit of the column, SI if that is empty; a cell may have its own.
 
     Raises InputError if the unit of the column does not fit.
-
-    Examples
-    --------
-    >>> from carom.io.user_table import column_in_si
-    >>> column_in_si("radius", "m", "mm", [5, "6", "0.7 cm", ""])[0]
-    array([0.005, 0.006, 0.007,   nan])
     """
     own = factor_of(name, unit, si) if str(unit) else UNCHANGED
     with suppress(InputError):  # where a number overflows, it is sought

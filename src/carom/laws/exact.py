@@ -207,7 +207,6 @@ class ReboundLaw(Law):
 
         Examples
         --------
-        >>> import carom
         >>> carom.laws.ReboundLaw(1.44).impulse([0.5, 6.0]).round(3)
         array([0.079, 1.   ])
         """
@@ -236,7 +235,6 @@ class ReboundLaw(Law):
 
         Examples
         --------
-        >>> import carom
         >>> carom.laws.ReboundLaw(1.44).dissipation([0.5, 6.0]).round(3)
         array([ 0.248, 35.942])
         """
@@ -338,7 +336,6 @@ class ReboundLaw(Law):
 
         Examples
         --------
-        >>> import carom
         >>> law = carom.laws.ReboundLaw(1.44)
         >>> carom.laws.ReboundLaw.from_dict(law.to_dict())(0.5) == law(0.5)
         True

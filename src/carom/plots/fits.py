@@ -66,7 +66,9 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         last = axes[2 * ((len(names) - 1 - column) // across) + 1, column]
         last.set_xlabel(_incidence(dataset))
         last.tick_params(labelbottom=True)
-    legend_outside(figure, _key(), across + 1)
+    laws: list[Any] = [Line2D([], [], label=law, **stroke) for law, stroke in LAW_STYLES.items()]
+    bands = [band.key(name) for name, band in REGIMES.items()]
+    legend_outside(figure, [*laws, *bands], across + 1)
     return figure
 
 
@@ -159,8 +161,3 @@ def _label(name: str, unit: str) -> str:
 def _incidence(dataset: xr.Dataset) -> str:
     spinning = bool(dataset.attrs.get("spinning", 1))
     return "incidence of the contact point (deg)" if spinning else "angle of incidence (deg)"
-
-
-def _key() -> list[Any]:
-    laws: list[Any] = [Line2D([], [], label=law, **stroke) for law, stroke in LAW_STYLES.items()]
-    return [*laws, *(band.key(name) for name, band in REGIMES.items())]

@@ -75,7 +75,8 @@ def fitting_columns(handles: list[Any], most: int, room: float, **options: Any) 
     """Return how many columns of a legend fit into a width in points."""
     settings = {n: options.get(n, RC[f"legend.{n}"]) for n in SPACES}
     em = font_size(options.get("fontsize", RC["legend.fontsize"]))
-    widths = [TextPath((0, 0), h.get_label() or " ", size=em).get_extents().width for h in handles]
+    labels = [str(handle.get_label()).strip() or "-" for handle in handles]
+    widths = [TextPath((0, 0), label, size=em).get_extents().width for label in labels]
     beside = em * (settings["handlelength"] + settings["handletextpad"])
     for columns in range(min(most, len(handles)), 1, -1):
         wide = [part.max() for part in np.array_split(widths, columns)]

@@ -115,11 +115,9 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
     regimes = [name for name in REGIMES if name in {group.regime for group in groups}]
     blank: Any = {"fc": "none", "ec": "none"}
     handles = [Patch(label=BEGINS.format(name), **blank) for name in regimes]
-    blanks = []
     for group in (Group(name, count) for count in counts for name in regimes):
         face = {"fc": colours[group], **EDGE} if group in groups else blank
-        handles.append(Patch(label=str(group.reversals), **face))
-        blanks += [] if group in groups else handles[-1:]
+        handles.append(Patch(label=str(group.reversals) if group in groups else " ", **face))
     columns, key = len(counts) + 1, KEY
     if fitting_columns(handles, columns, room, **SPACING) < columns:
         key = f"{SHORT} {KEY}"
@@ -128,8 +126,6 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
             for group in groups
         ]
         columns = fitting_columns(handles, 4, room, **SPACING)
-    for handle in blanks:
-        handle.set_label(" ")
     place: Any = {"loc": "outside upper left", "alignment": "left", "title_fontsize": "small"}
     title = wrapped(key, room)
     if AXES.get() is not None:

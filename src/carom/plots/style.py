@@ -15,22 +15,8 @@ from numpy.typing import ArrayLike
 
 from carom.io.files import FIGURES
 from carom.io.paths import checked_output, ending_of, replace_whole
-from carom.plots.look import (
-    AXES,
-    DPI,
-    FONT_SIZE,
-    RC,
-    SETTINGS,
-    WIDTH,
-    Drawing,
-    Look,
-    carom_settings,
-    own_figure,
-    quiet,
-    settings,
-    using,
-    wanted_width,
-)
+from carom.plots import look as looks
+from carom.plots.look import DPI
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed as prefixed
@@ -87,7 +73,7 @@ def span(axis: Axes, x: ArrayLike = (), y: ArrayLike = ()) -> None:
 
 
 @contextmanager
-def style(**look: Unpack[Look]) -> Iterator[None]:
+def style(**look: Unpack[looks.Look]) -> Iterator[None]:
     """Set matplotlib to Carom's style for a while.
 
     In the block of `with`, labels have 7.5 points and lines are as in Carom's own figures, whatever
@@ -119,14 +105,14 @@ def style(**look: Unpack[Look]) -> Iterator[None]:
     ...     matplotlib.rcParams["font.size"]
     9.0
     """
-    chosen = settings(look)
-    width, kept = WIDTH.set(wanted_width(look)), SETTINGS.set(chosen)
+    chosen = looks.settings(look)
+    width, kept = looks.WIDTH.set(looks.wanted_width(look)), looks.SETTINGS.set(chosen)
     try:
-        with using(chosen):
+        with looks.using(chosen):
             yield
     finally:
-        WIDTH.reset(width)
-        SETTINGS.reset(kept)
+        looks.WIDTH.reset(width)
+        looks.SETTINGS.reset(kept)
 
 
 def styled(draw: Callable[P, T]) -> Callable[P, T]:
@@ -136,7 +122,7 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
 
 def room(width: float) -> float:
     """Return the width in mm of a figure that is usually this wide, less where fonts are larger."""
-    return (WIDTH.get() or width) * FONT_SIZE / float(RC["font.size"])
+    return (looks.WIDTH.get() or width) * looks.FONT_SIZE / float(looks.RC["font.size"])
 
 
 def new_figure(
@@ -176,21 +162,21 @@ def new_figure(
     >>> (25.4 * figure.get_size_inches()).round(9), axes.shape
     (array([178., 100.]), (2, 1))
     """
-    axes = AXES.get()
+    axes = looks.AXES.get()
     if axes is not None and rows * columns == 1:
-        return own_figure(axes), np.array([[axes]])
+        return looks.own_figure(axes), np.array([[axes]])
     figure = blank_figure(width, height, keep_height)
     return figure, figure.subplots(rows, columns, squeeze=False, **options)
 
 
 def blank_figure(width: float, height: float, keep_height: bool = False) -> Figure:
     """Return a figure of a width and height in mm, as `new_figure` does, without axes."""
-    if AXES.get() is not None:
+    if looks.AXES.get() is not None:
         raise InputError("ax: this figure has several panels, and makes its own; leave ax out")
-    wanted, letters = WIDTH.get() or width, float(RC["font.size"]) / FONT_SIZE
+    wanted, letters = looks.WIDTH.get() or width, float(looks.RC["font.size"]) / looks.FONT_SIZE
     height *= max(1.0 if keep_height else wanted / width, letters)
     width = wanted
-    return Drawing(figsize=(width * MM, height * MM), layout="constrained")
+    return looks.Drawing(figsize=(width * MM, height * MM), layout="constrained")
 
 
 def single_axis(**options: Any) -> tuple[Figure, Axes]:
@@ -229,7 +215,7 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
     'curve.png'
     """
     target = checked_output(path, FIGURES)
-    with using(getattr(figure, "settings", carom_settings())), quiet():
+    with looks.using(getattr(figure, "settings", looks.carom_settings())), looks.quiet():
         return replace_whole(
             target, lambda where: figure.savefig(where, dpi=DPI), ending_of(target, FIGURES)
         )
@@ -250,14 +236,7 @@ def label(name: str, unit: str | None = None) -> str:
 
 
 def with_formulas(text: str) -> str:
-    """Return a text whose formulas, written as in a terminal, are set as formulas in figures.
-
-    Examples
-    --------
-    >>> from carom.plots.style import with_formulas
-    >>> print(with_formulas("linear spring, k_t/k_n = kappa"))
-    linear spring, $k_t/k_n$ = $\\kappa$
-    """
+    """Return a text whose formulas, written as in a terminal, are set as formulas in figures."""
     return FORMULA.sub(lambda match: "$" + GREEK.sub(r"\\\g<0>", match[0]) + "$", text)
 
 

@@ -19,21 +19,11 @@ class Quantity(NamedTuple):
     meaning: str
 
     def text(self, value: float, digits: int = DIGITS) -> str:
-        """Return a value with its unit, to read; a dash for what is no number.
-
-        >>> from carom.quantities.glossary import GLOSSARY
-        >>> GLOSSARY["radius"].text(0.000187666), GLOSSARY["angle"].text(0.5)
-        ('187.666 µm', '28.6479 deg (0.5 rad)')
-        """
+        """Return a value with its unit, to read; a dash for what is no number."""
         return text(value, self.unit, digits)
 
     def span(self, low: float, high: float, digits: int = DIGITS) -> str:
-        """Return from where to where values go, in one unit, to read.
-
-        >>> from carom.quantities.glossary import GLOSSARY
-        >>> GLOSSARY["normal_force"].span(0.0, 845.996)
-        '0 to 845.996 N'
-        """
+        """Return from where to where values go, in one unit, to read."""
         return span(low, high, self.unit, digits)
 
 

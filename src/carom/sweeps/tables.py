@@ -78,7 +78,7 @@ class Table(Design):
         for values in self._by_input.values():
             digest.update(np.ascontiguousarray(values).tobytes())
         choices = {
-            name: [one.description() for one in self._choices[name]] for name in self._choices
+            name: [one.description() for one in some] for name, some in self._choices.items()
         }
         whole = {"inputs": list(self.names), "rows": self.shape[0], "choices": choices}
         return {"kind": "table", **whole, "sha256": digest.hexdigest()}

@@ -112,7 +112,6 @@ class Tuning:
 
         Examples
         --------
-        >>> import carom
         >>> tuning = carom.verify.tune([carom.dem.HardSphere()], chi=1.4412)
         >>> round(tuning.best(carom.dem.HardSphere).tangential_restitution, 2)
         0.36

@@ -18,18 +18,10 @@ from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import Faults, InputError, nearest, refusal, refuse
 from carom.quantities.units import positive
 from carom.verify.entries import is_function
+from carom.verify.scoring import points as scored
 from carom.verify.scoring.cases import ScoredCase, results_of, scored_case
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
 from carom.verify.scoring.origins import MOST_ORIGINS, NAMES, origins_of
-from carom.verify.scoring.points import (
-    FEWEST_POINTS,
-    Scored,
-    compared,
-    energy_audit,
-    friction_audit,
-    notes_on,
-    refuse_large,
-)
 from carom.verify.scoring.result import Score
 from carom.verify.scoring.velocities import AFTER, BEFORE, score_velocities
 
@@ -135,14 +127,12 @@ def score(
         quantities = in_units(table, names, (*AFTER, "psi_out"), faults)
         faults.settle()
         table, quantities, gaps = _measured(table, quantities)
-        scored = SCORERS[kind](quantities, scored_case(case, chi, table.case, restitution), limit)
+        found = SCORERS[kind](quantities, scored_case(case, chi, table.case, restitution), limit)
     most = 1 if kind == "history" else MOST_ORIGINS
     origins, notes = origins_of(table, {"code": code, "law": law}, most)
     ignored = (f"columns that were not used: {', '.join(unused)}",) if unused else ()
-    notes = *scored.notes, *notes, *gaps, *ignored, *law_notes
-    return Score(
-        kind, limit, scored.points, scored.audit, notes, scored.inputs, scored.forces, origins
-    )
+    notes = *found.notes, *notes, *gaps, *ignored, *law_notes
+    return Score(kind, limit, found.points, found.audit, notes, found.inputs, found.forces, origins)
 
 
 def _measured(
@@ -174,20 +164,20 @@ def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     )
 
 
-def score_rebounds(results: UserTable, case: ScoredCase, limit: float) -> Scored:
+def score_rebounds(results: UserTable, case: ScoredCase, limit: float) -> scored.Scored:
     """Return the points of a rebound curve, and what is found of them."""
     results.require("psi_in", "psi_out")
-    results.require_rows(FEWEST_POINTS)
+    results.require_rows(scored.FEWEST_POINTS)
     chi, before, after = _chi(results, case), results["psi_in"], results["psi_out"]
-    refuse_large(before, after, results)
+    scored.refuse_large(before, after, results)
     change = (after - before) * (after + before)
-    points = compared(before, after, chi, case.restitution, change, results)
+    points = scored.compared(before, after, chi, case.restitution, change, results)
     restitution, unit = np.full(len(results), case.restitution), np.ones(len(results))
     audit = (
-        energy_audit(points, unit, "in psi^2", limit),
-        friction_audit(points, restitution, limit),
+        scored.energy_audit(points, unit, "in psi^2", limit),
+        scored.friction_audit(points, restitution, limit),
     )
-    return Scored(points, audit, notes_on(points), {})
+    return scored.Scored(points, audit, scored.notes_on(points), {})
 
 
 def _chi(results: UserTable, case: ScoredCase) -> Array:
