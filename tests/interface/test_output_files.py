@@ -9,7 +9,7 @@ import stat
 import subprocess
 import sys
 import threading
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -304,16 +304,12 @@ def test_a_pipe_without_another_end_is_refused(what, lonely, capsys):
     assert threading.active_count() == threads
 
 
-@pytest.mark.parametrize(
-    "what",
-    [
-        *("impact", "sweep", "fit", "score", "table of a sweep"),
-        pytest.param("tune", marks=pytest.mark.slow),
-    ],
-)
+@pytest.mark.parametrize("what", ["impact", "sweep", "fit", "score", "table of a sweep", "tune"])
 def test_a_pipe_is_read_like_a_file(what, tmp_path, monkeypatch, capsys):
     """Once: what a pipe gives is not there a second time."""
     monkeypatch.chdir(tmp_path)
+    one_law = partial(carom.verify.tune, [carom.dem.LinearSpring()])  # all would take long
+    monkeypatch.setattr(carom.verify, "tune", one_law)
     table = "psi_1,psi_2,chi\n0.5,0.1,1.44\n1.0,0.0,1.44\n2.0,-0.9,1.44\n"
     content, words = {
         "impact": (f"angle = 0.2\n{BODIES}", ["impact", "NAME"]),
