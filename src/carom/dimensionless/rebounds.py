@@ -23,7 +23,7 @@ from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 from carom.quantities.arrays import along_the_same, pure_numbers, together
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import flag
+from carom.quantities.refusals import flag, refusal
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import threads_or_none
 
@@ -95,6 +95,10 @@ def solved(
 
 def is_elastic(loss: int, parameter: Array, extra: Array) -> NDArray[np.bool_]:
     """Tell where so little is lost, 1 - e below 2e-10, that the impact is the elastic one."""
+    if loss != Loss.VISCOUS and loss not in march.SOLIDS:
+        raise refusal(
+            "loss", loss, "has no solid in SOLIDS of dimensionless/lossy/springs/march.py"
+        )
     if loss == Loss.PLASTIC:
         return np.asarray(parameter > 1.0 - NEARLY_YIELDING)
     alpha = parameter * extra if loss == Loss.RELAXING else parameter

@@ -9,7 +9,7 @@ slower than the sphere by (5/4) lambda P. lambda = 0 is a thick wall.
 import numpy as np
 
 from carom.dimensionless.lossy.springs import springs as of
-from carom.dimensionless.lossy.springs.motion import DEPTH, DRAG, EDGE, LOAD, SPEED
+from carom.dimensionless.lossy.springs.motion import DEPTH, DRAG, EDGE, LOAD, PACE, SPEED
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -24,6 +24,12 @@ def press(give: float, now: Array, new: Array, springs: Array, laid: int) -> int
         springs[of.LIMIT, j], springs[of.RATE, j] = springs[of.NEXT, j], now[SPEED]
         springs[of.NEXT, j] = new[DEPTH] - springs[of.S, j]
     return touching
+
+
+@kernel
+def turn(give: float, now: Array) -> None:
+    """Make steps longer as unloading begins, as a plate that gives way takes longer."""
+    now[PACE] = 1.0 + give
 
 
 @kernel

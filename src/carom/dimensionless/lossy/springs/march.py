@@ -4,10 +4,10 @@
     Q = integral of f dx over 0 <= x <= b,
 
 f that of springs in shear, whose Coulomb limit is what they bear in compression. The solid says
-what that is and what load it makes: hertz, thornton and relaxing; a new one is a file beside them
-and a line in `press`, in `stored` and, if it changes where the bodies turn, in `turn`. Springs are
-laid at the edge as it grows, every second step. Of second order in the number of springs; what
-comes of two numbers of springs is extrapolated.
+what that is and what load it makes: hertz, thornton and relaxing; a new one is a file beside them,
+its place in SOLIDS, and a line in `press`, in `stored` and, if it changes where the bodies turn, in
+`turn`. Springs are laid at the edge as it grows, every second step. Of second order in the number
+of springs; what comes of two numbers of springs is extrapolated.
 """
 
 from typing import NamedTuple
@@ -22,11 +22,15 @@ from carom.dimensionless.lossy.springs.motion import Inertia, Solid
 from carom.dimensionless.numerics.arrays import Array, Codes, Cube, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
+SOLIDS = {Loss.PLATE: hertz, Loss.PLASTIC: thornton, Loss.RELAXING: relaxing}
+
 MOST_SPRINGS = 500
 SPARE_SPRINGS = 40
 PER_SPRING = 2  # steps of the loading to a spring
+UNKNOWN = -1  # in place of how many springs touch: a solid that is not marched
 LONGEST = 20 * PER_SPRING * MOST_SPRINGS
 ELASTIC_CLOCK = 1.26  # of the loading of elastic bodies
+STANDING = 1e-7  # speed at which the bodies turn; a step that ends faster is followed by another
 ENDLESS = 1e300  # relaxation time of an elastic solid
 
 # Of a row that is kept, besides those of the layout: whether springs slip, either way.
@@ -39,7 +43,7 @@ FRAMES = 3
 
 TRIAL_SPRINGS = 40  # with which the clock of the loading is found
 LEAST_ERROR = 1e-6  # of psi_2, in max(1, psi_1)
-FEW, MANY = MOST_SPRINGS // 2, MOST_SPRINGS
+FEW, MANY = 245, 490  # of which the results are made
 
 
 class Arrays(NamedTuple):
@@ -92,6 +96,8 @@ def march(
         clock += part * h if grows else 0.0
         met = touching
         touching = press(solid, now, new, turned, springs, laid)
+        if touching == UNKNOWN:
+            return 0, clock
         if touching == 0:
             end(now, new, springs)
         let_go(springs, touching, met, inertia.chi, solid.extra, state)
@@ -105,7 +111,7 @@ def march(
             note(new, turned, state, numbers)
             numbers[layout.STRONGEST] = strongest
             return i + 1, clock
-        if part < 1.0 or (now[at.SPEED] > 0.0 and new[at.SPEED] <= 0.0):
+        if now[at.SPEED] > 0.0 and new[at.SPEED] <= STANDING:
             new[at.SPEED] = min(new[at.SPEED], 0.0)
             if new[at.EDGE] >= widest:
                 of.lay(springs, laid, new[at.EDGE])
@@ -133,7 +139,9 @@ def press(solid: Solid, now: Array, new: Array, turned: Array, springs: Array, l
         return int(thornton.press(solid.parameter, now, new, turned, springs, laid))
     if solid.loss == Loss.RELAXING.value:
         return int(relaxing.press(solid.extra, solid.parameter, now, new, springs, laid))
-    return int(hertz.press(solid.parameter, now, new, springs, laid))
+    if solid.loss == Loss.PLATE.value:
+        return int(hertz.press(solid.parameter, now, new, springs, laid))
+    return UNKNOWN
 
 
 @kernel
@@ -142,7 +150,7 @@ def turn(solid: Solid, now: Array, springs: Array, touching: int, state: Array) 
     if solid.loss == Loss.PLASTIC.value:
         state[at.FORCE] = thornton.turn(now, springs, touching)
     elif solid.loss == Loss.PLATE.value:
-        now[at.PACE] = 1.0 + solid.parameter
+        hertz.turn(solid.parameter, now)
 
 
 @kernel
@@ -152,7 +160,9 @@ def stored(solid: Solid, now: Array, springs: Array, touching: int) -> float:
         return float(relaxing.stored(solid.extra, now[at.EDGE], springs, touching))
     if solid.loss == Loss.PLATE.value:
         return float(hertz.stored(now[at.DEPTH]))
-    return float(thornton.stored(now[at.EDGE], now[at.LOAD]))
+    if solid.loss == Loss.PLASTIC.value:
+        return float(thornton.stored(now[at.EDGE], now[at.LOAD]))
+    return np.nan
 
 
 @kernel
@@ -172,7 +182,7 @@ def let_go(springs: Array, touching: int, met: int, chi: float, extra: float, st
         if extra > 0.0:
             state[at.LOST] += 1.875 * chi * springs[of.WEIGHT, j] * (u * u + extra * m * m)
         else:
-            springs[of.U, j], springs[of.NEXT, j] = 0.0, 0.0
+            springs[of.U, j], springs[of.NEXT, j], springs[of.BEND, j] = 0.0, 0.0, 0.0
 
 
 @kernel
@@ -191,12 +201,12 @@ def kick_and_stretch(
     rate = -at.braking(inertia, now[at.LOAD], state[at.FORCE])
     half = state[at.PSI] + 0.5 * dt * rate
     step = of.step_of(g, theta, dt, state[at.PSI], half, rate)
-    force, square = of.stretch(springs, touching, new[at.EDGE], step)
+    force, kick, square = of.stretch(springs, touching, new[at.EDGE], step)
     losing = square * g / theta
     state[at.LOST] += 1.875 * inertia.chi * dt * (state[at.LOSING] + losing)
     state[at.LOSING] = losing
-    at.settle(inertia, now, new, state[at.FORCE], force)
-    state[at.PSI] = half - 0.5 * dt * at.braking(inertia, new[at.LOAD], force)
+    at.settle(inertia, now, new, state[at.FORCE], kick)
+    state[at.PSI] = half - 0.5 * dt * at.braking(inertia, new[at.LOAD], kick)
     state[at.MOVED] += half * dt
     state[at.FORCE] = force
 
