@@ -25,7 +25,10 @@ READY = "document.querySelector('#results table') && window.Carom && Carom.page.
 BETWEEN = "?angle=1.5&friction=0.05"  # no test begins here
 CHART = "document.querySelector('#rebounds .js-plotly-plot')?._fullData"
 TRAVEL = f"""query => {{
-  document.activeElement.blur();
+  const top = Object.assign(document.createElement("i"), {{ tabIndex: -1 }});
+  document.body.prepend(top);
+  top.focus(); // from where the tab key goes on
+  top.remove();
   scrollTo(0, 0);
   window.left = Carom.page.answers()[0];
   window.drawn = {CHART};
@@ -144,6 +147,12 @@ class Visit:
         """Choose from a list."""
         self.page.locator(f"#{name}").select_option(label=option)
 
+    def settle(self):
+        """Wait until what is due is drawn."""
+        self.page.evaluate(
+            "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+        )
+
     def pixels(self, canvas):
         """Return the picture of a canvas as text."""
         return self.page.evaluate(f"document.getElementById('{canvas}').toDataURL()")
@@ -186,6 +195,12 @@ def chromium():
 def tabs():
     """The tab that visits share, once there is one."""
     return []
+
+
+@pytest.fixture
+def page(visit, tabs):
+    """The page whatever it shows, for its functions."""
+    return (tabs[0] if tabs else visit()).page
 
 
 @pytest.fixture

@@ -19,6 +19,8 @@ STATES = {
 EMPTIEST = 1 / 3  # of a card
 ABOUT = 28  # pixels around what a card holds that are not empty
 STAGES = script("stages")
+REDRAWN = script("redrawn")
+SLIDERS = "[...document.querySelectorAll('#fields input[type=range]')].filter(x => x.checkVisibility())"
 EMPTY = script("empty")
 WORDS = script("page_words")
 CANVAS_WORDS = script("canvas_words")
@@ -76,16 +78,21 @@ def check_cards(seen):
 
 def check_sliders(seen):
     """The pictures stay in view while a slider is moved, and do not hide it."""
-    sliders = seen.page.locator("#fields input[type=range]").all()
-    moved = [slider for slider in sliders if slider.is_visible()]
-    assert len(moved) >= 4
-    for slider in moved:
-        slider.scroll_into_view_if_needed()
-        slider.press("ArrowRight")
+    count = seen.page.evaluate(f"{SLIDERS}.length")
+    assert count >= 4
+    for row in range(count):
+        seen.page.evaluate(f"{SLIDERS}[{row}].scrollIntoViewIfNeeded()")
+        seen.page.evaluate(f"{SLIDERS}[{row}].focus()")
+        seen.page.keyboard.press("ArrowRight")
+        seen.settle()
         assert min(seen.page.evaluate(STAGES)) >= 0
-        box, film = slider.bounding_box(), seen.page.locator("#film").bounding_box()
-        if box["x"] < film["x"] + film["width"] and film["x"] < box["x"] + box["width"]:
-            assert box["y"] >= film["y"] + film["height"]
+        slider, film = seen.page.evaluate(
+            f"[{SLIDERS}[{row}], document.getElementById('film')].map(at => {{"
+            " const { left, right, top, bottom } = at.getBoundingClientRect();"
+            " return { left, right, top, bottom }; })"
+        )
+        if slider["left"] < film["right"] and film["left"] < slider["right"]:
+            assert slider["top"] >= film["bottom"]
 
 
 @pytest.mark.parametrize("state", STATES)
@@ -94,8 +101,7 @@ def test_the_page_is_composed(visit, width, state):
     seen = visit(f"?{STATES[state]}", width=width)
     seen.until(lambda: seen.traces("energies"))
     for theme in THEMES:
-        seen.page.evaluate(f"Carom.theme.choose('{theme}')")
-        seen.page.wait_for_timeout(300)
+        seen.page.evaluate(REDRAWN, theme)
         check_words(seen)
         check_pictures(seen)
         check_cards(seen)
@@ -109,7 +115,7 @@ def test_panels_are_composed(visit, width, panel):
     place = {"Measurements": "#fit .main-svg", "Files": "#files a", "Python": "#code"}[panel]
     seen.until(lambda: seen.page.locator(place).first.is_visible())
     seen.until(lambda: panel != "Python" or "carom" in seen.page.inner_text("#code"))
-    seen.page.wait_for_timeout(300)
+    seen.settle()
     check_words(seen)
     empty = {each["card"]: each["empty"] for each in seen.page.evaluate(EMPTY, ABOUT)}
     assert {card: share for card, share in empty.items() if share > EMPTIEST} == {}

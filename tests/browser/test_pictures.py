@@ -37,8 +37,7 @@ def faults(words, width, height):
         "given=numbers&psi=-1.5&chi=1.9",
     ],
 )
-def test_no_word_is_cut_small_or_over_another(visit, query):
-    page = visit().page
+def test_no_word_is_cut_small_or_over_another(page, query):
     wrong = []
     for part in ("stage", "patch"):
         for width, height in BOXES:
@@ -50,8 +49,7 @@ def test_no_word_is_cut_small_or_over_another(visit, query):
     assert wrong == []
 
 
-def test_the_key_stays_in_the_smallest_box(visit):
-    page = visit().page
+def test_the_key_stays_in_the_smallest_box(page):
     for part in ("stage", "patch"):
         (words,) = page.evaluate(WORDS, ["", part, 170, 140, [0.75]])
         assert {"stick", "slip \N{MINUS SIGN}"} <= {text for text, *_ in words}
@@ -91,9 +89,8 @@ def test_gross_slip_is_grey_on_both_pictures(visit):
         assert not masks["stick"].any()
 
 
-def test_hatches_tell_the_sign(visit):
+def test_hatches_tell_the_sign(page):
     words = script("hatch")
-    page = visit().page
     for sign in (1, -1):
         level = np.array(page.evaluate(words, sign)).reshape(60, 60, 4)[..., 2].astype(float)
         rising = np.abs(level[1:, :-1] - level[:-1, 1:]).mean()
@@ -121,17 +118,16 @@ def test_hatches_tell_the_sign(visit):
         ("angle=20&spin=-300&speed=0.5", -0.3, "it spins so fast that .* moves backwards"),
     ],
 )
-def test_sentences(visit, query, share, sentence):
-    (told,) = visit().page.evaluate(TOLD, [query, [share]])
+def test_sentences(page, query, share, sentence):
+    (told,) = page.evaluate(TOLD, [query, [share]])
     assert re.search(sentence, told)
     assert told[0].isupper()
     assert told.endswith(".")
     assert told.count(".") == 1
 
 
-def test_what_is_told_is_so(visit):
+def test_what_is_told_is_so(page):
     """Random impacts: where the spring is said to drive the ball, it does work on it, and so on."""
-    page = visit().page
     generator = np.random.default_rng(29)
     for _ in range(24):
         psi = float(generator.choice([-1.0, 1.0]) * generator.uniform(0.05, 6.0))
@@ -171,9 +167,8 @@ def check(solved, share, told, query):
         assert near.speed[1] < 0.05, where
 
 
-def test_slow_motion_is_smooth(visit):
+def test_slow_motion_is_smooth(page):
     words = script("slow_motion")
-    page = visit().page
     pace = page.evaluate("Carom.clock.pace()")
     found = page.evaluate(words)
     usual, slow = (np.diff(found[name])[:-1] for name in ("usual", "slow"))
@@ -203,10 +198,10 @@ def test_jumps_to_changes_of_phase(visit):
             assert borders[row] <= now <= borders[row] + 1.1e-6
 
 
-def test_tiny_forces_are_told_as_large_ones_are(visit):
+def test_tiny_forces_are_told_as_large_ones_are(page):
     """Billiard balls that roll on each other as gear wheels all but do: nothing is rounded away."""
-    queries = [f"?given=numbers&psi={psi:.15g}" for psi in (1e-4, 1e-9)]
+    queries = [f"given=numbers&psi={psi:.15g}" for psi in (1e-4, 1e-9)]
     shares = [-0.3, 0.1, 0.3, 0.5, 0.7, 0.9, 1.3]
-    one, other = (visit().page.evaluate(TOLD, [query[1:], shares]) for query in queries)
+    one, other = (page.evaluate(TOLD, [query, shares]) for query in queries)
     assert one == other
     assert not any("without friction" in sentence or "to rest" in sentence for sentence in one)

@@ -22,6 +22,7 @@ Carom.code = (() => {
   }
 
   function show(query = wanted) {
+    if (query !== wanted) asking?.abort(); // or its answer would come after this
     wanted = query;
     if (!Carom.source.can.code) place.textContent = Carom.source.why;
     const seen = Carom.source.can.code && Carom.tabs.chosen() === "Python";
