@@ -1,8 +1,8 @@
 """The page in a real browser: one server and one Chromium for all tests, mostly one tab.
 
-Loading the page takes a while, nearly all of it in plotly. So a visit opens its link in the tab that
-is there, as the browser's buttons for back and forward do, unless it asks to load the page. Every
-test ends with the console free of errors and warnings and no other host asked.
+Loading the page takes a while, nearly all of it in plotly. So a visit opens its link in the tab
+that is there, as the browser's buttons for back and forward do, unless it asks to load the page.
+Every test ends with the console free of errors and warnings and no other host asked.
 """
 
 import json

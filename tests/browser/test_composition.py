@@ -20,7 +20,6 @@ EMPTIEST = 1 / 3  # of a card
 ABOUT = 28  # pixels around what a card holds that are not empty
 STAGES = script("stages")
 REDRAWN = script("redrawn")
-SLIDERS = "[...document.querySelectorAll('#fields input[type=range]')].filter(x => x.checkVisibility())"
 EMPTY = script("empty")
 WORDS = script("page_words")
 CANVAS_WORDS = script("canvas_words")
@@ -78,21 +77,16 @@ def check_cards(seen):
 
 def check_sliders(seen):
     """The pictures stay in view while a slider is moved, and do not hide it."""
-    count = seen.page.evaluate(f"{SLIDERS}.length")
-    assert count >= 4
-    for row in range(count):
-        seen.page.evaluate(f"{SLIDERS}[{row}].scrollIntoViewIfNeeded()")
-        seen.page.evaluate(f"{SLIDERS}[{row}].focus()")
+    sliders = seen.page.locator("#fields input[type=range]:visible").all()
+    assert len(sliders) >= 4
+    for slider in sliders:
+        slider.focus()  # which scrolls to it
         seen.page.keyboard.press("ArrowRight")
         seen.settle()
         assert min(seen.page.evaluate(STAGES)) >= 0
-        slider, film = seen.page.evaluate(
-            f"[{SLIDERS}[{row}], document.getElementById('film')].map(at => {{"
-            " const { left, right, top, bottom } = at.getBoundingClientRect();"
-            " return { left, right, top, bottom }; })"
-        )
-        if slider["left"] < film["right"] and film["left"] < slider["right"]:
-            assert slider["top"] >= film["bottom"]
+        box, film = slider.bounding_box(), seen.page.locator("#film").bounding_box()
+        if box["x"] < film["x"] + film["width"] and film["x"] < box["x"] + box["width"]:
+            assert box["y"] >= film["y"] + film["height"]
 
 
 @pytest.mark.parametrize("state", STATES)

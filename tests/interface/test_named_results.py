@@ -1,6 +1,7 @@
 """Results that say by which code and contact law they were computed: in files, reports, figures."""
 
 import json
+from functools import cache
 
 import numpy as np
 import pandas as pd
@@ -17,11 +18,16 @@ LAWS = {"mindlin": carom.dem.LammpsMindlin("mindlin"), "exact": carom.dem.ExactC
 NAMES = ["$x_1$", "$", "_hidden", "a" * 300, "two\nlines", "µ-DEM", "%d {0} \\alpha"]
 
 
+@cache
+def rebounds():
+    return [psi for law in LAWS.values() for psi in law.rebound(PSI, CHI, steps=500)]
+
+
 def both(code="LAMMPS"):
     """Columns with the results of two laws."""
     return {
         "psi_1": [*PSI, *PSI],
-        "psi_2": [psi for law in LAWS.values() for psi in law.rebound(PSI, CHI, steps=500)],
+        "psi_2": rebounds(),
         "code": [code] * (2 * PSI.size),
         "law": [name for name in LAWS for _ in PSI],
     }
@@ -32,7 +38,10 @@ def one(**more):
 
 
 def labels(result):
-    figure = plot_score(result.to_dataset())
+    return legend_of(plot_score(result.to_dataset()))
+
+
+def legend_of(figure):
     legends = [*figure.legends, *(axis.get_legend() for axis in figure.axes)]
     return [text.get_text() for each in legends if each for text in each.get_texts()]
 
@@ -75,8 +84,9 @@ def test_the_legend_names_code_law_and_error():
 @pytest.mark.parametrize("name", NAMES)
 def test_any_name_can_be_drawn(name, tmp_path):
     result = score(one(), chi=CHI, code=name, law=name)
-    carom.plots.save_figure(result.plot(), tmp_path / "score.svg")
-    assert any("off by 0.58" in label for label in labels(result))
+    figure = result.plot()
+    carom.plots.save_figure(figure, tmp_path / "score.svg")
+    assert any("off by 0.58" in label for label in legend_of(figure))
     found = carom.verify.error_map(named(name), [0.5, 1.0], [1.2, 1.4], steps=20)
     carom.plots.save_figure(carom.plots.plot_error_map(found), tmp_path / "map.svg")
 

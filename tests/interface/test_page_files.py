@@ -26,17 +26,24 @@ STATES = {
 }
 
 
+@pytest.fixture(autouse=True)
+def _coarse(monkeypatch):
+    monkeypatch.setattr("carom.plots.style.DPI", 100)  # sooner stored
+
+
 def some_slow(cases, slow):
     return [pytest.param(x, id=str(x), marks=[pytest.mark.slow] * (x in slow)) for x in cases]
 
 
 @pytest.mark.parametrize("name", some_slow(STATES, ("losses", "numbers with losses")))
-def test_every_picture_is_written_in_both_modes(name, tmp_path, monkeypatch):
-    monkeypatch.setattr("carom.plots.style.DPI", 150)  # sooner stored
+def test_every_picture_is_written_in_both_modes(name, tmp_path):
     for picture in PICTURES:
         with Image.open(files.write(f"{picture}.png", STATES[name], 0.6, tmp_path)) as image:
             assert min(image.size) >= 200
             assert len(image.convert("RGB").getcolors(2**24)) > 50  # not an empty sheet
+
+
+def test_pictures_are_written_as_drawings(tmp_path):
     for name, begin in {"curve.svg": b"<?xml", "contact.pdf": b"%PDF"}.items():
         assert files.write(name, BODIES, 0.6, tmp_path).read_bytes().startswith(begin)
 

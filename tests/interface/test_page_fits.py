@@ -4,6 +4,7 @@ import csv
 import io
 import json
 from base64 import b64encode
+from functools import cache
 
 import numpy as np
 import pytest
@@ -19,6 +20,11 @@ from carom.explorer.worker import Worker
 
 PAIR = View().pair
 ANGLES = range(4, 76, 4)
+
+
+@cache
+def fitted(name):
+    return carom.fit(carom.datasets.path(name))
 
 
 def sent(content):
@@ -51,7 +57,7 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("name", carom.datasets.names())
 def test_a_fit_is_the_librarys(name):
-    told, found = answer({"data": name}), carom.fit(carom.datasets.path(name))
+    told, found = answer({"data": name}), fitted(name)
     assert told == json.loads(json.dumps(told, allow_nan=False))
     assert told["words"] == str(found)
     assert told["bodies"]["from"] == "file"
@@ -100,11 +106,10 @@ def test_bodies_are_not_asked_for_in_vain(content, words):
 
 
 def test_bodies_of_the_file_are_not_those_of_the_page():
-    file = carom.datasets.path("kharaz2001")
-    told = asked(file.read_bytes(), "given=bodies&radius=9")
+    told = asked(carom.datasets.path("kharaz2001").read_bytes(), "given=bodies&radius=9")
     assert told["bodies"]["from"] == "file"
     assert "2.5 mm" in told["bodies"]["text"]
-    assert told["words"] == str(carom.fit(file))
+    assert told["words"] == str(fitted("kharaz2001"))
 
 
 def test_columns_say_what_they_were_taken_for():

@@ -245,15 +245,14 @@ def test_regime_bands_end_at_1_2_chi_and_4_chi_minus_1(figures):
 
 def test_drawing_needs_no_solver(history, tmp_path):
     """A stored history is read and drawn in a process that never loads the solution."""
-    stored, picture = save(history, tmp_path / "hit.nc"), tmp_path / "hit.png"
+    stored, picture = save(history, tmp_path / "hit.nc"), tmp_path / "hit.svg"
     code = (
         "import sys, carom.plots as plots; from carom import read\n"
         f"plots.save_figure(plots.plot_impact(read({str(stored)!r})), {str(picture)!r})\n"
         "assert 'carom.dimensionless.solution' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
-    with Image.open(picture) as drawn:
-        assert drawn.width == int(178.0 * MM * 300)
+    assert f'width="{72.0 * 178.0 * MM:.6f}pt"' in picture.read_text(encoding="utf-8")
 
 
 def test_the_users_settings_neither_matter_nor_change(history):

@@ -39,22 +39,28 @@ def drawers(pair, hit):
     return given
 
 
+@pytest.fixture(scope="module")
+def usual(drawers):
+    """What they draw, by their names."""
+    return {name: getattr(plots, name)(given) for name, given in drawers.items()}
+
+
 def texts(figure):
     """Return the texts that can be seen, once drawn."""
-    FigureCanvasAgg(figure).draw()
+    figure.draw_without_rendering()
     return [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
 
 
-def test_every_figure_has_the_width_and_the_font_that_were_asked_for(drawers):
+def test_every_figure_has_the_width_and_the_font_that_were_asked_for(drawers, usual):
     """The larger font is that of labels; no text keeps the size of the usual one."""
     for name, given in drawers.items():
-        usual = {text.get_fontsize() for text in texts(getattr(plots, name)(given))}
+        small = {text.get_fontsize() for text in usual[name].findobj(Text)}
         figure = getattr(plots, name)(given, width=150.0, font_size=9.5)
         assert figure.get_figwidth() == pytest.approx(150.0 * MM, rel=1e-12), name
         sizes = {round(text.get_fontsize(), 3) for text in texts(figure)}
         assert max(sizes) == pytest.approx(9.5), name
-        assert max(usual) == pytest.approx(7.5), name
-        assert min(sizes) > min(usual), name
+        assert max(small) == pytest.approx(7.5), name
+        assert min(sizes) > min(small), name
 
 
 def test_a_style_of_matplotlib_goes_on_top_and_stays_with_the_figure(hit):
@@ -195,16 +201,17 @@ def test_a_figure_is_a_picture_in_a_notebook(hit):
 SEVERAL = {"plot_impact", "plot_wear", "plot_contact", "plot_laws", "plot_score", "plot_strength"}
 
 
-def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers):
+def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers, usual):
     """As it is without; the rest of the figure, its size and a user's settings stay."""
-    for name, given in drawers.items():
+    fields = drawers["plot_profiles"].fields("21 us")
+    one = {"plot_profiles": (fields, plots.plot_profiles(fields))}
+    one = {name: (given, usual[name]) for name, given in drawers.items()} | one
+    for name, (given, same) in one.items():
         if name in SEVERAL:
             continue
         figure, (left, right) = pyplot.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")
-        if name == "plot_profiles":
-            given = given.fields("21 us")
         assert getattr(plots, name)(given, ax=right) is figure, name
-        alone = getattr(plots, name)(given).axes[0]
+        alone = same.axes[0]
         assert not left.has_data(), name
         for kind in ("lines", "patches", "collections", "texts"):
             kinds = [len(getattr(axis, kind)) for axis in (right, alone)]

@@ -183,4 +183,4 @@ def test_page_says_what_the_laws_do(monkeypatch, tmp_path):
     changed = page.replace("| 0.427 | 0.75 |", "| 0.437 | 0.75 |")
     (tmp_path / "laws.md").write_text(changed, encoding="utf-8")
     monkeypatch.setattr(script, "PAGE", tmp_path / "laws.md")
-    assert script.stale(named) == ["ranking"]
+    assert script.stale(("ranking",)) == ["ranking"]

@@ -17,7 +17,7 @@ from carom.plots.style import save_figure
 WORDS = "\u92fc $\\frac{ \U0001f600"  # no font has them all, and they are no formula
 
 DRAWN = {
-    "history": ("plot_impact", "plot_forces", "plot_radii", "plot_cone"),
+    "history": ("plot_impact", "plot_cone"),  # all panels of forces and radii
     "fields": ("plot_patch",),
     "curve": ("plot_curve",),
     "score": ("plot_score",),
@@ -79,7 +79,8 @@ def test_odd_numbers_are_drawn_or_refused_in_silence(
 
 
 def test_words_that_no_font_has_are_drawn_in_silence(tmp_path, capfd, caplog):
-    laws = carom.verify.rank(chi=1.44, psi=[0.5, 1.0]).to_dataset()
+    laws = [carom.dem.LinearSpring(), carom.dem.HardSphere()]
+    laws = carom.verify.rank(laws, psi=[0.5, 1.0]).to_dataset()
     names = [f"\u92fc {i}" for i in range(laws.sizes["law"])]
     with warnings.catch_warnings():
         warnings.simplefilter("error")

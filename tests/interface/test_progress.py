@@ -23,7 +23,7 @@ carom.io.progress.SECONDS_BEFORE_BAR = {patience}
 with advancing("impacts", 30, unit="steps") as advance:
     for step in range(30):
         advance(1)
-        time.sleep(0.02)
+        time.sleep(0.01)
         {more}
 print("done", file=sys.stderr)
 """
@@ -103,7 +103,7 @@ def screen(text, columns=100):
 def test_a_bar_comes_and_goes(count, columns):
     """It shows what is done and what is left of it, if that is known, and leaves a clean line and
     the cursor."""
-    code = LONG.format(patience=0.2, more="").replace("30, unit", f"{count}, unit")
+    code = LONG.format(patience=0.1, more="").replace("30, unit", f"{count}, unit")
     got, _, status = on_terminal(code, columns=columns)
     assert status == 0
     assert screen(got, columns) == (["done", ""], True)
@@ -127,7 +127,7 @@ def test_short_work_shows_nothing():
 def test_work_with_few_steps_is_seen():
     """The bar does not wait for the end of the first step."""
     code = "import time, carom.io.progress as p\np.SECONDS_BEFORE_BAR = 0.1\n"
-    code += "with p.advancing('laws', 2):\n    time.sleep(0.6)"
+    code += "with p.advancing('laws', 2):\n    time.sleep(0.3)"
     got, _, _ = on_terminal(code)
     assert "0/2" in got
 
@@ -145,7 +145,7 @@ def test_an_interrupt_leaves_the_terminal_as_it_was():
 
 def test_an_error_leaves_the_terminal_as_it_was():
     more = "if step == 15: raise RuntimeError('no')"
-    got, _, status = on_terminal(LONG.format(patience=0.1, more=more))
+    got, _, status = on_terminal(LONG.format(patience=0.05, more=more))
     lines, cursor = screen(got)
     assert status == 1
     assert "16/30" in got
@@ -163,7 +163,7 @@ def test_a_killed_process_leaves_the_cursor():
 def test_redirected_output_gets_all_and_only_what_is_printed():
     """As with `carom ... --json > file`, while stderr is the terminal."""
     more = "print(step)"
-    got, stdout, _ = on_terminal(LONG.format(patience=0.1, more=more))
+    got, stdout, _ = on_terminal(LONG.format(patience=0.05, more=more))
     assert stdout.split() == [str(step) for step in range(30)]
     assert "30/30" in got
 
@@ -177,8 +177,8 @@ def test_a_dumb_terminal_gets_no_control_sequences():
 def test_work_within_work_has_no_bar_of_its_own():
     code = "import time, carom.io.progress as p\np.SECONDS_BEFORE_BAR = 0.1\n"
     code += "with p.advancing('outer', 2):\n    with p.advancing('inner', 3) as advance:\n"
-    code += "        advance(1); time.sleep(0.6); advance(2)\n"
-    code += "with p.advancing('after', 2):\n    time.sleep(0.6)"
+    code += "        advance(1); time.sleep(0.3); advance(2)\n"
+    code += "with p.advancing('after', 2):\n    time.sleep(0.3)"
     got, _, _ = on_terminal(code)
     assert "outer" in got
     assert "inner" not in got
@@ -186,13 +186,14 @@ def test_work_within_work_has_no_bar_of_its_own():
 
 
 def test_a_pipe_gets_nothing_unless_asked():
-    for progress, seen in (("None", False), ("False", False), ("True", True)):
-        code = LONG.format(patience=0.1, more="").replace("30, unit", f"30, {progress}, unit")
-        told = {"FORCE_COLOR": "1", **os.environ}
-        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=told)
-        assert ("30/30" in run.stderr) is seen, progress
-        assert run.stderr.endswith("done\n")
-        assert run.stdout == ""
+    work = LONG.format(patience=0.05, more="")
+    asked = (work.replace("30, unit", f"30, {progress}, unit") for progress in (None, False, True))
+    told = {"FORCE_COLOR": "1", **os.environ}
+    line = [sys.executable, "-c", "".join(asked)]
+    run = subprocess.run(line, capture_output=True, text=True, env=told)
+    by_default, unwanted, wanted, end = run.stderr.split("done\n")
+    assert by_default == unwanted == end == run.stdout == ""
+    assert "30/30" in wanted
 
 
 def test_a_command_shows_how_far_it_is():

@@ -1,5 +1,7 @@
 """All that takes long tells how far it is, in the same way."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -20,9 +22,13 @@ def by_elements(folder, progress):
     carom.impact(HIT.pair, **MOTION, method=coarse, progress=progress)
 
 
+@cache
+def fitted():
+    return carom.fit(carom.datasets.load("kharaz2001"))
+
+
 def posterior(folder, progress):
-    fit = carom.fit(carom.datasets.load("kharaz2001"))
-    fit.posterior(120, seed=1, progress=progress)
+    fitted().posterior(120, seed=1, progress=progress)
 
 
 def mapped(folder, progress):

@@ -267,9 +267,9 @@ def without_overlaps(spots: list[list[Spot]]) -> list[Label | None]:
 
 
 def _meeting(labels: list[Label]) -> Callable[[int], Mask]:
-    """Return what tells which labels one of them overlaps, and whose leader lines cross its own.
+    """Return what tells which labels one of them meets: by its place or by leader lines.
 
-    Or cross its box, as it those of others: a line that passes a label crosses one of its diagonals.
+    A line that passes a label crosses one of its diagonals.
     """
     at, end = (np.array([getattr(label, name) for label in labels]) for name in ("at", "end"))
     start = np.array([one.at if one.start is None else one.start for one in labels])
@@ -284,7 +284,7 @@ def _meeting(labels: list[Label]) -> Callable[[int], Mask]:
         meet |= _crossing(*line, start, end)
         for low, high in diagonals:
             meet |= _crossing(*line, low, high) | _crossing(low[k], high[k], start, end)
-        return meet
+        return np.asarray(meet)
 
     return meets
 
