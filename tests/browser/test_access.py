@@ -80,16 +80,6 @@ def test_dark_and_light(visit):
         seen.until(lambda same=ground == "dark": (seen.pixels("stage") == drawn) == same)
 
 
-@pytest.mark.parametrize("width", [400, 1280])
-def test_nothing_is_wider_than_the_screen(visit, width):
-    query = "?data=kharaz2001&law=mindlin&law=Walton+%26+Braun&against=sphere&angle=53.75"
-    seen = visit(query, width=width)
-    for panel in PANELS:
-        seen.page.get_by_role("tab", name=panel).click()
-        seen.settle()
-        assert seen.page.evaluate("document.documentElement.scrollWidth") <= width
-
-
 def test_a_small_screen_can_be_used(visit):
     seen = visit(width=400)
     slider = seen.page.locator("#angle-slider")

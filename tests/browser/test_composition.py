@@ -11,7 +11,7 @@ THEMES = ("light", "dark")
 CHARTS = ("rebounds", "forces", "energies")
 STATES = {
     "as it opens": "",
-    "three laws": "angle=25&friction=0.25&law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun",
+    "three laws": "against=sphere&angle=53.75&law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun",
     "numbers": "given=numbers&psi=-3.5&chi=0.7",
     "losses, beside": "restitution=0.7&angle=12&beside=angle%3D60",
     "a story": "preset=superball",
@@ -45,6 +45,7 @@ def overlapping(words, least=1.0):
 def check_words(seen):
     words = seen.page.evaluate(WORDS)
     assert len(words) > 30
+    assert seen.page.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
     assert [each["text"] for each in words if each["aside"]] == []
     assert overlapping([each for each in words if each["seen"]], 2.0) == []
 

@@ -197,10 +197,7 @@ def test_bodies_are_asked_for_and_a_fit_stays_until_another_is_wanted(visit):
     seen.page.fill("#angle", "20")  # no body of the fit
     seen.linked("angle=20")
     assert seen.page.is_hidden("#fit-ask")
-
-
-def test_with_numbers_given_no_bodies_are_offered(visit):
-    seen = opened(visit("?given=numbers"), "fit-panel")
+    seen.choose("given", "ψ₁ and χ")
     upload(seen, measured(FRICTION))
     seen.until(lambda: "Choose bodies in the controls first" in seen.page.inner_text("#fit-ask"))
     assert seen.page.locator("#fit-bodies").count() == 0

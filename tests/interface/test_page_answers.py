@@ -88,6 +88,10 @@ def test_an_answer_and_its_laws(client):
     ("path", "field", "message"),
     [
         ("answer?angle=95", "angle", "must be a number from 0 to 89.9 deg, not '95'"),
+        ("answer?angle=3 m", "angle", "must be a number from 0 to 89.9 deg, not '3 m'"),
+        ("answer?material=stell", "material", "there is no 'stell'; did you mean 'steel'"),
+        ("answer?against=wall", "against", "there is no 'wall'; there are half-space; sphere; cup"),
+        ("answer?" + "psi=1&" * 1000, "", "the link has 6000 characters; at most "),
         ("answer?friction=", "friction", "must be a number from 0 to 10; it is empty"),
         ("answer?frction=1", "", "the link says 'frction', which is unknown; did you mean"),
         ("laws?law=mindlinn", "law", "there is no 'mindlinn'; did you mean 'mindlin'"),

@@ -92,15 +92,15 @@ def test_bodies_are_asked_for_where_the_file_does_not_tell_them():
     assert low < 0.123 < high
 
 
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        ("angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
-        ("angel [deg],contact_beta\n10,0.5\n", "did you mean"),
-        ("colour,size\n1,2\n", "no measured response"),
-        ("angle,contact_beta\n10,0.5\n", "for degrees write"),
-    ],
-)
+WRONG = [
+    ("angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
+    ("angel [deg],contact_beta\n10,0.5\n", "did you mean"),
+    ("colour,size\n1,2\n", "no measured response"),
+    ("angle,contact_beta\n10,0.5\n", "for degrees write"),
+]
+
+
+@pytest.mark.parametrize(("content", "words"), WRONG)
 def test_bodies_are_not_asked_for_in_vain(content, words):
     refused(words, asked, content)
 
@@ -137,10 +137,7 @@ def test_drops_are_told_as_restitution_against_speed():
     [
         *((b"what", "me.csv"), (b"a" * 1_000_001, "must be at most 1000000 bytes")),
         (b"angle [deg],contact_restitution\n" + b"10,0.2\n" * 2001, "at most 2000 rows"),
-        *((b"", "me.csv"), (b"colour,size\n1,2\n3,4\n", "no measured response")),
-        (b"angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
-        (b"angle [deg],contact_beta\n10,0.5\n", "cannot determine"),
-        (b"angle,contact_beta\n10,0.5\n20,0.4\n", "angle"),
+        *((b"", "me.csv"), (b"angle [deg],contact_beta\n10,0.5\n", "cannot determine"), *WRONG),
     ],
 )
 def test_what_cannot_be_fitted_is_refused_in_the_words_of_the_page(content, words, folder):

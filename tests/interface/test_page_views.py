@@ -39,22 +39,6 @@ def test_numbers_out_of_range_are_refused_by_name(name):
         assert error.value.message.startswith("must be")
 
 
-@pytest.mark.parametrize(
-    ("query", "says"),
-    [
-        *(("material=stell", "did you mean 'steel'"), ("law=mindlinn", "did you mean 'mindlin'")),
-        ("frction=1", "did you mean 'friction'"),
-        *(("against=wall", "there are half-space; sphere; cup"), ("psi=1&" * 1000, "at most")),
-        ("angle=3 m", "must be a number from 0 to 89.9 deg, not '3 m'"),
-    ],
-)
-def test_links_that_say_nonsense_are_refused_in_one_line(query, says):
-    with pytest.raises(Refused) as error:
-        View.of(query)
-    assert says in str(error.value)
-    assert "\n" not in str(error.value)
-
-
 def test_what_a_view_does_not_use_may_be_anything():
     assert View.of("psi=&chi=x&second_radius=-1").pair == View().pair
     assert View.of("given=numbers&psi=2&radius=&angle=95").psi == 2.0

@@ -4,7 +4,6 @@ import itertools
 import sys
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -157,19 +156,10 @@ def test_all_text_is_legible(kind, laws, errors):
     assert is_legible(figure, 16)
 
 
-def test_other_datasets_and_limits_are_refused(ranking, errors):
-    refused("plot_laws draws a ranking", plot_laws, errors)
-    refused("plot_error_map draws an error map", plot_error_map, ranking)
+def test_other_grids_and_limits_are_refused(errors):
     refused("rising psi_in and chi", plot_error_map, errors.isel(chi=[0]))
     for limit in (0.0, -1.0, np.nan):
         refused(r"limit.*must be positive", plot_error_map, errors, limit=limit)
-
-
-def test_figures_leave_settings_alone(ranking, errors):
-    before = dict(matplotlib.rcParams)
-    plot_laws(ranking)
-    plot_error_map(errors)
-    assert dict(matplotlib.rcParams) == before
 
 
 def test_page_says_what_the_laws_do(monkeypatch, tmp_path):

@@ -10,20 +10,16 @@ from carom import plots
 from carom.impacts.curves import regime_map
 
 MICROSLIP = 21e-6  # an instant of the impact below with a slip ring
-DRAWN = {
-    "history": ("plot_impact", "plot_forces", "plot_radii", "plot_cone"),
-    "fields": ("plot_patch", "plot_profiles"),
-    "radial": ("plot_profiles",),
-    "stress": ("plot_stress",),
-    "curve": ("plot_curve",),
-    "map": ("plot_regime_map",),
-    "spectrum": ("plot_spectrum",),
-    "wear": ("plot_wear",),
-    "impact": (
-        *("plot_impact", "plot_forces", "plot_radii", "plot_cone", "plot_patch", "plot_profiles"),
-        *("plot_stress", "plot_spectrum", "plot_wear", "plot_contact"),
-    ),
-    "pair": (),
+KINDS = {  # what makes them, and the ends of the names of what draws them
+    "history": (lambda hit: hit.history(51), "impact forces radii cone"),
+    "fields": (lambda hit: hit.fields(MICROSLIP), "patch profiles"),
+    "radial": (lambda hit: hit.radial(MICROSLIP), "profiles"),
+    "stress": (lambda hit: hit.stress(MICROSLIP), "stress"),
+    "curve": (lambda _: carom.curve(1.44, [0.0, 1.0]), "curve"),
+    "map": (lambda _: regime_map([0.5, 2.0], [1.0, 1.44]), "regime_map"),
+    "spectrum": (lambda hit: hit.spectrum(n=51), "spectrum"),
+    "wear": (lambda hit: hit.wear(), "wear"),
+    "pair": (lambda hit: hit.pair, ""),
 }
 
 
@@ -42,27 +38,15 @@ def test_what_cannot_be_drawn_is_refused_in_one_line(hit, draw, said):
     refused(said, draw, hit)
 
 
-@pytest.mark.parametrize("kind", DRAWN)
-def test_datasets_of_another_kind_are_refused_in_one_line(hit, kind):
+@pytest.mark.parametrize(("make", "drawn"), KINDS.values(), ids=KINDS)
+def test_datasets_of_another_kind_are_refused_in_one_line(hit, make, drawn):
     """The line tells what the function draws and what makes such a dataset; no KeyError."""
-    makes = {
-        "history": lambda: hit.history(51),
-        "fields": lambda: hit.fields(MICROSLIP),
-        "radial": lambda: hit.radial(MICROSLIP),
-        "stress": lambda: hit.stress(MICROSLIP),
-        "curve": lambda: carom.curve(1.44, [0.0, 1.0]),
-        "map": lambda: regime_map([0.5, 2.0], [1.0, 1.44]),
-        "spectrum": lambda: hit.spectrum(n=51),
-        "wear": lambda: hit.wear(),
-        "impact": lambda: hit,
-        "pair": lambda: hit.pair,
-    }
-    given = makes[kind]()
+    given, drawn = make(hit), {f"plot_{name}" for name in drawn.split()}
     for name in (name for name in plots.__all__ if name.startswith("plot_")):
-        if name in DRAWN[kind]:
+        if name in drawn:
             getattr(plots, name)(given)
-            continue
-        refused(rf"^{name} draws .*, what .* returns; ", getattr(plots, name), given)
+        else:
+            refused(rf"^{name} draws .*, what .* returns; ", getattr(plots, name), given)
 
 
 def test_the_first_touch_and_an_impact_without_friction_can_be_drawn(hit):
@@ -74,34 +58,24 @@ def test_the_first_touch_and_an_impact_without_friction_can_be_drawn(hit):
     plots.plot_patch(free.fields(MICROSLIP))
 
 
-def small(name, hit):
-    """Return a dataset of a touching contact, or of a single value, and what draws it."""
-    return {
-        "stress at touch": (plots.plot_stress, hit.stress(0.0)),
-        "patch at touch": (plots.plot_patch, hit.fields(0.0)),
-        "profiles at touch": (plots.plot_profiles, hit.radial(0.0)),
-        "two times": (plots.plot_impact, hit.history(2)),
-        "one psi": (plots.plot_curve, carom.curve(1.44, [1.0])),
-        "one cell": (plots.plot_regime_map, carom.regime_map([1.5], [1.44])),
-        "one depth": (plots.plot_stress, hit.stress(1e-5, z=[0.0])),
-        "one place": (plots.plot_patch, hit.fields(1e-5, x=[0.0], y=[0.0])),
-        "places twice": (plots.plot_profiles, hit.fields(1e-5, x=[0.0, 0.0], y=[0.0, 0.0])),
-    }[name]
+SMALL = {  # of a touching contact, or of a single value
+    "stress at touch": (plots.plot_stress, lambda hit: hit.stress(0.0)),
+    "profiles at touch": (plots.plot_profiles, lambda hit: hit.radial(0.0)),
+    "two times": (plots.plot_impact, lambda hit: hit.history(2)),
+    "one psi": (plots.plot_curve, lambda _: carom.curve(1.44, [1.0])),
+    "one cell": (plots.plot_regime_map, lambda _: carom.regime_map([1.5], [1.44])),
+}
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["stress at touch", "patch at touch", "profiles at touch", "two times", "one psi", "one cell"],
-)
-def test_small_datasets_are_drawn_without_a_warning(hit, name):
-    draw, dataset = small(name, hit)
-    assert draw(dataset).axes
+@pytest.mark.parametrize(("draw", "make"), SMALL.values(), ids=SMALL)
+def test_small_datasets_are_drawn_without_a_warning(hit, draw, make):
+    assert draw(make(hit)).axes
 
 
-@pytest.mark.parametrize("name", ["one depth", "one place", "places twice"])
-def test_what_is_no_map_or_line_is_refused(hit, name):
-    draw, dataset = small(name, hit)
-    refused(r"on a grid of rising|no line through", draw, dataset)
+def test_what_is_no_map_or_line_is_refused(hit):
+    refused("on a grid of rising", plots.plot_stress, hit.stress(1e-5, z=[0.0]))
+    refused("on a grid of rising", plots.plot_patch, hit.fields(1e-5, x=[0.0], y=[0.0]))
+    refused("no line through", plots.plot_profiles, hit.fields(1e-5, x=[0.0, 0.0], y=[0.0, 0.0]))
 
 
 def test_arrows_of_a_load_path_are_slips(pair):

@@ -124,14 +124,6 @@ def test_short_work_shows_nothing():
     assert got == "done\r\n"
 
 
-def test_work_with_few_steps_is_seen():
-    """The bar does not wait for the end of the first step."""
-    code = "import time, carom.io.progress as p\np.SECONDS_BEFORE_BAR = 0.1\n"
-    code += "with p.advancing('laws', 2):\n    time.sleep(0.3)"
-    got, _, _ = on_terminal(code)
-    assert "0/2" in got
-
-
 def test_an_interrupt_leaves_the_terminal_as_it_was():
     long = LONG.replace("30", "1000")  # still at it when the key is pressed
     got, _, status = on_terminal(long.format(patience=0.1, more=""), typed=b"\x03")
@@ -175,6 +167,7 @@ def test_a_dumb_terminal_gets_no_control_sequences():
 
 
 def test_work_within_work_has_no_bar_of_its_own():
+    """And a bar does not wait for the end of the first step."""
     code = "import time, carom.io.progress as p\np.SECONDS_BEFORE_BAR = 0.1\n"
     code += "with p.advancing('outer', 2):\n    with p.advancing('inner', 3) as advance:\n"
     code += "        advance(1); time.sleep(0.3); advance(2)\n"
@@ -182,7 +175,7 @@ def test_work_within_work_has_no_bar_of_its_own():
     got, _, _ = on_terminal(code)
     assert "outer" in got
     assert "inner" not in got
-    assert "after" in got
+    assert re.search("after.*0/2", got)
 
 
 def test_a_pipe_gets_nothing_unless_asked():
