@@ -10,6 +10,7 @@ from tests.browser.scripts import script
 import carom
 
 WORDS = script("picture_words")
+PARTS = ("stage", "patch")
 BOXES = [(170, 140), (170, 300), (250, 200), (330, 390), (420, 360), (560, 240), (700, 500)]
 SHARES = [-0.4, 0.05, 0.3, 0.5, 0.62, 0.8, 0.95, 1.4]
 PICTURE = script("picture")
@@ -17,7 +18,7 @@ TOLD = script("told")
 TIMES = [round(float(share), 3) for share in np.linspace(0.02, 0.98, 49)]
 
 
-def faults(words, width, height):
+def faults(words, width, height, **_):
     """Yield what is wrong with the words of one picture."""
     for row, (text, size, left, top, right, bottom) in enumerate(words):
         if size < 11.0:
@@ -38,21 +39,14 @@ def faults(words, width, height):
     ],
 )
 def test_no_word_is_cut_small_or_over_another(page, query):
-    wrong = []
-    for part in ("stage", "patch"):
-        for width, height in BOXES:
-            pictures = page.evaluate(WORDS, [query, part, width, height, SHARES])
-            assert all(pictures)
-            for share, words in zip(SHARES, pictures, strict=True):
-                where = f"{part} {width} x {height} at {share}: "
-                wrong += [where + fault for fault in faults(words, width, height)]
-    assert wrong == []
+    pictures = page.evaluate(WORDS, [query, PARTS, BOXES, SHARES])
+    assert len(pictures) == len(PARTS) * len(BOXES) * len(SHARES)
+    assert [each for each in pictures if not each["words"] or [*faults(**each)]] == []
 
 
 def test_the_key_stays_in_the_smallest_box(page):
-    for part in ("stage", "patch"):
-        (words,) = page.evaluate(WORDS, ["", part, 170, 140, [0.75]])
-        assert {"stick", "slip \N{MINUS SIGN}"} <= {text for text, *_ in words}
+    for each in page.evaluate(WORDS, ["", PARTS, BOXES[:1], [0.75]]):
+        assert {"stick", "slip \N{MINUS SIGN}"} <= {text for text, *_ in each["words"]}
 
 
 def picture(page, part, share, colors, width=420, height=360):
@@ -82,7 +76,7 @@ def test_zones_on_the_map_in_their_colours(visit, usual):
 
 def test_gross_slip_is_grey_on_both_pictures(visit):
     page = visit("?angle=80&theme=light").page
-    for part in ("stage", "patch"):
+    for part in PARTS:
         masks = picture(page, part, 0.5, ["gross", "slip", "stick"])
         assert masks["gross"].sum() > 100
         assert not masks["slip"].any()

@@ -1,9 +1,6 @@
-async ([query, part, width, height, shares]) => {
+async ([query, parts, boxes, shares]) => {
   const { scene } = await Carom.source.answer(query);
   const made = Carom.scene.of(scene);
-  const canvas = document.createElement("canvas");
-  canvas.style.cssText = `display: block; width: ${width}px; height: ${height}px`;
-  document.body.append(canvas);
   const kind = CanvasRenderingContext2D.prototype;
   const fillText = kind.fillText;
   let found = [];
@@ -15,13 +12,19 @@ async ([query, part, width, height, shares]) => {
     if (text) found.push([text, size, ...sides]);
     return fillText.apply(this, arguments);
   };
-  const all = shares.map(share => {
-    found = [];
-    Carom.canvas.forget(canvas);
-    Carom[part].draw(canvas, made, share);
-    return found;
-  });
+  const pictures = [];
+  for (const part of parts) for (const [width, height] of boxes) {
+    const canvas = document.createElement("canvas");
+    canvas.style.cssText = `display: block; width: ${width}px; height: ${height}px`;
+    document.body.append(canvas);
+    for (const share of shares) {
+      found = [];
+      Carom.canvas.forget(canvas);
+      Carom[part].draw(canvas, made, share);
+      pictures.push({ part, width, height, share, words: found });
+    }
+    canvas.remove();
+  }
   kind.fillText = fillText;
-  canvas.remove();
-  return all;
+  return pictures;
 }
