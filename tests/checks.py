@@ -6,6 +6,7 @@ And what many tests strike: a ball of steel on a floor of steel, as objects and 
 import itertools
 import re
 
+import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -31,6 +32,17 @@ def experiment(**changed):
     given = {"pair": PAIR, "law": carom.dem.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
     given |= {"tangential_speed": (0.005, -0.02), "spin": (0.0, 3.0)}
     return carom.verify.Experiment(**(given | changed))
+
+
+def measured(friction):
+    """Return a table of rebounds of a ball of bearing steel, 5 mm, whose friction is known."""
+    body = {"material": "bearing-steel"}
+    pair = carom.Pair(carom.Sphere(radius="5 mm", **body), carom.HalfSpace(**body), friction)
+    lines, random = ["angle [deg],contact_beta,run"], np.random.default_rng(20261121)
+    for run, angle in enumerate(range(4, 76, 4)):
+        hit = carom.impact(pair, speed=0.6, angle=f"{angle} deg")
+        lines.append(f"{angle},{-hit.contact_restitution + random.normal(0.0, 0.004)},{run}")
+    return "\n".join([*lines, ""])
 
 
 def refused(words, function, *given, **named):

@@ -1,13 +1,13 @@
 """What is taken along is what the library says, and what is brought is fitted or refused."""
 
-import csv
-import io
 import runpy
 from urllib.parse import urlencode
 
 import numpy as np
+import pandas as pd
 import pytest
 from PIL import Image
+from tests.checks import measured
 
 import carom
 from carom.verify.entries import named
@@ -48,10 +48,7 @@ def folder(tmp_path, monkeypatch):
 
 
 def table(file):
-    """Return the columns of a CSV file, by their names without units."""
-    with file.open(encoding="utf-8", newline="") as rows:
-        columns = zip(*csv.reader(rows), strict=True)
-        return {head.partition(" [")[0]: np.array(values) for head, *values in columns}
+    return pd.read_csv(file).rename(columns=lambda head: head.partition(" [")[0])
 
 
 def test_histories_and_pictures(visit, folder):
@@ -64,8 +61,7 @@ def test_histories_and_pictures(visit, folder):
         for column in ("time", "tangential_force", "stick_radius", "spin"):
             values = expected[column].values
             bound = tolerance * np.abs(values).max()
-            told = np.asarray(found[column], float)
-            assert told == pytest.approx(values, rel=0.0, abs=bound), column
+            assert found[column].values == pytest.approx(values, rel=0.0, abs=bound), column
     with Image.open(taken(seen, "#contact-png", folder)) as image:
         assert image.format == "PNG"
         assert min(image.size) >= 400
@@ -140,18 +136,6 @@ def test_laws_that_take_long_follow_the_answer(visit):
     assert all_there()
 
 
-def measured(friction):
-    """A table of rebounds of known friction, as a user would upload it."""
-    pair = carom.Pair(PAIR.first, PAIR.second, friction)
-    lines, random = io.StringIO(), np.random.default_rng(20261121)
-    writer = csv.writer(lines)
-    writer.writerow(["angle [deg]", "contact_beta"])
-    for angle in range(4, 76, 4):
-        hit = carom.impact(pair, speed=0.6, angle=f"{angle} deg")
-        writer.writerow([angle, -hit.contact_restitution + random.normal(0.0, 0.004)])
-    return lines.getvalue().encode()
-
-
 def upload(seen, content, name="mine.csv"):
     file = {"name": name, "mimeType": "text/csv", "buffer": content}
     seen.page.set_input_files("#upload", file)
@@ -176,7 +160,7 @@ BAD = {
 
 def test_bodies_are_asked_for_and_a_fit_stays_until_another_is_wanted(visit):
     seen = opened(visit(), "fit-panel")
-    upload(seen, measured(FRICTION))
+    upload(seen, measured(FRICTION).encode())
     seen.page.wait_for_selector("#fit-bodies")
     assert seen.page.locator(".carom-parameters").count() == 0
     words = seen.page.inner_text("#fit-ask")
@@ -198,7 +182,7 @@ def test_bodies_are_asked_for_and_a_fit_stays_until_another_is_wanted(visit):
     seen.linked("angle=20")
     assert seen.page.is_hidden("#fit-ask")
     seen.choose("given", "ψ₁ and χ")
-    upload(seen, measured(FRICTION))
+    upload(seen, measured(FRICTION).encode())
     seen.until(lambda: "Choose bodies in the controls first" in seen.page.inner_text("#fit-ask"))
     assert seen.page.locator("#fit-bodies").count() == 0
     seen.choose("given", "bodies")
@@ -214,7 +198,7 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
         notice = seen.until(lambda: seen.page.inner_text("#fit-notice"))
         for odd in ("\n", "Traceback", "failed", "/tmp"):
             assert odd not in notice, (name, notice)
-        upload(seen, measured(FRICTION), "good.csv")
+        upload(seen, measured(FRICTION).encode(), "good.csv")
         seen.page.click("#fit-bodies")
         assert seen.until(lambda: fitted_friction(seen)) == pytest.approx(FRICTION, rel=0.02)
         assert seen.page.inner_text("#fit-notice") == ""
@@ -226,7 +210,7 @@ def test_the_last_of_file_and_data_set_counts(visit):
     seen, name = opened(visit(), "fit-panel"), carom.datasets.names()[0]
     head = ".carom-fit-head h3"
     for _ in range(2):  # the same file can be sent again
-        upload(seen, measured(FRICTION), "own.csv")
+        upload(seen, measured(FRICTION).encode(), "own.csv")
         seen.page.click("#fit-bodies")
         seen.until(lambda: seen.page.inner_text(head) == "own.csv")
         seen.linked("!data=")

@@ -1,25 +1,19 @@
 """Fits on the page are the library's; columns are explained, and bodies asked for."""
 
-import csv
-import io
 import json
 from base64 import b64encode
 from functools import cache
 
 import numpy as np
 import pytest
-from tests.checks import refused
+from tests.checks import measured, refused
 
 import carom
 
 pytest.importorskip("flask")
 
 from carom.explorer.uploads import answer
-from carom.explorer.views import View
 from carom.explorer.worker import Worker
-
-PAIR = View().pair
-ANGLES = range(4, 76, 4)
 
 
 @cache
@@ -34,18 +28,6 @@ def sent(content):
 def asked(content, bodies="", name="folder/me.csv"):
     text = content if isinstance(content, bytes) else content.encode()
     return answer({"contents": sent(text), "name": name, "bodies": bodies})
-
-
-def measured(heads=("angle [deg]", "contact_beta", "run"), friction=0.123):
-    """A table of rebounds of known friction."""
-    pair = carom.Pair(PAIR.first, PAIR.second, friction)
-    lines, random = io.StringIO(), np.random.default_rng(20261121)
-    writer = csv.writer(lines)
-    writer.writerow(heads)
-    for row, angle in enumerate(ANGLES):
-        hit = carom.impact(pair, speed=0.6, angle=f"{angle} deg")
-        writer.writerow([angle, -hit.contact_restitution + random.normal(0.0, 0.004), row])
-    return lines.getvalue()
 
 
 @pytest.fixture(autouse=True)
@@ -80,11 +62,11 @@ def test_a_fit_is_the_librarys(name):
 
 def test_bodies_are_asked_for_where_the_file_does_not_tell_them():
     for bodies in ("", "given=numbers&psi=2"):
-        told = asked(measured(), bodies)
+        told = asked(measured(0.123), bodies)
         assert told["asks"] == "bodies"
         assert told["message"].startswith("me.csv does not say which bodies")
         assert [row["head"] for row in told["columns"]] == ["angle [deg]", "contact_beta", "run"]
-    told = asked(measured(), "given=bodies&radius=5")
+    told = asked(measured(0.123), "given=bodies&radius=5")
     assert told["bodies"]["from"] == "page"
     assert "ball of 5 mm radius, bearing-steel" in told["bodies"]["text"]
     friction = next(row for row in told["parameters"] if row["name"] == "friction")
@@ -113,7 +95,7 @@ def test_bodies_of_the_file_are_not_those_of_the_page():
 
 
 def test_columns_say_what_they_were_taken_for():
-    columns = asked(measured(), "given=bodies")["columns"]
+    columns = asked(measured(0.123), "given=bodies")["columns"]
     assert [row["kind"] for row in columns] == ["before the impact", "after the impact", "not used"]
     assert columns[0]["meaning"] == "angle of incidence from the normal"
     assert [row["unit"] for row in columns] == ["deg", "", ""]
@@ -156,7 +138,7 @@ def test_what_did_not_arrive_whole_is_refused(contents):
 def test_the_process_that_fits():
     worker = Worker()
     try:
-        found = worker.fit(contents=sent(measured().encode()), name="a.csv", bodies="")
+        found = worker.fit(contents=sent(measured(0.123).encode()), name="a.csv", bodies="")
         assert found["asks"] == "bodies"
         refused("^file: ", worker.fit, contents=sent(b"what"), name="a.csv", bodies="")
     finally:

@@ -70,8 +70,6 @@ def test_a_style_of_matplotlib_goes_on_top_and_stays_with_the_figure(hit):
     assert {text.get_fontfamily()[0] for text in texts(figure)} == {"serif"}
     assert figure.axes[0].spines["left"].get_linewidth() == 2.0
     assert dict(matplotlib.rcParams) == before
-    named = plots.plot_forces(hit, style="ggplot")
-    assert to_rgb(named.axes[0].get_facecolor()) == to_rgb("#E5E5E5")
 
 
 @pytest.mark.parametrize(
@@ -172,8 +170,9 @@ def test_a_stored_pdf_has_the_text_of_the_figure_in_fonts_that_can_be_edited(hit
 
 
 def test_a_named_style_leaves_the_sizes_of_fonts_as_they_are_wanted(hit):
-    sizes = {text.get_fontsize() for text in texts(plots.plot_forces(hit, style="ggplot"))}
-    assert sizes == {7.5, 7.0}
+    figure = plots.plot_forces(hit, style="ggplot")
+    assert to_rgb(figure.axes[0].get_facecolor()) == to_rgb("#E5E5E5")
+    assert {text.get_fontsize() for text in texts(figure)} == {7.5, 7.0}
     larger = plots.plot_forces(hit, style="ggplot", font_size=9.0)
     assert max(text.get_fontsize() for text in texts(larger)) == 9.0
 

@@ -4,14 +4,14 @@ from functools import cache
 
 import numpy as np
 import pytest
+from tests.checks import PAIR
 
 import carom
 from carom.io.progress import Place
 from carom.plots import animate
 
-BODIES = carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel")
 MOTION = {"speed": 2.0, "angle": "30 deg"}
-HIT = carom.impact(carom.Pair(*BODIES, friction=0.2), **MOTION)
+HIT = carom.impact(PAIR, **MOTION)
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": "2 m/s"}
 GRID = carom.Grid({"angle": [0.1, 0.2], "friction": [0.1, 0.2, 0.3]})
 LAWS = [carom.dem.LinearSpring(), carom.dem.WaltonBraunLaw()]
@@ -19,7 +19,7 @@ LAWS = [carom.dem.LinearSpring(), carom.dem.WaltonBraunLaw()]
 
 def by_elements(folder, progress):
     coarse = carom.BoundaryElements(elements=8, steps=20)
-    carom.impact(HIT.pair, **MOTION, method=coarse, progress=progress)
+    carom.impact(PAIR, **MOTION, method=coarse, progress=progress)
 
 
 @cache
