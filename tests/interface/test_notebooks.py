@@ -187,8 +187,10 @@ def test_what_was_used_is_cited(pair):
     assert entries(carom.verify.score(table, chi=1.44).cite()) == list(IMPACT)
 
 
-@pytest.mark.parametrize("name", carom.datasets.names())
-@pytest.mark.parametrize("get", [carom.datasets.load, carom.datasets.path])
+LOADED = [(carom.datasets.load, name) for name in carom.datasets.names()]
+
+
+@pytest.mark.parametrize(("get", "name"), [*LOADED, (carom.datasets.path, "foerster1994")])
 def test_the_data_of_a_fit_are_cited(name, get):
     """As file and as dataset; the entry has the DOI that the data tell."""
     fit = carom.fit(get(name), fixed={"restitution": 1.0})

@@ -189,9 +189,8 @@ def _list(figure: Figure, labels: Labels) -> None:
     if text and axis is None:
         figure.supxlabel(text, x=0.01, ha="left", fontsize="small")
         lines = PITCH * font_size("small") * (text.count("\n") + 1)
-        figure.set_figheight(
-            figure.get_figheight() + lines / 72.0
-        )  # which leaves room for a layout
+        height = figure.get_figheight() + lines / 72.0  # which leaves room for a layout
+        figure.set_figheight(height)
     elif text and axis is not None:
         axis.set_xlabel(f"{axis.get_xlabel()}\n{text}", fontsize="small")
 
@@ -208,19 +207,10 @@ def _tied(name: str) -> str:
 
 def _write(axis: Axes, label: Label, size: Array) -> None:
     """Write a label, with a line to its region if it is not inside."""
+    look: Any = {"ha": "center", "va": "center", "fontsize": "small", "linespacing": 1.1}
+    look |= {"rotation": 90.0 if label.block.turned else 0.0, "transform": axis.transAxes}
     x, y = label.at / size
-    text = axis.text(
-        x,
-        y,
-        label.block.text,
-        transform=axis.transAxes,
-        ha="center",
-        va="center",
-        rotation=90.0 if label.block.turned else 0.0,
-        fontsize="small",
-        linespacing=1.1,
-        zorder=5,
-    )
+    text = axis.text(x, y, label.block.text, zorder=5, **look)
     text.set_in_layout(False)
     if label.start is not None:
         text.set_bbox({"boxstyle": "square,pad=0.12", "fc": "white", "ec": "none"})

@@ -243,9 +243,8 @@ class Sheet:
         """Return rows and columns of the pixels of a straight line."""
         count = int(np.hypot(*(end - start)) / (0.7 * self.pixel)) + 2
         columns, rows = (np.linspace(start, end, count) / self.pixel).astype(int).T
-        return np.clip(rows, 0, self.owner.shape[0] - 1), np.clip(
-            columns, 0, self.owner.shape[1] - 1
-        )
+        high, wide = self.owner.shape
+        return np.clip(rows, 0, high - 1), np.clip(columns, 0, wide - 1)
 
 
 def without_overlaps(spots: list[list[Spot]]) -> list[Label | None]:
