@@ -269,9 +269,10 @@ def test_titles_call_bodies_elastic_only_if_they_are(law: LossLaw | None) -> Non
     drawn.append(carom.plots.plot_impact(found))
     if law in (LOSSES["none"], LOSSES["Kelvin-Voigt"]):  # fields are known
         time, first = 0.3 * found.duration, found.wear()
-        others += [found.fields(time), found.radial(time), found.stress(time), first]
-        drawn += [carom.plots.plot_patch(found.fields(time)), carom.plots.plot_wear(first)]
-        drawn += [carom.plots.plot_contact(found), carom.plots.plot_profiles(found.radial(time))]
+        fields, radial = found.fields(time), found.radial(time)
+        others += [fields, radial, found.stress(time), first]
+        drawn += [carom.plots.plot_patch(fields), carom.plots.plot_wear(first)]
+        drawn += [carom.plots.plot_contact(found, count=2), carom.plots.plot_profiles(radial)]
     if law == LOSSES["Kelvin-Voigt"]:
         others.append(carom.curve(1.44, [0.5, 1.0], losses=law))
     told = [str(dataset.attrs["title"]) for dataset in others]
