@@ -179,7 +179,7 @@ def test_what_is_not_resolved_is_said_to_be(maps):
     """A region of its own with a hatch, a name, and no colour in the legend."""
     holed = maps["points"].copy(deep=True)
     holed.sequence.values[2:8, 10:17] = -1
-    figure = plot_regime_map(holed)
+    figure = plot_regime_map(holed, width=86.0)
     (hatched,) = [patch for patch in figure.axes[0].patches if patch.get_hatch()]
     assert to_rgb(hatched.get_facecolor()) == (1.0, 1.0, 1.0)
     assert "not resolved" in [t.get_text().translate(SPACES) for t in figure.findobj(Text)]
