@@ -59,10 +59,8 @@ def there(tmp_path):
 
 
 def ended(folder, program, arguments):
-    """Return exit code, what is printed, and what is told, of a Python that has loaded nothing.
-
-    It parses all sources, as the first one of an installation does.
-    """
+    """Return exit code, what is printed and told, of a Python that has loaded nothing and parses
+    all sources, as the first one of an installation does."""
     plain = os.environ | {"PYTHONPYCACHEPREFIX": "/nowhere", "PYTHONDONTWRITEBYTECODE": "1"}
     values = {"cwd": folder, "capture_output": True, "text": True, "timeout": 120, "env": plain}
     done = subprocess.run([sys.executable, "-c", program, *arguments], check=False, **values)

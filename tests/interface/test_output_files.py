@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 from functools import cache, partial
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -57,11 +58,8 @@ def left(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
-DANGLING = ((ending, False) for ending in (".nc", ".csv", ".h"))
-
-
 @pytest.mark.parametrize(
-    ("ending", "there"), [*((ending, True) for ending in WRITERS), *DANGLING], ids=str
+    ("ending", "there"), [*product(WRITERS, [True]), *product((".nc", ".csv", ".h"), [False])]
 )
 def test_a_link_stays_and_its_file_is_written(ending, there, tmp_path):
     """Through two links, into another folder; also where the file is yet to be made."""
