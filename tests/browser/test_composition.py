@@ -94,18 +94,9 @@ def check_sliders(seen):
 def test_the_page_is_composed(visit, width, state):
     seen = visit(f"?{STATES[state]}", width=width)
     seen.until(lambda: seen.traces("energies"))
-<<<<<<< HEAD
-    for theme in THEMES:
-        seen.page.evaluate(REDRAWN, theme)
-||||||| 9641bde
-    for theme in THEMES:
-        seen.page.evaluate(f"Carom.theme.choose('{theme}')")
-        seen.page.wait_for_timeout(300)
-=======
     for dark in (False, True) if state == "as it opens" else (False,):  # nothing but colours differ
         if dark:
             seen.page.evaluate(REDRAWN, "dark")
->>>>>>> speeda
         check_words(seen)
         check_pictures(seen)
         check_cards(seen)

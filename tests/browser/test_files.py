@@ -61,7 +61,6 @@ def test_histories_and_pictures(visit, folder):
         for column in ("time", "tangential_force", "stick_radius", "spin"):
             values = expected[column].values
             bound = tolerance * np.abs(values).max()
-<<<<<<< HEAD
             assert dataset[column].values == pytest.approx(values, rel=0.0, abs=bound), column
     with Image.open(taken(seen, "#contact-png", folder)) as image:
         assert image.format == "PNG"
@@ -71,26 +70,6 @@ def test_histories_and_pictures(visit, folder):
     asked = {name: seen.page.get_attribute(f"#{name}-png", "href") for name in PICTURES}
     query = asked["contact"].partition("?")[2]
     assert asked == {name: f"{name}.png?{query}" for name in PICTURES}
-||||||| 9641bde
-            told = np.asarray(found[column], float)
-            assert told == pytest.approx(values, rel=0.0, abs=bound), column
-    for picture in PICTURES:
-        with Image.open(taken(seen, f"#{picture}-png", folder)) as image:
-            assert image.format == "PNG"
-            assert min(image.size) >= 400
-            assert len(image.convert("RGB").getcolors(2**24)) > 50  # not an empty sheet
-    assert seen.page.inner_text("#files-notice") == "course.png is written."
-=======
-            assert found[column].values == pytest.approx(values, rel=0.0, abs=bound), column
-    with Image.open(taken(seen, "#contact-png", folder)) as image:
-        assert image.format == "PNG"
-        assert min(image.size) >= 400
-        assert len(image.convert("RGB").getcolors(2**24)) > 50  # not an empty sheet
-    assert seen.page.inner_text("#files-notice") == "contact.png is written."
-    asked = {name: seen.page.get_attribute(f"#{name}-png", "href") for name in PICTURES}
-    query = asked["contact"].partition("?")[2]
-    assert asked == {name: f"{name}.png?{query}" for name in PICTURES}
->>>>>>> speeda
 
 
 def test_the_lines_of_python_give_the_same_rebound(visit, folder, capsys):

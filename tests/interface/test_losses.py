@@ -264,38 +264,16 @@ def test_titles_call_bodies_elastic_only_if_they_are(law: LossLaw | None) -> Non
     titles = [str(dataset.attrs["title"]) for dataset in datasets]
     assert all(("elastic" in title) == (law is None) for title in titles), titles
     assert all(("with losses" in title) == (law is not None) for title in titles), titles
-<<<<<<< HEAD
     others, drawn = [actual.spectrum(n=3)], [carom.plots.plot_spectrum(actual.spectrum(n=9))]
     drawn += [draw(actual) for draw in (carom.plots.plot_forces, carom.plots.plot_radii)]
     drawn.append(carom.plots.plot_impact(actual))
     if law in (LOSSES["none"], LOSSES["Kelvin-Voigt"]):  # fields are known
         time, first = 0.3 * actual.duration, actual.wear()
-        others += [actual.fields(time), actual.radial(time), actual.stress(time), first]
-        drawn += [carom.plots.plot_patch(actual.fields(time)), carom.plots.plot_wear(first)]
-        drawn += [carom.plots.plot_contact(actual), carom.plots.plot_profiles(actual.radial(time))]
-    if law == LOSSES["Kelvin-Voigt"]:
-||||||| 9641bde
-    others, drawn = [found.spectrum(n=3)], [carom.plots.plot_spectrum(found.spectrum(n=9))]
-    drawn += [draw(found) for draw in (carom.plots.plot_forces, carom.plots.plot_radii)]
-    drawn.append(carom.plots.plot_impact(found))
-    if isinstance(law, carom.KelvinVoigt) or law is None:  # fields are known
-        time, first = 0.3 * found.duration, found.wear()
-        others += [found.fields(time), found.radial(time), found.stress(time), first]
-        drawn += [carom.plots.plot_patch(found.fields(time)), carom.plots.plot_wear(first)]
-        drawn += [carom.plots.plot_contact(found), carom.plots.plot_profiles(found.radial(time))]
-    if isinstance(law, carom.KelvinVoigt) and law.restitution:
-=======
-    others, drawn = [found.spectrum(n=3)], [carom.plots.plot_spectrum(found.spectrum(n=9))]
-    drawn += [draw(found) for draw in (carom.plots.plot_forces, carom.plots.plot_radii)]
-    drawn.append(carom.plots.plot_impact(found))
-    if law in (LOSSES["none"], LOSSES["Kelvin-Voigt"]):  # fields are known
-        time, first = 0.3 * found.duration, found.wear()
-        fields, radial = found.fields(time), found.radial(time)
-        others += [fields, radial, found.stress(time), first]
+        fields, radial = actual.fields(time), actual.radial(time)
+        others += [fields, radial, actual.stress(time), first]
         drawn += [carom.plots.plot_patch(fields), carom.plots.plot_wear(first)]
-        drawn += [carom.plots.plot_contact(found, count=2), carom.plots.plot_profiles(radial)]
+        drawn += [carom.plots.plot_contact(actual, count=2), carom.plots.plot_profiles(radial)]
     if law == LOSSES["Kelvin-Voigt"]:
->>>>>>> speeda
         others.append(carom.curve(1.44, [0.5, 1.0], losses=law))
     entries = [str(dataset.attrs["title"]) for dataset in others]
     entries += [text for figure in drawn for text in texts(figure)]

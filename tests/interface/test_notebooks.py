@@ -54,15 +54,7 @@ def picture(html):
 )
 def test_impacts_are_a_table_and_a_picture(pair, how):
     hit = carom.impact(pair, **MOTION, **how)
-<<<<<<< HEAD
     rows, html = table_and_html(hit)
-||||||| 9641bde
-    html = hit._repr_html_()
-    told = Balanced(html)
-    rows = dict(zip(told.cells[::2], told.cells[1::2], strict=True))
-=======
-    rows, html = told(hit)
->>>>>>> speeda
     assert 8 <= len(rows) <= 12
     after = float(rows["dimensionless velocity of the contact point after"])
     assert after == pytest.approx(hit.psi_out, rel=1e-5)

@@ -88,23 +88,10 @@ def test_bodies_are_not_asked_for_in_vain(content, words):
 
 
 def test_bodies_of_the_file_are_not_those_of_the_page():
-<<<<<<< HEAD
     reply = asked(carom.datasets.path("kharaz2001").read_bytes(), "given=bodies&radius=9")
     assert reply["bodies"]["from"] == "file"
     assert "2.5 mm" in reply["bodies"]["text"]
     assert reply["words"] == str(fitted("kharaz2001"))
-||||||| 9641bde
-    file = carom.datasets.path("kharaz2001")
-    told = asked(file.read_bytes(), "given=bodies&radius=9")
-    assert told["bodies"]["from"] == "file"
-    assert "2.5 mm" in told["bodies"]["text"]
-    assert told["words"] == str(carom.fit(file))
-=======
-    told = asked(carom.datasets.path("kharaz2001").read_bytes(), "given=bodies&radius=9")
-    assert told["bodies"]["from"] == "file"
-    assert "2.5 mm" in told["bodies"]["text"]
-    assert told["words"] == str(fitted("kharaz2001"))
->>>>>>> speeda
 
 
 def test_columns_say_what_they_were_taken_for():

@@ -42,13 +42,7 @@ def drawers(pair, hit):
 @pytest.fixture(scope="module")
 def usual(drawers):
     """What they draw, by their names."""
-    return {name: getattr(plots, name)(given) for name, given in drawers.items()}
-
-
-@pytest.fixture(scope="module")
-def usual(drawers):
-    """What they draw, by their names."""
-    return {name: getattr(plots, name)(given) for name, given in drawers.items()}
+    return {name: getattr(plots, name)(values) for name, values in drawers.items()}
 
 
 def texts(figure):
@@ -208,19 +202,10 @@ SEVERAL = {"plot_impact", "plot_wear", "plot_contact", "plot_laws", "plot_score"
 
 def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers, usual):
     """As it is without; the rest of the figure, its size and a user's settings stay."""
-<<<<<<< HEAD
     fields = drawers["plot_profiles"].fields("21 us")
     one = {"plot_profiles": (fields, plots.plot_profiles(fields))}
     one = {name: (values, usual[name]) for name, values in drawers.items()} | one
     for name, (values, same) in one.items():
-||||||| 9641bde
-    for name, given in drawers.items():
-=======
-    fields = drawers["plot_profiles"].fields("21 us")
-    one = {"plot_profiles": (fields, plots.plot_profiles(fields))}
-    one = {name: (given, usual[name]) for name, given in drawers.items()} | one
-    for name, (given, same) in one.items():
->>>>>>> speeda
         if name in SEVERAL:
             continue
         figure, (left, right) = pyplot.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")

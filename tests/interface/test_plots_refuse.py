@@ -41,25 +41,7 @@ def test_what_cannot_be_drawn_is_refused_in_one_line(hit, draw, said):
 @pytest.mark.parametrize(("make", "drawn"), KINDS.values(), ids=KINDS)
 def test_datasets_of_another_kind_are_refused_in_one_line(hit, make, drawn):
     """The line tells what the function draws and what makes such a dataset; no KeyError."""
-<<<<<<< HEAD
     values, drawn = make(hit), {f"plot_{name}" for name in drawn.split()}
-||||||| 9641bde
-    makes = {
-        "history": lambda: hit.history(51),
-        "fields": lambda: hit.fields(MICROSLIP),
-        "radial": lambda: hit.radial(MICROSLIP),
-        "stress": lambda: hit.stress(MICROSLIP),
-        "curve": lambda: carom.curve(1.44, [0.0, 1.0]),
-        "map": lambda: regime_map([0.5, 2.0], [1.0, 1.44]),
-        "spectrum": lambda: hit.spectrum(n=51),
-        "wear": lambda: hit.wear(),
-        "impact": lambda: hit,
-        "pair": lambda: hit.pair,
-    }
-    given = makes[kind]()
-=======
-    given, drawn = make(hit), {f"plot_{name}" for name in drawn.split()}
->>>>>>> speeda
     for name in (name for name in plots.__all__ if name.startswith("plot_")):
         if name in drawn:
             getattr(plots, name)(values)

@@ -179,7 +179,6 @@ def test_work_within_work_has_no_bar_of_its_own():
 
 
 def test_a_pipe_gets_nothing_unless_asked():
-<<<<<<< HEAD
     work = LONG.format(patience=0.05, more="")
     asked = (work.replace("30, unit", f"30, {progress}, unit") for progress in (None, False, True))
     env = {"FORCE_COLOR": "1", **os.environ}
@@ -188,24 +187,6 @@ def test_a_pipe_gets_nothing_unless_asked():
     by_default, unwanted, wanted, end = run.stderr.split("done\n")
     assert by_default == unwanted == end == run.stdout == ""
     assert "30/30" in wanted
-||||||| 9641bde
-    for progress, seen in (("None", False), ("False", False), ("True", True)):
-        code = LONG.format(patience=0.1, more="").replace("30, unit", f"30, {progress}, unit")
-        told = {"FORCE_COLOR": "1", **os.environ}
-        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=told)
-        assert ("30/30" in run.stderr) is seen, progress
-        assert run.stderr.endswith("done\n")
-        assert run.stdout == ""
-=======
-    work = LONG.format(patience=0.05, more="")
-    asked = (work.replace("30, unit", f"30, {progress}, unit") for progress in (None, False, True))
-    told = {"FORCE_COLOR": "1", **os.environ}
-    line = [sys.executable, "-c", "".join(asked)]
-    run = subprocess.run(line, capture_output=True, text=True, env=told)
-    by_default, unwanted, wanted, end = run.stderr.split("done\n")
-    assert by_default == unwanted == end == run.stdout == ""
-    assert "30/30" in wanted
->>>>>>> speeda
 
 
 def test_a_command_shows_how_far_it_is():

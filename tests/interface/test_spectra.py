@@ -51,15 +51,8 @@ def test_corners_are_numbers_or_say_why_not(hit, law):
     _, names = plots.plot_spectrum(spectrum).axes[0].get_legend_handles_labels()
     assert ("first minimum" in names) == (not falls)
     if law == "no friction":
-<<<<<<< HEAD
         assert not any(name.startswith("tangential") for name in names)
         assert spectrum.tangential_peak_frequency.comment == "there is no tangential force"
-||||||| 9641bde
-        assert found.tangential_peak_frequency.comment == "there is no tangential force"
-=======
-        assert not any(name.startswith("tangential") for name in names)
-        assert found.tangential_peak_frequency.comment == "there is no tangential force"
->>>>>>> speeda
 
 
 @pytest.mark.parametrize(

@@ -55,10 +55,10 @@ def answer(arguments: list[str] | None) -> int:
         if type(error).__name__ == "NoArgsIsHelpError":  # no command: the message is the help
             typer.echo(error.format_message())
             return error.exit_code
-        meant_option = _option_meant(error)  # typer's own message has options of its choice, too
-        said = error.message if meant_option else error.format_message()
-        asked = meant_option or "see carom --help or carom COMMAND --help"
-        raise InputError(f"{said.rstrip('.')}; {asked}") from None
+        near = _option_meant(error)  # typer's own message has options of its choice, too
+        said = (error.message if near else error.format_message()).rstrip(".")
+        asked = near or "see carom --help or carom COMMAND --help"
+        raise InputError(f"{said}; {asked}") from None
     except (Interrupted, typer.Abort) as error:
         raise KeyboardInterrupt(*error.args) from None
     if code == INTERRUPTED:  # what typer makes of Ctrl-C

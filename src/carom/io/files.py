@@ -99,8 +99,7 @@ def _table(dataset: "xr.Dataset") -> str:
 
     table = max((tuple(item.dims) for item in dataset.data_vars.values()), key=len, default=())
     if table == ("time",) and "phase" in dataset.dims:  # the phase at each time, as in a history
-        later = dataset["phase_start"].values[1:]
-        which = np.searchsorted(later, dataset["time"].values, side="right")
+        which = np.searchsorted(dataset["phase_start"][1:], dataset["time"], side="right")
         dataset = dataset.isel(phase=("time", which))
     along = {dim: dataset.sizes[dim] for dim in table}
     coords = sorted(dataset.coords, key=lambda name: [*table, name].index(name))

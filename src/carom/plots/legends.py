@@ -60,8 +60,7 @@ def make_room_around(axis: Any) -> None:
     above = [extent(each).y0 for each in figure.axes if each.bbox.y0 >= axis.bbox.y1]
     excess = max(box.y1 - min(above, default=1.0), 0.0)
     room = {"left": pars.left + max(-box.x0, 0.0), "right": pars.right - max(box.x1 - 1.0, 0.0)}
-    room["bottom"] = pars.bottom + max(-box.y0, 0.0)
-    room["top"] = pars.top if above else pars.top - excess
+    room |= {"bottom": pars.bottom + max(-box.y0, 0.0), "top": pars.top - excess * (not above)}
     if excess and above:  # between rows of axes
         rows = cell.get_topmost_subplotspec().get_gridspec().nrows
         whole = room["top"] - room["bottom"]
