@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from itertools import product
 
 import matplotlib
 import numpy as np
@@ -13,6 +14,7 @@ import carom
 from carom import plots
 from carom.impacts.curves import regime_map
 from carom.io.files import save
+from carom.plots.bands import BANDS, SIGNS
 from carom.plots.style import label, prefixed
 from carom.quantities.glossary import GLOSSARY
 
@@ -253,3 +255,8 @@ def test_the_users_settings_neither_matter_nor_change(history):
         axis = plots.plot_cone(history).axes[0]
         assert matplotlib.rcParams["font.size"] == 30.0
     assert axis.xaxis.label.get_size() == 7.5
+
+
+def test_every_phase_has_its_band():
+    """Slip has no sign where bodies only spin about the normal."""
+    assert {*BANDS} == {("stick", 0), *product(("slip", "gross slip"), SIGNS)}

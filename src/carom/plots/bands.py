@@ -31,8 +31,10 @@ BANDS = {
     ("stick", 0): STICK,
     ("slip", 1): Band("#FDF1DA", "#F0D9A8", "///"),
     ("slip", -1): Band("#FDF1DA", "#F0D9A8", "\\\\\\"),
+    ("slip", 0): Band("#FDF1DA", "#F0D9A8", ""),  # of spin about the normal alone
     ("gross slip", 1): Band("#E8E8E8", "#D0D0D0", "////"),
     ("gross slip", -1): Band("#E8E8E8", "#D0D0D0", "\\\\\\\\"),
+    ("gross slip", 0): Band("#E8E8E8", "#D0D0D0", ""),
 }
 MINUS = "\u2212"
 SIGNS = {0: "", 1: " +", -1: f" {MINUS}"}
@@ -78,7 +80,7 @@ def mirrored(
 def slip_band(dataset: Any) -> Band:
     """Return the mark of the zone that slips at the instant of a fields dataset."""
     kind = "gross slip" if dataset.attrs.get("phase_kind") == "gross slip" else "slip"
-    return BANDS[kind, -1 if int(dataset.attrs.get("phase_sign", 1)) < 0 else 1]
+    return BANDS[kind, int(dataset.attrs.get("phase_sign", 1))]
 
 
 def moment(dataset: Any, like: ArrayLike | None = None) -> str:
