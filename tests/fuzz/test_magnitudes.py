@@ -62,7 +62,7 @@ def test_an_impact_is_right_or_not_solved(calls, name):
         point = values[place]
         changed = {key: value for key, value in point.items() if value != nominal[key]}
         with mp.workdps(40):
-            for key, (expected, size) in truth(point, kind).items():
+            for key, (expected, size) in truth(point, kind, carom.rebound).items():
                 if key in dataset:
                     value = float(dataset[key].values[place])
                     assert is_close(value, expected, size, 1e-8), (changed, key, value, expected)

@@ -1,11 +1,9 @@
 """The elastic impact in closed form, in arithmetic whose exponents have no end.
 
-psi_2 is that of the package, where psi_1 is of order one.
+psi_2 is what `rebound` gives, where psi_1 is of order one.
 """
 
 import mpmath as mp
-
-import carom
 
 
 def sphere(point, body):
@@ -18,16 +16,16 @@ def sphere(point, body):
     return radius, mass, ratio
 
 
-def psi_lost(psi, chi):
+def psi_lost(psi, chi, rebound):
     """psi_1 - psi_2: of slip throughout, or a constant part of small psi_1, or as it is solved."""
     if abs(psi) >= max(4 * chi, 1):
         return 4 * chi * mp.sign(psi)
     near = psi if abs(psi) > 1e-6 else mp.mpf(1e-6)
-    actual = mp.mpf(float(carom.rebound(float(near), float(chi))))
+    actual = mp.mpf(float(rebound(float(near), float(chi))))
     return psi * (1 - actual / near)
 
 
-def truth(point, kind):
+def truth(point, kind, rebound):
     """Results of an elastic impact, and for what is a difference the larger of both parts."""
     p = {name: mp.mpf(float(value)) for name, value in point.items()}
     moving = [sphere(p, body) for body in ("first", "second")[: 1 + (kind == "sphere")]]
@@ -43,7 +41,7 @@ def truth(point, kind):
     velocity += sum(r * w for (r, _, _), w in zip(moving, spins, strict=True))
     unit, chi = p["friction"] * p["normal_speed"] / kappa, kappa * normal_mass / tangential_mass / 2
     psi = velocity / unit
-    lost = psi_lost(psi, chi)
+    lost = psi_lost(psi, chi, rebound)
     impulse = tangential_mass * unit * lost
     slowed = impulse / normal_mass
     left = p["tangential_speed"] - slowed
