@@ -43,7 +43,7 @@ FRAMES = 3
 
 TRIAL_SPRINGS = 40  # with which the clock of the loading is found
 LEAST_ERROR = 1e-6  # of psi_2, in max(1, psi_1)
-FEW, MANY = 245, 490  # of which the results are made
+FEW, MANY = MOST_SPRINGS // 2, MOST_SPRINGS
 
 
 class Arrays(NamedTuple):
@@ -182,7 +182,7 @@ def let_go(springs: Array, touching: int, met: int, chi: float, extra: float, st
         if extra > 0.0:
             state[at.LOST] += 1.875 * chi * springs[of.WEIGHT, j] * (u * u + extra * m * m)
         else:
-            springs[of.U, j], springs[of.NEXT, j], springs[of.BEND, j] = 0.0, 0.0, 0.0
+            springs[of.U, j], springs[of.NEXT, j] = 0.0, 0.0
 
 
 @kernel
@@ -201,12 +201,12 @@ def kick_and_stretch(
     rate = -at.braking(inertia, now[at.LOAD], state[at.FORCE])
     half = state[at.PSI] + 0.5 * dt * rate
     step = of.step_of(g, theta, dt, state[at.PSI], half, rate)
-    force, kick, square = of.stretch(springs, touching, new[at.EDGE], step)
+    force, square = of.stretch(springs, touching, new[at.EDGE], step)
     losing = square * g / theta
     state[at.LOST] += 1.875 * inertia.chi * dt * (state[at.LOSING] + losing)
     state[at.LOSING] = losing
-    at.settle(inertia, now, new, state[at.FORCE], kick)
-    state[at.PSI] = half - 0.5 * dt * at.braking(inertia, new[at.LOAD], kick)
+    at.settle(inertia, now, new, state[at.FORCE], force)
+    state[at.PSI] = half - 0.5 * dt * at.braking(inertia, new[at.LOAD], force)
     state[at.MOVED] += half * dt
     state[at.FORCE] = force
 

@@ -15,11 +15,10 @@ from carom.dimensionless.numerics.kernels import kernel
 
 # Columns of the springs: place, its square, weight in the integral over the contact, of which the
 # outer part; deflection in shear, and that of the branch that relaxes; the latter in compression,
-# or by how much a spring that yields is softer; Coulomb's limit before and after, and its rate; the
-# sign of its slip; `bends` between it and the next one, in u and in m.
-X, S, WEIGHT, OUTER, U, RELAXING, PRESSED, LIMIT, NEXT, RATE, SLIPS, BEND, BEND_RELAXING = range(13)
+# or by how much a spring that yields is softer; Coulomb's limit before and after, and its rate.
+X, S, WEIGHT, OUTER, U, RELAXING, PRESSED, LIMIT, NEXT, RATE = range(10)
 SOFTER = PRESSED
-SPRING_COLUMNS = 13
+SPRING_COLUMNS = 10
 
 SHORT_STEP = 1e-3  # of a step, in relaxation times: where its functions are series
 
@@ -118,145 +117,42 @@ def step_of(
 
 
 @kernel
-def stretch(springs: Array, count: int, edge: float, step: Step) -> tuple[float, float, float]:
-    """Move so many springs on by a step; return the integrals of f and m^2 over the contact.
-
-    Between both, that of f at the end with which the mean over the step is that of its ends.
-    """
+def stretch(springs: Array, count: int, edge: float, step: Step) -> tuple[float, float]:
+    """Move so many springs on by a step; return the integrals of f and m^2 over the contact."""
     if step.extra == 0.0:
-        return stretch_elastic(springs, count, edge, step)
-    force, more, square = 0.0, 0.0, 0.0
+        return stretch_elastic(springs, count, edge, step), 0.0
+    force, square = 0.0, 0.0
     for j in range(count):
         limits = springs[LIMIT, j], springs[NEXT, j], springs[RATE, j]
-        u, m, slip = stretched(springs[U, j], springs[RELAXING, j], *limits, step)
-        sign, weight = 1.0 * (slip > 0.0) - 1.0 * (slip < 0.0), springs[WEIGHT, j]
-        if sign != springs[SLIPS, j]:
-            start = limits[0] - sign * force_of(springs, j, step.extra)
-            more += weight * late(start, slip / step.give)
-            springs[SLIPS, j] = sign
+        u, m = stretched(springs[U, j], springs[RELAXING, j], *limits, step)
         springs[U, j], springs[RELAXING, j] = u, m
+        weight = springs[WEIGHT, j]
         if j == count - 1:
             weight += rim(springs, j, edge)
         force += weight * (u + step.extra * m)
         square += weight * m * m
-    force += bends(springs, count, edge, step.extra, step.left)
-    return force, force + more, square
+    return force, square
 
 
 @kernel
-def stretch_elastic(
-    springs: Array, count: int, edge: float, step: Step
-) -> tuple[float, float, float]:
+def stretch_elastic(springs: Array, count: int, edge: float, step: Step) -> float:
     """Move so many springs on by a step, of which no part relaxes: the same with m = 0."""
-    force, more = 0.0, 0.0
+    force = 0.0
     for j in range(count):
         u, limit, limit_end = springs[U, j], springs[LIMIT, j], springs[NEXT, j]
         stuck, slope = u + step.moved, springs[RATE, j]
         forth = lowest(limit - u, (slope - step.psi) * step.time, limit_end - stuck)
         back = lowest(limit + u, (slope + step.psi) * step.time, limit_end + stuck)
-        slip = min(back, 0.0) - min(forth, 0.0)
-        sign = 1.0 * (slip > 0.0) - 1.0 * (slip < 0.0)
-        if sign != springs[SLIPS, j]:
-            more += springs[WEIGHT, j] * late(limit - sign * u, slip)
-            springs[SLIPS, j] = sign
-        springs[U, j] = stuck - slip
+        springs[U, j] = stuck + min(forth, 0.0) - min(back, 0.0)
         force += springs[WEIGHT, j] * springs[U, j]
-    if count > 0:
-        force += rim(springs, count - 1, edge) * springs[U, count - 1]
-    force += bends(springs, count, edge, 0.0, 1.0)
-    return force, force + more, 0.0
-
-
-@kernel
-def late(start: float, slip: float) -> float:
-    """Return twice by how much the mean of f over a step exceeds that of both ends.
-
-    f turns from stick to its limit, which was so far at the start and is passed by the slip. Less
-    the mean of that over all starts, so that what is left has no bias.
-    """
-    if start <= 0.0 or slip == 0.0:
-        return 0.0
-    whole = start + abs(slip)
-    return float(slip * start / whole - np.copysign(whole, slip) / 6.0)
-
-
-@kernel
-def bends(springs: Array, count: int, edge: float, extra: float, left: float) -> float:
-    """Return what the integral of f misses between springs of which one slips and one sticks.
-
-    There f bends; where slip stops the bend stays, with an error that depends on where between the
-    springs it is. While it moves the mean of that is left out. A bend has a part that relaxes.
-    """
-    total = 0.0
-    for j in range(count - 1):
-        here, beyond = springs[SLIPS, j], springs[SLIPS, j + 1]
-        if here != beyond:
-            area, mean = 0.0, 0.0
-            if here == 0.0 and j > 0:
-                area, mean = corner(springs, j, j - 1, springs[X, j + 1], beyond, extra)
-            elif beyond == 0.0 and j < count - 2:
-                area, mean = corner(springs, j + 1, j + 2, springs[X, j], here, extra)
-            m = springs[BEND_RELAXING, j] * left
-            grown = (area - springs[BEND, j] - extra * m) / (1.0 + extra)
-            springs[BEND, j], springs[BEND_RELAXING, j] = springs[BEND, j] + grown, m + grown
-            total += area - mean
-        elif springs[BEND, j] != 0.0:
-            kept = 1.0 if here == 0.0 else 0.0
-            springs[BEND, j] *= kept
-            springs[BEND_RELAXING, j] *= kept * left
-            total += springs[BEND, j] + extra * springs[BEND_RELAXING, j]
-    if count > 1 and springs[SLIPS, count - 1] == 0.0:
-        total += rim_bend(springs, count - 1, edge, extra)
-    return total
-
-
-@kernel
-def rim_bend(springs: Array, last: int, edge: float, extra: float) -> float:
-    """Return the same between the last spring, which sticks, and the edge.
-
-    While the edge grows f is curved there: the error is made to grow with the part of the cell that
-    is filled. Else f ends in a ring that slips.
-    """
-    f, before = force_of(springs, last, extra), force_of(springs, last - 1, extra)
-    x, x_before = springs[X, last], springs[X, last - 1]
-    at_edge = f + (f - before) * (edge * edge - x * x) / (x * x - x_before * x_before)
-    if springs[NEXT, last] > springs[LIMIT, last]:
-        return float(at_edge * (edge + x_before - 2.0 * x) / 6.0)
-    area, _ = corner(springs, last, last - 1, edge, np.copysign(1.0, at_edge), extra)
-    return float(area)
-
-
-@kernel
-def corner(
-    springs: Array, near: int, far: int, x: float, sign: float, extra: float
-) -> tuple[float, float]:
-    """Return the area between f and the line from a spring that sticks to a place x that slips.
-
-    And its mean over all places of the bend. How far f is below its limit is linear in x^2 through
-    the springs that stick.
-    """
-    gap = springs[NEXT, near] - sign * force_of(springs, near, extra)
-    wider = springs[NEXT, far] - sign * force_of(springs, far, extra) - gap
-    s = springs[S, near]
-    whole, part = abs(x * x - s) * wider, abs(s - springs[S, far]) * gap
-    if whole <= max(part, 0.0):
-        return 0.0, 0.0
-    length = sign * abs(x - springs[X, near])
-    mean = length * whole / abs(s - springs[S, far]) / 12.0
-    return float(0.5 * length * gap * (1.0 - part / whole)), float(mean)
-
-
-@kernel
-def force_of(springs: Array, j: int, extra: float) -> float:
-    """Return what a spring bears in shear."""
-    return float(springs[U, j] + extra * springs[RELAXING, j])
+    return force + rim(springs, count - 1, edge) * springs[U, count - 1] if count > 0 else 0.0
 
 
 @kernel
 def stretched(
     u: float, m: float, limit: float, limit_end: float, rate: float, step: Step
-) -> tuple[float, float, float]:
-    """Return u and m after a step, and the slip; rate is that of the limit at its start."""
+) -> tuple[float, float]:
+    """Return u and m after a step; rate is that of the limit at its start."""
     stuck, relaxed = u + step.moved, m * step.left + step.relaxing
     least, end, slid, slid_m = _slip(1.0, u, m, limit, limit_end, rate, step)
     sign = 1.0
@@ -264,10 +160,10 @@ def stretched(
         least, end, slid, slid_m = _slip(-1.0, u, m, limit, limit_end, rate, step)
         sign = -1.0
     if least >= 0.0:
-        return stuck, relaxed, 0.0
+        return stuck, relaxed
     if least == end:
-        return slid, slid_m, -sign * least
-    return stuck + sign * least, relaxed + sign * least * step.kept, -sign * least
+        return slid, slid_m
+    return stuck + sign * least, relaxed + sign * least * step.kept
 
 
 @kernel

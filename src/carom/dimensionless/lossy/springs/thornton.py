@@ -70,11 +70,9 @@ def turn(now: Array, springs: Array, count: int) -> float:
     for j in range(count):
         most = (now[EDGE] ** 2 - springs[of.S, j]) * shrunk
         springs[of.NEXT, j], springs[of.SOFTER, j] = most, 0.0
-        u = springs[of.U, j]
-        springs[of.U, j] = max(min(u, most), -most)
-        springs[of.SLIPS, j] = np.sign(u - springs[of.U, j])
+        springs[of.U, j] = max(min(springs[of.U, j], most), -most)
         force += springs[of.WEIGHT, j] * springs[of.U, j]
-    return force + of.bends(springs, count, now[EDGE], 0.0, 1.0)
+    return force
 
 
 @kernel
