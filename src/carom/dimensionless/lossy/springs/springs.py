@@ -132,7 +132,7 @@ def stretch(springs: Array, count: int, edge: float, step: Step) -> tuple[float,
         sign, weight = 1.0 * (slip > 0.0) - 1.0 * (slip < 0.0), springs[WEIGHT, j]
         if sign != springs[SLIPS, j]:
             start = limits[0] - sign * force_of(springs, j, step.extra)
-            more += weight * late(start, slip / step.give)
+            more += weight * late(start, slip / step.give, limits[0])
             springs[SLIPS, j] = sign
         springs[U, j], springs[RELAXING, j] = u, m
         if j == count - 1:
@@ -157,7 +157,7 @@ def stretch_elastic(
         slip = min(back, 0.0) - min(forth, 0.0)
         sign = 1.0 * (slip > 0.0) - 1.0 * (slip < 0.0)
         if sign != springs[SLIPS, j]:
-            more += springs[WEIGHT, j] * late(limit - sign * u, slip)
+            more += springs[WEIGHT, j] * late(limit - sign * u, slip, limit)
             springs[SLIPS, j] = sign
         springs[U, j] = stuck - slip
         force += springs[WEIGHT, j] * springs[U, j]
@@ -168,16 +168,17 @@ def stretch_elastic(
 
 
 @kernel
-def late(start: float, slip: float) -> float:
+def late(start: float, slip: float, limit: float) -> float:
     """Return twice by how much the mean of f over a step exceeds that of both ends.
 
     f turns from stick to its limit, which was so far at the start and is passed by the slip. Less
-    the mean of that over all starts, so that what is left has no bias.
+    its mean over all starts, where steps are short, so that what is left has no bias.
     """
     if start <= 0.0 or slip == 0.0:
         return 0.0
     whole = start + abs(slip)
-    return float(slip * start / whole - np.copysign(whole, slip) / 6.0)
+    mean = np.copysign(whole, slip) / 6.0 * max(1.0 - (whole / limit) ** 4, 0.0)
+    return float(slip * start / whole - mean)
 
 
 @kernel
@@ -193,9 +194,13 @@ def bends(springs: Array, count: int, edge: float, extra: float, left: float) ->
         if here != beyond:
             area, mean = 0.0, 0.0
             if here == 0.0 and j > 0:
-                area, mean = corner(springs, j, j - 1, springs[X, j + 1], beyond, extra)
+                area, mean = corner(
+                    springs, j, j - 1, springs[X, j + 1], springs[NEXT, j + 1], beyond, extra
+                )
             elif beyond == 0.0 and j < count - 2:
-                area, mean = corner(springs, j + 1, j + 2, springs[X, j], here, extra)
+                area, mean = corner(
+                    springs, j + 1, j + 2, springs[X, j], springs[NEXT, j], here, extra
+                )
             m = springs[BEND_RELAXING, j] * left
             grown = (area - springs[BEND, j] - extra * m) / (1.0 + extra)
             springs[BEND, j], springs[BEND_RELAXING, j] = springs[BEND, j] + grown, m + grown
@@ -217,33 +222,37 @@ def rim_bend(springs: Array, last: int, edge: float, extra: float) -> float:
     While the edge grows f is curved there: the error is made to grow with the part of the cell that
     is filled. Else f ends in a ring that slips.
     """
-    f, before = force_of(springs, last, extra), force_of(springs, last - 1, extra)
-    x, x_before = springs[X, last], springs[X, last - 1]
-    at_edge = f + (f - before) * (edge * edge - x * x) / (x * x - x_before * x_before)
+    at_edge = force_at(springs, last, last - 1, edge, extra)
     if springs[NEXT, last] > springs[LIMIT, last]:
-        return float(at_edge * (edge + x_before - 2.0 * x) / 6.0)
-    area, _ = corner(springs, last, last - 1, edge, np.copysign(1.0, at_edge), extra)
-    return float(area)
+        return float(at_edge * (edge + springs[X, last - 1] - 2.0 * springs[X, last]) / 6.0)
+    sign = np.copysign(1.0, at_edge)
+    return float(corner(springs, last, last - 1, edge, 0.0, sign, extra)[0])
 
 
 @kernel
 def corner(
-    springs: Array, near: int, far: int, x: float, sign: float, extra: float
+    springs: Array, near: int, far: int, x: float, limit: float, sign: float, extra: float
 ) -> tuple[float, float]:
     """Return the area between f and the line from a spring that sticks to a place x that slips.
 
-    And its mean over all places of the bend. How far f is below its limit is linear in x^2 through
-    the springs that stick.
+    And its mean over all places of the bend, where that is resolved. f is linear in x^2 through the
+    springs that stick.
     """
-    gap = springs[NEXT, near] - sign * force_of(springs, near, extra)
-    wider = springs[NEXT, far] - sign * force_of(springs, far, extra) - gap
-    s = springs[S, near]
-    whole, part = abs(x * x - s) * wider, abs(s - springs[S, far]) * gap
-    if whole <= max(part, 0.0):
+    f = sign * force_of(springs, near, extra)
+    gap, over = springs[NEXT, near] - f, sign * force_at(springs, near, far, x, extra) - limit
+    if gap <= 0.0 or over <= 0.0:
         return 0.0, 0.0
-    length = sign * abs(x - springs[X, near])
-    mean = length * whole / abs(s - springs[S, far]) / 12.0
-    return float(0.5 * length * gap * (1.0 - part / whole)), float(mean)
+    length, whole = sign * abs(x - springs[X, near]), gap + over
+    mean = length * whole / 12.0 * max(1.0 - (whole / springs[NEXT, near]) ** 4, 0.0)
+    return float(0.5 * length * gap * over / whole), float(mean)
+
+
+@kernel
+def force_at(springs: Array, near: int, far: int, x: float, extra: float) -> float:
+    """Return what springs would bear in shear at a place, by the line in x^2 through two."""
+    f, s = force_of(springs, near, extra), springs[S, near]
+    slope = (f - force_of(springs, far, extra)) / (s - springs[S, far])
+    return float(f + slope * (x * x - s))
 
 
 @kernel
