@@ -276,7 +276,7 @@ def test_11_slip_of_a_solid_that_relaxes():
     """(11.11) and f = sigma N, integrated in small steps, for a limit that grows evenly."""
     g, theta, limit, rate, m = 1.7, 0.4, 0.2, 0.3, 0.05
     step = step_of(g, theta, 0.5, 2.0, 2.0, 0.0)
-    u, relaxed = stretched(limit - g * m, m, limit, limit + 0.5 * rate, rate, step)
+    u, relaxed, _ = stretched(limit - g * m, m, limit, limit + 0.5 * rate, rate, step)
     n = 20_000
     for _ in range(n):
         m += 0.5 / n * (rate - m / theta) / (1 + g)
