@@ -223,8 +223,9 @@ def rim_bend(springs: Array, last: int, edge: float, extra: float) -> float:
     is filled. Else f ends in a ring that slips.
     """
     at_edge = force_at(springs, last, last - 1, edge, extra)
-    if springs[NEXT, last] > springs[LIMIT, last]:
-        return float(at_edge * (edge + springs[X, last - 1] - 2.0 * springs[X, last]) / 6.0)
+    empty = 2.0 * springs[X, last] - springs[X, last - 1] - edge
+    if springs[NEXT, last] > springs[LIMIT, last] and empty >= 0.0:
+        return float(-at_edge * empty / 6.0)
     sign = np.copysign(1.0, at_edge)
     return float(corner(springs, last, last - 1, edge, 0.0, sign, extra)[0])
 
