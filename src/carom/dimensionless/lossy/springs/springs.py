@@ -2,8 +2,8 @@
 
 In shear each is a standard linear solid, f = u + g m, m' = u' - m/theta; g = 0 is an elastic one.
 In stick u grows as U does. In slip f = sigma N, so that m relaxes by itself, in the time
-(1 + g) theta. Springs of two components need two rows of U and RELAXING and a circle for a limit
-here, and nowhere else.
+(1 + g) theta. Springs of two components will need two rows of U and RELAXING and a circle for a
+limit here, and vectors for what is summed over them.
 """
 
 from typing import NamedTuple
