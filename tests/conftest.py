@@ -6,6 +6,7 @@ import gc
 import hashlib
 import os
 import shutil
+import signal
 import sysconfig
 import tempfile
 from pathlib import Path
@@ -25,6 +26,10 @@ XLA = "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=tr
 os.environ.setdefault("XLA_FLAGS", XLA)
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers have a core each; others would wait
 os.environ.setdefault("NUMBA_CACHE_DIR", f"{tempfile.gettempdir()}/carom-kernels-{KEY}")
+
+for number, usual in (signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL):
+    if signal.getsignal(number) == signal.SIG_IGN:  # as below nohup; the tests send these
+        signal.signal(number, usual)
 
 # these share what takes long to begin with: a browser, what jax has compiled
 TOGETHER = ("tests/browser/", "tests/lammps/", "portable", "collision_results")
