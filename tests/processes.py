@@ -42,7 +42,7 @@ while True:
             atexit._run_exitfuncs()
             sys.stdout.flush()
             sys.stderr.flush()
-            ctypes.CDLL(None).exit(end.code)
+            ctypes.PyDLL(None).exit(end.code)  # other threads wait for the GIL
     for stream in streams:
         os.close(stream)
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])

@@ -94,7 +94,7 @@ def test_workers_of_another_version_are_refused_in_one_line(cluster, monkeypatch
 def test_scheduler_that_does_not_answer_is_refused_soon(monkeypatch):
     """It has the seconds that it is given, and no more."""
     assert schedulers.ANSWER_SECONDS < 10.0
-    monkeypatch.setattr(schedulers, "ANSWER", 0.7)
+    monkeypatch.setattr(schedulers, "ANSWER_SECONDS", 0.7)
     client, values = distributed.Client, []
 
     def called(*address, timeout, **options):
@@ -108,7 +108,7 @@ def test_scheduler_that_does_not_answer_is_refused_soon(monkeypatch):
 
 
 def test_scheduler_without_workers_is_refused(monkeypatch):
-    monkeypatch.setattr(schedulers, "ANSWER", 0.5)
+    monkeypatch.setattr(schedulers, "ANSWER_SECONDS", 0.5)
     options = {"n_workers": 0, "processes": True, "host": "127.0.0.1", "dashboard_address": ":0"}
     with (
         distributed.LocalCluster(**options) as empty,
