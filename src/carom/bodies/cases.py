@@ -19,7 +19,7 @@ from carom.quantities.refusals import (
     Faults,
     InputError,
     checked_type,
-    clipped,
+    heading,
     hint,
     one_of,
     refusal,
@@ -100,7 +100,7 @@ def check_case(
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
         unknown = [key for key in table if key not in allowed]
         for key in unknown[:MOST_LISTED]:
-            faults.add(f"{clipped(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}")
+            faults.add(f"{heading(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}")
         for key in unknown[MOST_LISTED:]:  # which are counted, not told
             faults.add(f"{key}: unknown key")
 
@@ -282,7 +282,7 @@ def _as_table(value: Any) -> Any:
         for key in value:
             if key not in MATERIAL:
                 raise InputError(
-                    f"{clipped(str(key))}: unknown in a material; {hint(key, MATERIAL)}"
+                    f"{heading(str(key))}: unknown in a material; {hint(key, MATERIAL)}"
                 )
     return value
 

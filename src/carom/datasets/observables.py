@@ -13,7 +13,7 @@ from carom.bodies.pairs import Pair, checked_pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.arrays import Array, along_the_same, numbers, refuse_where, together
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import checked_type, clipped, hint, refusal, refuse
+from carom.quantities.refusals import checked_type, heading, hint, refusal, refuse
 
 Quantities = Mapping[str, Any]  # arrays by name
 
@@ -124,7 +124,7 @@ def _check_name(where: str, name: Any) -> None:
     words = f"unknown quantity; {hint(text, NAMES)}"
     refuse(
         text not in NAMES
-        and (f"{clipped(text)}: {words}" if text.strip() else refusal(where, name, words))
+        and (f"{heading(text)}: {words}" if text.strip() else refusal(where, name, words))
     )
 
 

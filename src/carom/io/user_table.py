@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import Faults, InputError, clipped, nearest
+from carom.quantities.refusals import Faults, InputError, heading, nearest
 from carom.quantities.shown import Printed
 from carom.quantities.symbols import meant
 from carom.quantities.texts import UNCHANGED
@@ -180,7 +180,7 @@ def _with_unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     for name, count in Counter(name for name, _ in pairs).items():
         if count > 1:
             words = f"it is given twice after '{CASE}'; leave one of them out"
-            raise InputError(f"{clipped(name)}: {words}")
+            raise InputError(f"{heading(name)}: {words}")
     return dict(pairs)
 
 
@@ -234,10 +234,10 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
     unknown = tuple(name for name in table.names if name not in names)
     for name in unknown:
         if hint := _likely(name, names):
-            faults.add(f"{name}: unknown column; did you mean {hint!r}?")
+            faults.add(f"{heading(name)}: unknown column; did you mean {hint!r}?")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
-            faults.add(f"{name}: its column {entry(name)!r} is missing")
+            faults.add(f"{heading(name)}: its column {entry(name)!r} is missing")
     return unknown
 
 

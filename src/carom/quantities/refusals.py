@@ -30,7 +30,7 @@ class InputError(ValueError):
 
 def refusal(name: str, value: Any, allowed: str) -> InputError:
     """Return the error that refuses a value."""
-    return InputError(f"{clipped(name)}: {_shown(value)} cannot be used; {allowed}")
+    return InputError(f"{heading(name)}: {_shown(value)} cannot be used; {allowed}")
 
 
 def refuse(*faults: object) -> None:
@@ -46,6 +46,11 @@ def refuse(*faults: object) -> None:
     """
     if messages := list(map(str, filter(None, faults))):
         raise InputError(_together(messages))
+
+
+def heading(text: str) -> str:
+    """Return a name that users gave as the head of a refusal, which ends with its only colon."""
+    return clipped(text.replace(":", " "))
 
 
 def clipped(text: str) -> str:

@@ -9,7 +9,7 @@ from numbers import Integral, Real
 from typing import Any
 
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, clipped, refusal, refuse
+from carom.quantities.refusals import InputError, heading, refusal, refuse
 from carom.quantities.texts import (
     CANNOT_HOLD,
     UNCHANGED,
@@ -179,7 +179,7 @@ def _unit_of_attributes(name: str, attributes: Mapping[Any, Any]) -> str:
 
 def two_units(name: str, one: Any, other: Any) -> InputError:
     """Return the error that refuses what has two units."""
-    return InputError(f"{clipped(name)}: it has two units, {one} and {other}; leave one out")
+    return InputError(f"{heading(name)}: it has two units, {one} and {other}; leave one out")
 
 
 def factor_of(name: str, own: Any, unit: str) -> Factor:

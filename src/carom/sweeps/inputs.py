@@ -10,7 +10,7 @@ import numpy as np
 from carom.bodies import cases
 from carom.bodies.materials import STRENGTHS
 from carom.io.labels import attributes
-from carom.quantities.refusals import clipped, hint, one_of, refusal, refuse
+from carom.quantities.refusals import heading, hint, one_of, refusal, refuse
 from carom.quantities.symbols import meant, remark
 
 CODE = np.int8
@@ -84,7 +84,7 @@ def checked_names(inputs: Iterable[Any]) -> tuple[str, ...]:
     unknown = [name for name in names if name not in INPUTS]
     refuse(
         not names and "design: no inputs; give at least one, e.g. 'angle'",
-        *(f"{clipped(str(n))}: not an input of an impact; {_hint(n)}" for n in unknown),
+        *(f"{heading(str(n))}: not an input of an impact; {_hint(n)}" for n in unknown),
     )
     refuse_contradictions(names)
     return names

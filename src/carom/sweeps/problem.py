@@ -326,8 +326,9 @@ def _checked(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
         checked_type("outputs", name, str, "must be the name of a result, e.g. 'rebound_angle'")
     unknown = [name for name in listed if name not in results]
     twice = [name for name in listed if name in names or listed.count(name) > 1]
+    shown, near = ", ".join(map(repr, unknown)), dict.fromkeys(hint(n, results) for n in unknown)
     refuse(
-        *(f"outputs: {n!r} is not a result of an impact; {hint(n, results)}" for n in unknown),
+        unknown and f"outputs: {shown} cannot be used, as no result is so named; {'; '.join(near)}",
         *(f"outputs: {n!r} is there already, as an input or an output" for n in twice),
     )
     return tuple(listed)

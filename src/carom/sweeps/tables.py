@@ -16,7 +16,7 @@ from carom.bodies.cases import SWEEP_TABLE, Case
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, column_in_si
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import Faults, InputError, checked_type, clipped, refusal, refuse
+from carom.quantities.refusals import Faults, InputError, checked_type, heading, refusal, refuse
 from carom.quantities.texts import Unreadable, factor
 from carom.sweeps.designs import Box, Design, Grid, LatinHypercube
 from carom.sweeps.inputs import (
@@ -195,6 +195,6 @@ def _flat(axes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
         nested = isinstance(axis, Mapping) and axis and not axis.keys() & {"from", "to", "points"}
         more = _flat(axis, f"{prefix}{name}.") if nested else {prefix + name: axis}
         words = "it is given twice in [sweep.axes]; leave one of them out"
-        refuse(*(f"{clipped(twice)}: {words}" for twice in sorted(flat.keys() & more.keys())))
+        refuse(*(f"{heading(twice)}: {words}" for twice in sorted(flat.keys() & more.keys())))
         flat |= more
     return flat
