@@ -177,5 +177,5 @@ def test_quantities_of_a_sweep(run, refusal):
     pair = carom.Pair(ball, carom.HalfSpace(material="bearing-steel"), friction=0.3)
     speeds = carom.bearable_speeds(pair, angle=[0.0], friction=[0.05]).yield_speed_second
     assert low <= float(speeds[0, 0]) * (1.0 + 1e-9)
-    for wrong, words in (("foo", "is not a result"), ("crack_speed_second", "missing for the")):
+    for wrong, words in (("foo", "no result is so"), ("crack_speed_second", "missing for the")):
         assert words in refusal(*small, "--quantities", wrong)
