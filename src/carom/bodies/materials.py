@@ -125,8 +125,8 @@ class Material(Printed):
 
     def __str__(self) -> str:
         values = {key: getattr(self, key) for key in VALUES}
-        known = {key: value for key, value in values.items() if value not in (None, math.inf)}
-        return "\n".join([self.name or "material", *listed(known)])
+        there = {key: value for key, value in values.items() if value not in (None, math.inf)}
+        return "\n".join([self.name or "material", *listed(there)])
 
 
 class Catalogue(dict[str, Material], Printed):

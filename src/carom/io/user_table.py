@@ -299,9 +299,9 @@ def _column(name: str, table: UserTable, open_ended: bool) -> Array:
     missing = ~np.isfinite(values) & ~gap
     if missing.any():
         todo = f"write '{GAP}' where nothing was measured" if open_ended else CORRECT_OR_DELETE
-        known = reason.removeprefix(f"{spelled(name)}: ")
+        cause = reason.removeprefix(f"{spelled(name)}: ")
         raise InputError(
-            f"{spelled(name)}: not a number in {table.named(missing)}; {known or todo}"
+            f"{spelled(name)}: not a number in {table.named(missing)}; {cause or todo}"
         )
     return values
 
