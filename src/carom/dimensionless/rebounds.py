@@ -124,7 +124,7 @@ def lossy_rebounds(
     numbers[elastic, layout.PSI_OUT] = psi_2
     lossy = np.flatnonzero(~elastic)
     columns = tuple(x[lossy] for x in (psi_1, chi, parameter, extra))
-    rows, codes = np.empty((lossy.size, layout.NUMBERS)), np.empty(lossy.size, dtype=np.int8)
+    rows, codes = np.empty((lossy.size, march.NUMBERS)), np.empty(lossy.size, dtype=np.int8)
 
     def block(part: slice) -> None:
         psis, chis, parameters, extras = (column[part] for column in columns)
@@ -137,7 +137,7 @@ def lossy_rebounds(
             march.fill(psis, chis, *solid, march.new_work(), *out)
 
     in_blocks(block, lossy.size, LOSSY_BLOCK, SMALLEST_LOSSY_BLOCK, threads)
-    numbers[lossy], status[lossy] = rows, codes
+    numbers[lossy], status[lossy] = rows[:, : layout.NUMBERS], codes
     numbers[status != Status.SOLVED] = np.nan
     return law.named(numbers, losses.loss, status)
 

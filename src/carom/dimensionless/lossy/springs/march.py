@@ -1,13 +1,14 @@
 """An impact marched over springs, step by step: kick, stretch, kick.
 
-    v' = -(5/4) (P + (3/2) eps Q),  psi' = -(5/4) (3 chi Q + zeta P),  U' = psi,
+    v' = -(5/4) (P + (3/2) eps . Q),  psi' = -(5/4) (3 chi Q + zeta P),  U' = psi,
     Q = integral of f dx over 0 <= x <= b,
 
-f that of springs in shear, whose Coulomb limit is what they bear in compression. The solid says
-what that is and what load it makes: hertz, thornton and relaxing; a new one is a file beside them,
-its place in SOLIDS, and a line in `press`, in `stored` and, if it changes where the bodies turn, in
-`turn`. Springs are laid at the edge as it grows, every second step. Of second order in the number
-of springs; what comes of two numbers of springs is extrapolated.
+vectors of two components where the inertia has a direction across, f that of springs in shear,
+whose Coulomb limit is what they bear in compression. The solid says what that is and what load it
+makes: hertz, thornton and relaxing; a new one is a file beside them, its place in SOLIDS, and a
+line in `press`, in `stored` and, if it changes where the bodies turn, in `turn`. Springs are laid
+at the edge as it grows, every second step. Of second order in the number of springs; what comes of
+two numbers of springs is extrapolated.
 """
 
 from typing import NamedTuple
@@ -32,6 +33,10 @@ LONGEST = 20 * PER_SPRING * MOST_SPRINGS
 ELASTIC_CLOCK = 1.26  # of the loading of elastic bodies
 STANDING = 1e-7  # speed at which the bodies turn; a step that ends faster is followed by another
 ENDLESS = 1e300  # relaxation time of an elastic solid
+
+# What an impact comes to besides the numbers of the layout: psi_2 across.
+PSI_ACROSS = layout.NUMBERS
+NUMBERS = layout.NUMBERS + 1
 
 # Of a row that is kept, besides those of the layout: whether springs slip, either way.
 FORTH, BACK = layout.ROWS, layout.ROWS + 1
@@ -63,7 +68,7 @@ def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arra
         motion=np.zeros((3, at.MOTION)),
         springs=np.zeros((of.SPRING_COLUMNS, most + SPARE_SPRINGS + 2)),
         state=np.zeros(at.STATE),
-        coarse=np.zeros(layout.NUMBERS),
+        coarse=np.zeros(NUMBERS),
         rows=np.zeros((steps + 1 if steps else 0, ROWS)),
         frames=np.zeros((steps + 1 if springs else 0, FRAMES, springs)),
     )
@@ -92,7 +97,7 @@ def march(
             of.lay(springs, laid, now[at.EDGE])
             laid += 1
         since += grows
-        part = at.drift(inertia, h, now, state[at.FORCE], new)
+        part = at.drift(inertia, h, now, state, new)
         clock += part * h if grows else 0.0
         met = touching
         touching = press(solid, now, new, turned, springs, laid)
@@ -148,7 +153,7 @@ def press(solid: Solid, now: Array, new: Array, turned: Array, springs: Array, l
 def turn(solid: Solid, now: Array, springs: Array, touching: int, state: Array) -> None:
     """Change what changes where the bodies turn."""
     if solid.loss == Loss.PLASTIC.value:
-        state[at.FORCE] = thornton.turn(now, springs, touching)
+        thornton.turn(now, springs, touching, state)
     elif solid.loss == Loss.PLATE.value:
         hertz.turn(solid.parameter, now)
 
@@ -178,11 +183,10 @@ def end(now: Array, new: Array, springs: Array) -> None:
 def let_go(springs: Array, touching: int, met: int, chi: float, extra: float, state: Array) -> None:
     """Free springs whose contact ends; what both branches hold against each other is lost."""
     for j in range(touching, met):
-        u, m = springs[of.U, j], springs[of.RELAXING, j]
         if extra > 0.0:
-            state[at.LOST] += 1.875 * chi * springs[of.WEIGHT, j] * (u * u + extra * m * m)
+            state[at.LOST] += 1.875 * chi * springs[of.WEIGHT, j] * of.square(springs, j, extra)
         else:
-            springs[of.U, j], springs[of.NEXT, j] = 0.0, 0.0
+            springs[of.U, j], springs[of.U_ACROSS, j], springs[of.NEXT, j] = 0.0, 0.0, 0.0
 
 
 @kernel
@@ -198,17 +202,26 @@ def kick_and_stretch(
     """Move velocities and springs on by a step."""
     g, dt = solid.extra, new[at.TIME] - now[at.TIME]
     theta = solid.parameter if g > 0.0 else ENDLESS
-    rate = -at.braking(inertia, now[at.LOAD], state[at.FORCE])
-    half = state[at.PSI] + 0.5 * dt * rate
-    step = of.step_of(g, theta, dt, state[at.PSI], half, rate)
-    force, square = of.stretch(springs, touching, new[at.EDGE], step)
+    slowed = at.slowing(inertia, now[at.LOAD], state)
+    braked, braked_across = at.braking(inertia, now[at.LOAD], state)
+    half = state[at.PSI] - 0.5 * dt * braked
+    half_across = state[at.PSI_ACROSS] - 0.5 * dt * braked_across
+    step = of.step_of(g, theta, dt, state[at.PSI], half, -braked)
+    if inertia.across > 0.0:
+        across = of.step_of(g, theta, dt, state[at.PSI_ACROSS], half_across, -braked_across)
+        force, aside, square = of.stretch_both(springs, touching, new[at.EDGE], step, across)
+        state[at.FORCE], state[at.FORCE_ACROSS] = force, aside
+    else:
+        state[at.FORCE], square = of.stretch(springs, touching, new[at.EDGE], step)
     losing = square * g / theta
     state[at.LOST] += 1.875 * inertia.chi * dt * (state[at.LOSING] + losing)
     state[at.LOSING] = losing
-    at.settle(inertia, now, new, state[at.FORCE], force)
-    state[at.PSI] = half - 0.5 * dt * at.braking(inertia, new[at.LOAD], force)
+    at.settle(inertia, now, new, slowed, state)
+    braked, braked_across = at.braking(inertia, new[at.LOAD], state)
+    state[at.PSI] = half - 0.5 * dt * braked
+    state[at.PSI_ACROSS] = half_across - 0.5 * dt * braked_across
     state[at.MOVED] += half * dt
-    state[at.FORCE] = force
+    state[at.MOVED_ACROSS] += half_across * dt
 
 
 @kernel
@@ -222,13 +235,12 @@ def keep(solid: Solid, now: Array, springs: Array, touching: int, state: Array, 
     row[layout.AT_STORED] = stored(solid, now, springs, touching)
     row[layout.AT_LOST] = 1.0 - now[at.SPEED] ** 2 - row[layout.AT_STORED]
     for j in range(touching):
-        u, m, most = springs[of.U, j], springs[of.RELAXING, j], springs[of.NEXT, j]
-        weight = springs[of.WEIGHT, j]
+        weight, most = springs[of.WEIGHT, j], springs[of.NEXT, j]
         if j == touching - 1:
             weight += of.rim(springs, j, now[at.EDGE])
-        row[layout.AT_SQUARE] += weight * (u * u + solid.extra * m * m)
-        force = u + solid.extra * m
-        if most - abs(force) > LIMIT_TOLERANCE * most:
+        row[layout.AT_SQUARE] += weight * of.square(springs, j, solid.extra)
+        force, aside = of.pulled(springs, j, solid.extra)
+        if most - np.hypot(force, aside) > LIMIT_TOLERANCE * most:
             outer = springs[of.X, j + 1] if springs[of.OUTER, j] > 0.0 else now[at.EDGE]
             row[layout.AT_STUCK] += min(outer, now[at.EDGE]) - springs[of.X, j]
         else:
@@ -241,7 +253,7 @@ def keep_springs(extra: float, springs: Array, touching: int, state: Array, fram
     frame[:] = 0.0
     for j in range(touching):
         frame[PRESSED, j] = springs[of.NEXT, j]
-        frame[PULLED, j] = springs[of.U, j] + extra * springs[of.RELAXING, j]
+        frame[PULLED, j], _ = of.pulled(springs, j, extra)
         frame[LAGGING, j] = state[at.MOVED] - springs[of.U, j]
 
 
@@ -253,6 +265,7 @@ def note(now: Array, turned: Array, state: Array, numbers: Array) -> None:
     numbers[layout.TIME], numbers[layout.PENETRATION] = now[at.TIME], now[at.DEPTH]
     numbers[layout.LOST], numbers[layout.SHEAR_LOST] = 1.0 - e * e, state[at.LOST]
     numbers[layout.DEEPEST], numbers[layout.WIDEST] = turned[at.DEPTH], turned[at.EDGE]
+    numbers[PSI_ACROSS] = state[at.PSI_ACROSS]
 
 
 @kernel
@@ -276,7 +289,7 @@ def run(
     if status == Status.SOLVED.value:
         speed = min(abs(psi_1), LARGEST_PSI)
         if psi_1 < 0.0:
-            inertia = Inertia(inertia.chi, -inertia.eps, -inertia.zeta)
+            inertia = at.turned(inertia)
         h = step_for(speed, inertia, solid, FEW, work)
         coarse, _ = march(speed, inertia, solid, h, work, work.coarse)
         fine, _ = march(speed, inertia, solid, h * FEW / MANY, work, numbers)
@@ -289,12 +302,13 @@ def run(
             numbers[j] += more
             if not np.isfinite(numbers[j]):
                 status = Status.UNRESOLVED.value
-        if inertia.eps == 0.0 and inertia.zeta == 0.0:
-            if solid.loss == Loss.PLASTIC.value:
-                thornton.come_to(solid.parameter, numbers)
+        if at.is_central(inertia) and solid.loss == Loss.PLASTIC.value:
+            thornton.come_to(solid.parameter, numbers)
+        if at.is_central(inertia) and inertia.across == 0.0:
             keep_energy(speed, numbers)
         numbers[layout.PSI_OUT] += abs(psi_1) - speed
         numbers[layout.PSI_OUT] *= np.copysign(1.0, psi_1)
+        numbers[PSI_ACROSS] *= np.copysign(1.0, psi_1)
     if status != Status.SOLVED.value:
         numbers[:], error = np.nan, np.nan
     return status, error
@@ -323,7 +337,7 @@ def fill(
     """Write what every impact comes to, and its status."""
     for i in range(psi_1.size):
         solid = Solid(loss, parameter[i], extra[i] if loss == Loss.RELAXING.value else 0.0)
-        status[i], _ = run(psi_1[i], Inertia(chi[i], 0.0, 0.0), solid, work, numbers[i])
+        status[i], _ = run(psi_1[i], at.central(chi[i]), solid, work, numbers[i])
 
 
 def march_rebound(psi_1: float, inertia: Inertia, solid: Solid) -> tuple[float, float]:
@@ -335,7 +349,7 @@ def march_rebound(psi_1: float, inertia: Inertia, solid: Solid) -> tuple[float, 
     >>> round(psi_2, 6), error < 1e-5
     (-0.3, True)
     """
-    numbers = np.empty(layout.NUMBERS)
+    numbers = np.empty(NUMBERS)
     _, error = run(psi_1, inertia, solid, new_work(), numbers)
     return float(numbers[layout.PSI_OUT]), error
 
@@ -344,4 +358,4 @@ def marched(psi_1: float, inertia: Inertia, solid: Solid, springs: int) -> Vecto
     """Return what an impact comes to over so many springs, not extrapolated."""
     work = new_work(most=springs)
     steps = trace(psi_1, inertia, solid, springs, work, work)
-    return work.coarse if steps else np.full(layout.NUMBERS, np.nan)
+    return work.coarse if steps else np.full(NUMBERS, np.nan)

@@ -1,9 +1,10 @@
 """The normal motion of a marched impact, a step of it, and the inertia of the bodies.
 
-    v' = -(5/4) (P + D v + (3/2) eps Q),  psi' = -(5/4) (3 chi Q + zeta P)
+    v' = -(5/4) (P + D v + (3/2) eps . Q),  psi' = -(5/4) (3 chi Q + zeta P)
 
 D v is what a wall takes that gives way. Spheres have eps = zeta = 0; bodies that are struck off
-their centre have both. In space the inertia is a matrix of three by three, and psi and Q vectors.
+their centre have both. In space psi, Q, eps and zeta are vectors, and chi is a symmetric matrix;
+the first direction is that of the velocity before the impact, the other one is across.
 
 Steps are even in a clock, d(clock) = dt/(2 b), in which the edge grows and recedes at a finite
 rate. The first time that the bodies turn, a step ends.
@@ -19,17 +20,25 @@ from carom.dimensionless.numerics.kernels import kernel
 # much longer steps are while unloading.
 TIME, DEPTH, SPEED, EDGE, LOAD, DRAG, KEPT, PACE = range(8)
 MOTION = 8
-# The tangential state: psi, U, Q, rate at which shear loses energy, and what it lost.
-PSI, MOVED, FORCE, LOSING, LOST = range(5)
-STATE = 5
+# The tangential state: psi, U, Q, rate at which shear loses energy, and what it lost; the first
+# three across.
+PSI, MOVED, FORCE, LOSING, LOST, PSI_ACROSS, MOVED_ACROSS, FORCE_ACROSS = range(8)
+STATE = 8
 
 
 class Inertia(NamedTuple):
-    """The inverse mass at the contact: chi, and what couples both motions."""
+    """The inverse mass at the contact: chi, what couples both motions, and the same across.
+
+    Springs have two components if `across` is positive.
+    """
 
     chi: float
     eps: float = 0.0
     zeta: float = 0.0
+    across: float = 0.0  # chi across
+    mixed: float = 0.0  # between both directions
+    eps_across: float = 0.0
+    zeta_across: float = 0.0
 
 
 class Solid(NamedTuple):
@@ -51,25 +60,49 @@ def copy(motion: Array, to: Array) -> None:
 
 
 @kernel
-def slowing(inertia: Inertia, load: float, force: float) -> float:
+def central(chi: float) -> Inertia:
+    """Return the inertia of bodies that are struck through their centres."""
+    return Inertia(chi, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@kernel
+def is_central(inertia: Inertia) -> bool:
+    """Tell whether the normal motion is that of bodies that are struck through their centres."""
+    coupled = abs(inertia.eps) + abs(inertia.zeta)
+    return bool(coupled + abs(inertia.eps_across) + abs(inertia.zeta_across) == 0.0)
+
+
+@kernel
+def turned(inertia: Inertia) -> Inertia:
+    """Return the inertia in directions that are turned by half a circle."""
+    i = inertia
+    return Inertia(i.chi, -i.eps, -i.zeta, i.across, i.mixed, -i.eps_across, -i.zeta_across)
+
+
+@kernel
+def slowing(inertia: Inertia, load: float, state: Array) -> float:
     """Return -v' of what the contact bears."""
-    return 1.25 * (load + 1.5 * inertia.eps * force)
+    pull = inertia.eps * state[FORCE] + inertia.eps_across * state[FORCE_ACROSS]
+    return float(1.25 * (load + 1.5 * pull))
 
 
 @kernel
-def braking(inertia: Inertia, load: float, force: float) -> float:
-    """Return -psi' of what the contact bears."""
-    return 1.25 * (3.0 * inertia.chi * force + inertia.zeta * load)
+def braking(inertia: Inertia, load: float, state: Array) -> tuple[float, float]:
+    """Return -psi' of what the contact bears, and that across."""
+    force, across = state[FORCE], state[FORCE_ACROSS]
+    along = 3.0 * inertia.chi * force + 3.0 * inertia.mixed * across + inertia.zeta * load
+    aside = 3.0 * inertia.mixed * force + 3.0 * inertia.across * across
+    return 1.25 * along, 1.25 * (aside + inertia.zeta_across * load)
 
 
 @kernel
-def drift(inertia: Inertia, h: float, now: Array, force: float, new: Array) -> float:
+def drift(inertia: Inertia, h: float, now: Array, state: Array, new: Array) -> float:
     """Fill in time, depth and, to first order, speed after a step; return which part of it is made.
 
     That is 1 unless the bodies turn at its end.
     """
     v, b, part = now[SPEED], now[EDGE], 1.0
-    rate = slowing(inertia, now[LOAD], force) + 1.25 * now[DRAG] * v
+    rate = slowing(inertia, now[LOAD], state) + 1.25 * now[DRAG] * v
     dt = 2.0 * b * h * now[PACE]
     if v > 0.0:
         dt = h * (2.0 * b + h * max(v - h * b * rate, 0.0))
@@ -83,9 +116,8 @@ def drift(inertia: Inertia, h: float, now: Array, force: float, new: Array) -> f
 
 
 @kernel
-def settle(inertia: Inertia, now: Array, new: Array, force: float, force_end: float) -> None:
-    """Fill in the speed after a step, from what the contact bears before and after it."""
+def settle(inertia: Inertia, now: Array, new: Array, before: float, state: Array) -> None:
+    """Fill in the speed after a step, from how much the contact slowed it before, and after."""
     half = 0.5 * (new[TIME] - now[TIME])
-    before = slowing(inertia, now[LOAD], force) + 1.25 * now[DRAG] * now[SPEED]
-    after = slowing(inertia, new[LOAD], force_end)
-    new[SPEED] = (now[SPEED] - half * (before + after)) / (1.0 + 1.25 * half * new[DRAG])
+    both = before + 1.25 * now[DRAG] * now[SPEED] + slowing(inertia, new[LOAD], state)
+    new[SPEED] = (now[SPEED] - half * both) / (1.0 + 1.25 * half * new[DRAG])

@@ -220,7 +220,7 @@ def solid_of(losses: LossNumbers) -> Solid:
 
 def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSolution:
     """Solve one oblique impact for which there is no engine but the march."""
-    trial, kept, numbers = march.new_work(), march.new_work(march.LONGEST), np.zeros(layout.NUMBERS)
+    trial, kept, numbers = march.new_work(), march.new_work(march.LONGEST), np.zeros(march.NUMBERS)
     law, first = (Inertia(chi), solid_of(losses)), min(abs(psi), LARGEST_PSI)
     status, error = march.run(psi, *law, trial, numbers)
     solved = status == Status.SOLVED

@@ -2,8 +2,8 @@
 
 In shear each is a standard linear solid, f = u + g m, m' = u' - m/theta; g = 0 is an elastic one.
 In stick u grows as U does. In slip f = sigma N, so that m relaxes by itself, in the time
-(1 + g) theta. Springs of two components will need two rows of U and RELAXING and a circle for a
-limit here, and vectors for what is summed over them.
+(1 + g) theta. Springs of two components have a circle for a limit; in slip f turns towards where
+stick would take it.
 """
 
 from typing import NamedTuple
@@ -15,16 +15,17 @@ from carom.dimensionless.numerics.kernels import kernel
 
 # Columns of the springs: place, its square, weight in the integral over the contact, of which the
 # outer part; deflection in shear, and that of the branch that relaxes; the latter in compression,
-# or by how much a spring that yields is softer; Coulomb's limit before and after, and its rate.
-X, S, WEIGHT, OUTER, U, RELAXING, PRESSED, LIMIT, NEXT, RATE = range(10)
+# or by how much a spring that yields is softer; Coulomb's limit before and after, and its rate;
+# both deflections in shear across.
+X, S, WEIGHT, OUTER, U, RELAXING, PRESSED, LIMIT, NEXT, RATE, U_ACROSS, RELAXING_ACROSS = range(12)
 SOFTER = PRESSED
-SPRING_COLUMNS = 10
+SPRING_COLUMNS = 12
 
 SHORT_STEP = 1e-3  # of a step, in relaxation times: where its functions are series
 
 
 class Step(NamedTuple):
-    """What is the same for all springs in a step."""
+    """What is the same for all springs in a step, in one direction."""
 
     time: float
     psi: float  # at its start
@@ -179,3 +180,116 @@ def _slip(
     slope = (rate + sign * g * step.fading * began) * step.give - sign * step.psi
     end = sign * (slid - stuck)
     return lowest(start, slope * step.time, end), end, slid, slid_m
+
+
+@kernel
+def pulled(springs: Array, j: int, extra: float) -> tuple[float, float]:
+    """Return what a spring bears in shear, and across."""
+    return (
+        springs[U, j] + extra * springs[RELAXING, j],
+        springs[U_ACROSS, j] + extra * springs[RELAXING_ACROSS, j],
+    )
+
+
+@kernel
+def square(springs: Array, j: int, extra: float) -> float:
+    """Return twice the energy that a spring holds in shear."""
+    u, m = springs[U, j], springs[RELAXING, j]
+    v, n = springs[U_ACROSS, j], springs[RELAXING_ACROSS, j]
+    return float(u * u + v * v + extra * (m * m + n * n))
+
+
+@kernel
+def cut(springs: Array, j: int, most: float) -> None:
+    """Cut what an elastic spring bears in shear to a limit."""
+    size = np.hypot(springs[U, j], springs[U_ACROSS, j])
+    if size > most:
+        springs[U, j] *= most / size
+        springs[U_ACROSS, j] *= most / size
+
+
+@kernel
+def stretch_both(
+    springs: Array, count: int, edge: float, step: Step, across: Step
+) -> tuple[float, float, float]:
+    """Move springs of two components on; return the integrals of f, of f across and of m^2."""
+    force, aside, squares = 0.0, 0.0, 0.0
+    psi, moved = complex(step.psi, across.psi), complex(step.moved, across.moved)
+    relaxing = complex(step.relaxing, across.relaxing)
+    for j in range(count):
+        move(springs, j, step, psi, moved, relaxing)
+        weight, along, beside = springs[WEIGHT, j], *pulled(springs, j, step.extra)
+        if j == count - 1:
+            weight += rim(springs, j, edge)
+        force += weight * along
+        aside += weight * beside
+        squares += weight * (springs[RELAXING, j] ** 2 + springs[RELAXING_ACROSS, j] ** 2)
+    return force, aside, squares
+
+
+@kernel
+def move(
+    springs: Array, j: int, step: Step, psi: complex, moved: complex, relaxing: complex
+) -> None:
+    """Move a spring of two components on: it sticks, slips, or stops within the step.
+
+    A complex number holds both, its imaginary part that across.
+    """
+    g, limit, limit_end = step.extra, springs[LIMIT, j], springs[NEXT, j]
+    m = complex(springs[RELAXING, j], springs[RELAXING_ACROSS, j])
+    u = complex(springs[U, j], springs[U_ACROSS, j])
+    bears = u + g * m
+    u, relaxed = u + moved, m * step.left + relaxing
+    stuck = u + g * relaxed
+    start, end = (limit - length(bears)) * step.give, (limit_end - length(stuck)) * step.give
+    unit = direction(bears)
+    slope = (springs[RATE, j] + g * step.fading * dot(unit, m)) * step.give - dot(unit, psi)
+    least = lowest(start, slope * step.time, end)
+    if least < 0.0 and least == end:
+        part, drive = max(start, 0.0) / (max(start, 0.0) - end), stuck - bears
+        middle = 0.5 * ((1.0 - part) * limit + (1.0 + part) * limit_end)
+        began = direction(bears + part * drive)
+        slips = limit_end * turned(began, (1.0 - part) * drive, middle)
+        relaxed = m + (limit * began - bears) * step.give  # to the limit, at once
+        relaxed = relaxed * step.slipping + (slips - limit * began) * step.forced
+        u = slips - g * relaxed
+    elif least < 0.0:
+        u += least * direction(stuck)
+        relaxed += least * step.kept * direction(stuck)
+    springs[U, j], springs[U_ACROSS, j] = u.real, u.imag
+    springs[RELAXING, j], springs[RELAXING_ACROSS, j] = relaxed.real, relaxed.imag
+
+
+@kernel
+def turned(began: complex, drive: complex, limit: float) -> complex:
+    """Return the direction of a spring that slips, at a limit, while it is driven.
+
+    Its angle to the drive falls as limit * angle' = -|drive| sin(angle), which makes the tangent of
+    half of it fade evenly.
+    """
+    along = direction(drive)
+    angle = began * along.conjugate()
+    fades = np.exp(-length(drive) / limit) if limit > 0.0 else 0.0
+    near, far = 1.0 + angle.real, fades * fades * (1.0 - angle.real)
+    if near + far == 0.0:
+        return along
+    return along * complex(near - far, 2.0 * fades * angle.imag) / (near + far)
+
+
+@kernel
+def length(vector: complex) -> float:
+    """Return the length of a vector, faster than by hypot."""
+    return float(np.sqrt(vector.real * vector.real + vector.imag * vector.imag))
+
+
+@kernel
+def direction(vector: complex) -> complex:
+    """Return a vector of length 1 in a direction; of none, none."""
+    size = length(vector)
+    return vector / size if size > 0.0 else 0.0 * vector
+
+
+@kernel
+def dot(one: complex, other: complex) -> float:
+    """Return the product of two vectors."""
+    return one.real * other.real + one.imag * other.imag

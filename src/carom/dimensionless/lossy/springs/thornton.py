@@ -13,7 +13,15 @@ import numpy as np
 
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.springs import springs as of
-from carom.dimensionless.lossy.springs.motion import DEPTH, EDGE, LOAD, PACE, SPEED
+from carom.dimensionless.lossy.springs.motion import (
+    DEPTH,
+    EDGE,
+    FORCE,
+    FORCE_ACROSS,
+    LOAD,
+    PACE,
+    SPEED,
+)
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
@@ -60,19 +68,20 @@ def bear(y: float, now: Array, new: Array, shrunk: float, springs: Array, count:
 
 
 @kernel
-def turn(now: Array, springs: Array, count: int) -> float:
-    """Put springs to what they bear as unloading begins; return the force in shear.
+def turn(now: Array, springs: Array, count: int, state: Array) -> None:
+    """Put springs to what they bear as unloading begins.
 
     The pressure becomes that of an elastic contact at once, which may cut springs in shear.
     """
-    force, shrunk = 0.0, now[LOAD] / now[EDGE] ** 3
+    shrunk = now[LOAD] / now[EDGE] ** 3
+    state[FORCE], state[FORCE_ACROSS] = 0.0, 0.0
     now[PACE] = now[EDGE] ** -2.5  # 1/(rho e), as the edge recedes faster on a flatter sphere
     for j in range(count):
         most = (now[EDGE] ** 2 - springs[of.S, j]) * shrunk
         springs[of.NEXT, j], springs[of.SOFTER, j] = most, 0.0
-        springs[of.U, j] = max(min(springs[of.U, j], most), -most)
-        force += springs[of.WEIGHT, j] * springs[of.U, j]
-    return force
+        of.cut(springs, j, most)
+        state[FORCE] += springs[of.WEIGHT, j] * springs[of.U, j]
+        state[FORCE_ACROSS] += springs[of.WEIGHT, j] * springs[of.U_ACROSS, j]
 
 
 @kernel
