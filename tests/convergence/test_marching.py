@@ -42,7 +42,7 @@ def errors(psi: float, chi: float) -> Array:
 
 def numbers(psi: float, inertia: Inertia, solid: Solid = ELASTIC) -> Array:
     """Return what an impact comes to."""
-    values = np.empty(9)
+    values = np.empty(march.NUMBERS)
     assert march.run(psi, inertia, solid, march.new_work(), values)[0] == 0
     return values
 
@@ -144,7 +144,7 @@ def test_plates(give: float, e: float, duration: float, psi_out: tuple[float, ..
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_sliding_throughout_off_the_centre(sign: float) -> None:
     """psi_1 - 2 (2 chi sigma + zeta)/(1 + sigma eps), elastic along the normal."""
-    chi, eps, zeta = ROD
+    chi, eps, zeta, *_ = ROD
     psi = sign * 8.0
     values = numbers(psi, ROD)
     slid = psi - 2.0 * (2.0 * chi * sign + zeta) / (1.0 + sign * eps)
@@ -230,7 +230,7 @@ def test_a_loss_without_a_solid_is_refused() -> None:
     psi, code = np.ones(1), max(Loss) + 1
     with pytest.raises(carom.InputError, match=f"loss: {code} cannot be used; has no solid"):
         lossy_rebounds(psi, psi, LossNumbers(code, 0.5))
-    values = np.empty(9)
+    values = np.empty(march.NUMBERS)
     status, _ = march.run(1.0, Inertia(1.0), Solid(code, 0.5), march.new_work(), values)
     assert status == Status.UNRESOLVED
     assert np.all(np.isnan(values))
