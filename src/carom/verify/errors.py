@@ -283,16 +283,12 @@ def step_error(
 
     Parameters
     ----------
-    law : Law or callable
-        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     steps : int
         Time steps per t_c, from 10 to two million.
     psi_1 : array_like
         Incidences psi_1.
-    chi : float
-        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
-    kappa : float, optional
-        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
+    law, chi, kappa
+        As for `force_error`.
 
     Returns
     -------
@@ -332,16 +328,10 @@ def advised_steps(
 
     Parameters
     ----------
-    law : Law or callable
-        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     allowed : float
         Largest |error in psi_2| that the steps may cause.
-    psi_1 : array_like
-        Incidences psi_1.
-    chi : float
-        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
-    kappa : float, optional
-        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
+    law, psi_1, chi, kappa
+        As for `step_error`.
 
     Returns
     -------

@@ -336,8 +336,9 @@ def fill(
 ) -> None:
     """Write what every impact comes to, and its status."""
     for i in range(psi_1.size):
+        inertia = Inertia(chi[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         solid = Solid(loss, parameter[i], extra[i] if loss == Loss.RELAXING.value else 0.0)
-        status[i], _ = run(psi_1[i], at.central(chi[i]), solid, work, numbers[i])
+        status[i], _ = run(psi_1[i], inertia, solid, work, numbers[i])
 
 
 def march_rebound(psi_1: float, inertia: Inertia, solid: Solid) -> tuple[float, float]:

@@ -60,12 +60,6 @@ def copy(motion: Array, to: Array) -> None:
 
 
 @kernel
-def central(chi: float) -> Inertia:
-    """Return the inertia of bodies that are struck through their centres."""
-    return Inertia(chi, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-
-
-@kernel
 def is_central(inertia: Inertia) -> bool:
     """Tell whether the normal motion is that of bodies that are struck through their centres."""
     coupled = abs(inertia.eps) + abs(inertia.zeta)

@@ -241,9 +241,10 @@ def move(
     bears = u + g * m
     u, relaxed = u + moved, m * step.left + relaxing
     stuck = u + g * relaxed
-    start, end = (limit - length(bears)) * step.give, (limit_end - length(stuck)) * step.give
+    start, end = (limit - abs(bears)) * step.give, (limit_end - abs(stuck)) * step.give
     unit = direction(bears)
-    slope = (springs[RATE, j] + g * step.fading * dot(unit, m)) * step.give - dot(unit, psi)
+    recovers = g * step.fading * (m * unit.conjugate()).real
+    slope = (springs[RATE, j] + recovers) * step.give - (psi * unit.conjugate()).real
     least = lowest(start, slope * step.time, end)
     if least < 0.0 and least == end:
         part, drive = max(start, 0.0) / (max(start, 0.0) - end), stuck - bears
@@ -269,7 +270,7 @@ def turned(began: complex, drive: complex, limit: float) -> complex:
     """
     along = direction(drive)
     angle = began * along.conjugate()
-    fades = np.exp(-length(drive) / limit) if limit > 0.0 else 0.0
+    fades = np.exp(-abs(drive) / limit) if limit > 0.0 else 0.0
     near, far = 1.0 + angle.real, fades * fades * (1.0 - angle.real)
     if near + far == 0.0:
         return along
@@ -277,19 +278,7 @@ def turned(began: complex, drive: complex, limit: float) -> complex:
 
 
 @kernel
-def length(vector: complex) -> float:
-    """Return the length of a vector, faster than by hypot."""
-    return float(np.sqrt(vector.real * vector.real + vector.imag * vector.imag))
-
-
-@kernel
 def direction(vector: complex) -> complex:
     """Return a vector of length 1 in a direction; of none, none."""
-    size = length(vector)
+    size = abs(vector)
     return vector / size if size > 0.0 else 0.0 * vector
-
-
-@kernel
-def dot(one: complex, other: complex) -> float:
-    """Return the product of two vectors."""
-    return one.real * other.real + one.imag * other.imag

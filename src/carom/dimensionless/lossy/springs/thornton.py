@@ -12,16 +12,7 @@ While unloading N = (b^2 - x^2)/rho.
 import numpy as np
 
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.springs import springs as of
-from carom.dimensionless.lossy.springs.motion import (
-    DEPTH,
-    EDGE,
-    FORCE,
-    FORCE_ACROSS,
-    LOAD,
-    PACE,
-    SPEED,
-)
+from carom.dimensionless.lossy.springs import motion as at, springs as of
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
@@ -33,15 +24,15 @@ def press(y: float, now: Array, new: Array, turned: Array, springs: Array, laid:
 
     `turned` is the motion at the turning point, zero before it.
     """
-    d, shrunk = new[DEPTH], 0.0
+    d, shrunk = new[at.DEPTH], 0.0
     edge, load = np.sqrt(max(d, 0.0)), 0.0
-    if turned[EDGE] > 0.0:
-        shrunk = turned[LOAD] / turned[EDGE] ** 3
-        edge = np.sqrt(max(turned[DEPTH] - (turned[DEPTH] - d) / shrunk, 0.0))
+    if turned[at.EDGE] > 0.0:
+        shrunk = turned[at.LOAD] / turned[at.EDGE] ** 3
+        edge = np.sqrt(max(turned[at.DEPTH] - (turned[at.DEPTH] - d) / shrunk, 0.0))
         load = shrunk * edge**3
     else:
         load = edge**3 if edge <= y else y**3 + 1.5 * y * (d - y * y)
-    new[EDGE], new[LOAD] = edge, load
+    new[at.EDGE], new[at.LOAD] = edge, load
     touching = int(np.searchsorted(springs[of.X, :laid], edge))
     bear(y, now, new, shrunk, springs, max(touching, 1))
     return touching
@@ -55,10 +46,10 @@ def bear(y: float, now: Array, new: Array, shrunk: float, springs: Array, count:
     """
     for j in range(count):
         springs[of.LIMIT, j] = springs[of.NEXT, j]
-        springs[of.RATE, j] = (1.0 - springs[of.SOFTER, j]) * now[SPEED]
-        w = new[DEPTH] - springs[of.S, j]
+        springs[of.RATE, j] = (1.0 - springs[of.SOFTER, j]) * now[at.SPEED]
+        w = new[at.DEPTH] - springs[of.S, j]
         if shrunk > 0.0:
-            springs[of.NEXT, j] = (new[EDGE] ** 2 - springs[of.S, j]) * shrunk
+            springs[of.NEXT, j] = (new[at.EDGE] ** 2 - springs[of.S, j]) * shrunk
         elif w <= y * y:
             springs[of.NEXT, j] = w
         else:
@@ -73,15 +64,15 @@ def turn(now: Array, springs: Array, count: int, state: Array) -> None:
 
     The pressure becomes that of an elastic contact at once, which may cut springs in shear.
     """
-    shrunk = now[LOAD] / now[EDGE] ** 3
-    state[FORCE], state[FORCE_ACROSS] = 0.0, 0.0
-    now[PACE] = now[EDGE] ** -2.5  # 1/(rho e), as the edge recedes faster on a flatter sphere
+    shrunk = now[at.LOAD] / now[at.EDGE] ** 3
+    state[at.FORCE], state[at.FORCE_ACROSS] = 0.0, 0.0
+    now[at.PACE] = now[at.EDGE] ** -2.5  # 1/(rho e), as the edge recedes faster on a flatter sphere
     for j in range(count):
-        most = (now[EDGE] ** 2 - springs[of.S, j]) * shrunk
+        most = (now[at.EDGE] ** 2 - springs[of.S, j]) * shrunk
         springs[of.NEXT, j], springs[of.SOFTER, j] = most, 0.0
         of.cut(springs, j, most)
-        state[FORCE] += springs[of.WEIGHT, j] * springs[of.U, j]
-        state[FORCE_ACROSS] += springs[of.WEIGHT, j] * springs[of.U_ACROSS, j]
+        state[at.FORCE] += springs[of.WEIGHT, j] * springs[of.U, j]
+        state[at.FORCE_ACROSS] += springs[of.WEIGHT, j] * springs[of.U_ACROSS, j]
 
 
 @kernel
