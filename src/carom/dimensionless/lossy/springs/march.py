@@ -235,9 +235,7 @@ def keep(solid: Solid, now: Array, springs: Array, touching: int, state: Array, 
     row[layout.AT_STORED] = stored(solid, now, springs, touching)
     row[layout.AT_LOST] = 1.0 - now[at.SPEED] ** 2 - row[layout.AT_STORED]
     for j in range(touching):
-        weight, most = springs[of.WEIGHT, j], springs[of.NEXT, j]
-        if j == touching - 1:
-            weight += of.rim(springs, j, now[at.EDGE])
+        weight, most = of.weight_of(springs, j, touching, now[at.EDGE]), springs[of.NEXT, j]
         row[layout.AT_SQUARE] += weight * of.square(springs, j, solid.extra)
         force, aside = of.pulled(springs, j, solid.extra)
         if most - np.hypot(force, aside) > LIMIT_TOLERANCE * most:

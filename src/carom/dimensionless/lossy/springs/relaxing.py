@@ -64,6 +64,5 @@ def stored(g: float, edge: float, springs: Array, count: int) -> float:
     for j in range(count):
         k = springs[of.PRESSED, j]
         w = springs[of.NEXT, j] - g * k
-        weight = springs[of.WEIGHT, j] + (of.rim(springs, j, edge) if j == count - 1 else 0.0)
-        total += weight * (w * w + g * k * k)
+        total += of.weight_of(springs, j, count, edge) * (w * w + g * k * k)
     return 1.875 * total

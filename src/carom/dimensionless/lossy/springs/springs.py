@@ -68,12 +68,24 @@ def rim(springs: Array, last: int, edge: float) -> float:
 
 
 @kernel
+def weight_of(springs: Array, j: int, count: int, edge: float) -> float:
+    """Return the weight of one of so many springs, as the contact ends at the edge."""
+    return float(springs[WEIGHT, j] + (rim(springs, j, edge) if j == count - 1 else 0.0))
+
+
+@kernel
 def integral(springs: Array, row: int, count: int, edge: float) -> float:
     """Return the integral over the contact of what so many springs have, zero at the edge."""
     total = rim(springs, count - 1, edge) * springs[row, count - 1] if count > 0 else 0.0
-    for j in range(count):
+    one, two, three, whole = 0.0, 0.0, 0.0, count - count % 4
+    for j in range(0, whole, 4):  # four sums at once, as each waits for its last addition
         total += springs[WEIGHT, j] * springs[row, j]
-    return float(total)
+        one += springs[WEIGHT, j + 1] * springs[row, j + 1]
+        two += springs[WEIGHT, j + 2] * springs[row, j + 2]
+        three += springs[WEIGHT, j + 3] * springs[row, j + 3]
+    for j in range(whole, count):
+        total += springs[WEIGHT, j] * springs[row, j]
+    return float((total + one) + (two + three))
 
 
 @kernel
@@ -127,9 +139,7 @@ def stretch(springs: Array, count: int, edge: float, step: Step) -> tuple[float,
         limits = springs[LIMIT, j], springs[NEXT, j], springs[RATE, j]
         u, m = stretched(springs[U, j], springs[RELAXING, j], *limits, step)
         springs[U, j], springs[RELAXING, j] = u, m
-        weight = springs[WEIGHT, j]
-        if j == count - 1:
-            weight += rim(springs, j, edge)
+        weight = weight_of(springs, j, count, edge)
         force += weight * (u + step.extra * m)
         square += weight * m * m
     return force, square
@@ -138,15 +148,13 @@ def stretch(springs: Array, count: int, edge: float, step: Step) -> tuple[float,
 @kernel
 def stretch_elastic(springs: Array, count: int, edge: float, step: Step) -> float:
     """Move so many springs on by a step, of which no part relaxes: the same with m = 0."""
-    force = 0.0
     for j in range(count):
         u, limit, limit_end = springs[U, j], springs[LIMIT, j], springs[NEXT, j]
         stuck, slope = u + step.moved, springs[RATE, j]
         forth = lowest(limit - u, (slope - step.psi) * step.time, limit_end - stuck)
         back = lowest(limit + u, (slope + step.psi) * step.time, limit_end + stuck)
         springs[U, j] = stuck + min(forth, 0.0) - min(back, 0.0)
-        force += springs[WEIGHT, j] * springs[U, j]
-    return force + rim(springs, count - 1, edge) * springs[U, count - 1] if count > 0 else 0.0
+    return integral(springs, U, count, edge)
 
 
 @kernel
@@ -218,9 +226,8 @@ def stretch_both(
     relaxing = complex(step.relaxing, across.relaxing)
     for j in range(count):
         move(springs, j, step, psi, moved, relaxing)
-        weight, along, beside = springs[WEIGHT, j], *pulled(springs, j, step.extra)
-        if j == count - 1:
-            weight += rim(springs, j, edge)
+        along, beside = pulled(springs, j, step.extra)
+        weight = weight_of(springs, j, count, edge)
         force += weight * along
         aside += weight * beside
         squares += weight * (springs[RELAXING, j] ** 2 + springs[RELAXING_ACROSS, j] ** 2)
