@@ -62,8 +62,8 @@ def copy(motion: Array, to: Array) -> None:
 @kernel
 def is_central(inertia: Inertia) -> bool:
     """Tell whether the normal motion is that of bodies that are struck through their centres."""
-    coupled = abs(inertia.eps) + abs(inertia.zeta)
-    return bool(coupled + abs(inertia.eps_across) + abs(inertia.zeta_across) == 0.0)
+    i = inertia
+    return bool(i.eps == 0.0 == i.zeta and i.eps_across == 0.0 == i.zeta_across)
 
 
 @kernel

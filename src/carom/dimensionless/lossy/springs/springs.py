@@ -122,8 +122,7 @@ def step_of(
 ) -> Step:
     """Return a step from its length, psi at its start and in its middle, and psi'."""
     left, kept, growing = faded(time, relaxation)
-    slower = (1.0 + extra) * relaxation
-    slipping, forced, _ = faded(time, slower)
+    slipping, forced, _ = faded(time, (1.0 + extra) * relaxation)
     moved, relaxing = half * time, half * time * kept + growing * rate * time
     give, fading, forced = 1.0 / (1.0 + extra), 1.0 / relaxation, forced / (1.0 + extra)
     return Step(time, psi, moved, relaxing, extra, give, fading, left, kept, slipping, forced)
