@@ -44,7 +44,7 @@ def outgoing(psi_1: float, chi: float, work: Work, record: Record) -> tuple[floa
     if 0.0 < speed < LINEAR_PSI:
         scale = speed / LINEAR_PSI
         speed = LINEAR_PSI
-    status = run_phases(speed, chi, STEP_TOLERANCE, work, record)
+    status = run_phases(speed, chi, 0.0, STEP_TOLERANCE, work, record)
     if status != Status.SOLVED:
         return np.nan, status
     result = scale * work.series[0, PSI] if speed > 0.0 else 0.0

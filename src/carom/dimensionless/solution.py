@@ -320,7 +320,7 @@ def solve_elastic(psi_1: float, chi: float) -> Solution:
     """Solve one elastic impact."""
     work, record = new_work(), new_record(True)
     solved_for = max(abs(psi_1), LINEAR_PSI) if psi_1 != 0.0 else 0.0
-    status = Status(run_phases(solved_for, chi, STEP_TOLERANCE, work, record))
+    status = Status(run_phases(solved_for, chi, 0.0, STEP_TOLERANCE, work, record))
     _refuse_unfit(psi_1, chi, status)
     record = trimmed(record)
     count, change_times = len(record.nodes), np.zeros(len(record.changes))

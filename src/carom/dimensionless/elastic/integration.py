@@ -35,11 +35,13 @@ class Work(NamedTuple):
 
 
 class Run(NamedTuple):
-    """An impact that is solved: its arrays, what is kept of it, chi, and the error of a step."""
+    """An impact that is solved: its arrays, what is kept of it, chi, lambda, the error of a step.
+    """
 
     work: Work
     record: Record
     chi: float
+    give: float
     tolerance: float
 
 
@@ -76,7 +78,7 @@ def move(s: Series, h: float) -> None:
 @kernel
 def choose_clock(s: Series, mode: int, sign: int, starts: bool) -> int:
     """Return the clock that runs faster at the state in row 0."""
-    if mode == at.STICK or starts:
+    if mode == at.STICK or mode == at.SLIDE or starts:
         return at.START if starts else at.CONTACT
     n = s[0, at.B] * (sign * s[0, at.PSI] - s[0, at.V])
     d = 2.0 * s[0, at.A] if mode == at.FLAT else s[0, at.A] * (s[0, at.V_A] - sign * s[0, at.PSI_A])
@@ -209,7 +211,7 @@ def run_stretch(run: Run, mode: int, sign: int, inner: float, starts: bool) -> i
         if is_full(record):
             break
         clock = choose_clock(s, mode, sign, starts)
-        at.expand(s, mode, clock, sign, run.chi)
+        at.expand(s, mode, clock, sign, run.chi, run.give)
         event, h = first_event(work, mode, sign, inner, reach(s, mode, run.tolerance))
         note_node(record, mode, clock, sign, h, s)
         move(s, h)

@@ -2,9 +2,11 @@
 
 The time variable tau, d(tau) = dt/(2 b) with b = sqrt(d) the contact radius, turns the motion into
 
-    b' = v,   v' = -(5/2) b^4,   psi' = -(15/2) chi b Q,   Q' = 2 b (psi a + sigma v (b - a)),
+    b' = v,   v' = -(5/2) b^2 (b^2 + (3/2) lambda v),
+    psi' = -(15/2) chi b Q,   Q' = 2 b (psi a + sigma v (b - a)),
 
-analytic at the first touch, at the turning point and at the last touch alike (a = b in stick).
+analytic at the first touch, at the turning point and at the last touch alike (a = b in stick, 0 in
+gross slip). lambda is by how much a plate gives way (Zener 1941), 0 for a thick wall.
 
 In a slip ring the front a retreats through memory that was laid while the contact grew, so that
 (a, v_a, psi_a, Q_a) is the loading state met once more, run backwards. The front's condition
@@ -39,6 +41,7 @@ SERIES_COLUMNS = 31
 STICK = 0  # the whole contact moves as one
 LAID = 1  # slip ring, its front retreating through memory laid in stick
 FLAT = 2  # slip ring, its front retreating through memory left by slip of the other sign
+SLIDE = 5  # gross slip on a plate, whose normal motion has no closed form
 
 # Clocks.
 CONTACT = 0
@@ -79,6 +82,15 @@ def multiply_both(s: Series, k: int) -> None:
 
 
 @kernel
+def product(s: Series, one: int, other: int, k: int) -> float:
+    """Return the coefficient of order k of the product of two series."""
+    total = 0.0
+    for j in range(k + 1):
+        total += s[j, one] * s[k - j, other]
+    return total
+
+
+@kernel
 def combine(s: Series, mode: int, sign: int, k: int) -> None:
     """Extend N and D to order k from the products of that order."""
     s[k, N] = sign * s[k, BPSI] - s[k, BV]
@@ -86,18 +98,29 @@ def combine(s: Series, mode: int, sign: int, k: int) -> None:
 
 
 @kernel
-def stick_rates(s: Series, chi: float, k: int) -> None:
+def stick_rates(s: Series, chi: float, give: float, k: int) -> None:
     """Extend the rates of a contact that sticks as a whole to order k."""
     multiply(s, B, B, BB, k)
     b4, force = 0.0, 0.0
     for j in range(k + 1):
         b4 += s[j, BB] * s[k - j, BB]
         force += s[j, BB] * s[k - j, PSI]
+    if give > 0.0:
+        b4 += 1.5 * give * product(s, BB, V, k)
     write_contact_rates(s, chi, b4, force, k)
 
 
 @kernel
-def ring_rates(s: Series, mode: int, sign: int, chi: float, k: int) -> None:
+def slide_rates(s: Series, sign: int, chi: float, give: float, k: int) -> None:
+    """Extend the rates of a contact that slips as a whole to order k."""
+    multiply(s, B, B, BB, k)
+    force = product(s, BB, V, k)
+    b4 = product(s, BB, BB, k) + 1.5 * give * force
+    write_contact_rates(s, chi, b4, sign * force, k)
+
+
+@kernel
+def ring_rates(s: Series, mode: int, sign: int, chi: float, give: float, k: int) -> None:
     """Extend the rates of contact and front to order k, each by its own clock."""
     multiply_both(s, k)
     combine(s, mode, sign, k)
@@ -108,6 +131,9 @@ def ring_rates(s: Series, mode: int, sign: int, chi: float, k: int) -> None:
         slipping += s[j, B] * s[k - j, BV]
         a4 += s[j, AA] * s[k - j, AA]
         laid += s[j, A] * s[k - j, APSI]
+    if give > 0.0:
+        b4 += 1.5 * give * product(s, BB, V, k)
+        a4 += 1.5 * give * product(s, AA, V_A, k)
     write_contact_rates(s, chi, b4, sign * (stuck + slipping), k)
     if mode == FLAT:
         s[k, A_RATE] = -1.0 if k == 0 else 0.0
@@ -168,14 +194,17 @@ def starting_quotient(s: Series, sign: int, k: int) -> None:
 
 
 @kernel
-def expand(s: Series, mode: int, clock: int, sign: int, chi: float) -> None:
+def expand(s: Series, mode: int, clock: int, sign: int, chi: float, give: float) -> None:
     """Expand the state in row 0 into Taylor series by the given clock."""
     for k in range(ORDER):
-        if mode == STICK:
-            stick_rates(s, chi, k)
+        if mode in (STICK, SLIDE):
+            if mode == STICK:
+                stick_rates(s, chi, give, k)
+            else:
+                slide_rates(s, sign, chi, give, k)
             advance(s, B, B_RATE, False, k)
             continue
-        ring_rates(s, mode, sign, chi, k)
+        ring_rates(s, mode, sign, chi, give, k)
         if clock == FRONT:
             quotient(s, D, N, k)
             advance(s, B, B_RATE, True, k)

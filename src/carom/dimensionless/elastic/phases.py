@@ -89,6 +89,7 @@ SMALLEST_PSI = 1e-6
 LARGEST_CHI = 1e5
 # A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
 TINY_RADIUS = 1e-6
+NO_BORDER = -1.0  # a front at the centre stays away from
 
 
 @kernel
@@ -110,7 +111,7 @@ def stick(run: Run, depth: int, psi_1: float) -> tuple[int, int, int]:
     if event == integration.UNRESOLVED:
         return Cause.UNRESOLVED.value, depth, 0
     slowest = psi_1 * (RETRACE_EXACTLY if is_polynomial(run.chi) else RETRACE)
-    if depth == 0 and s[0, at.V] <= slowest + 1e-15:
+    if run.give == 0.0 and depth == 0 and s[0, at.V] <= slowest + 1e-15:
         note_node(record, RETRACED, at.CONTACT, 0, 0.0, s)
         s[0, at.B], s[0, at.V], s[0, at.PSI], s[0, at.Q] = 0.0, -1.0, -psi_1, 0.0
         return Cause.SEPARATION.value, depth, 0
@@ -158,6 +159,8 @@ def gross_slip(run: Run, sign: int) -> tuple[int, int]:
     s = work.series
     s[0, at.A] = 0.0
     note_stretch(record, work.stack, 0)
+    if run.give > 0.0:
+        return slide(run, sign)
     note_node(record, GROSS, at.CONTACT, sign, 0.0, s)
     excess = sign * s[0, at.PSI] - s[0, at.V]
     fall = 2.0 * chi - 1.0  # of the excess, per fall in speed
@@ -173,8 +176,25 @@ def gross_slip(run: Run, sign: int) -> tuple[int, int]:
     return Cause.SLIP_STOPS.value, memory.push_flat(work.stack, 0, s, sign, record.counts[0])
 
 
+@kernel
+def slide(run: Run, sign: int) -> tuple[int, int]:
+    """Run gross slip on a plate; return why it ends, and the depth."""
+    s = run.work.series
+    s[:, at.A : at.STATE_SIZE] = 0.0
+    event = integration.run_stretch(run, at.SLIDE, sign, NO_BORDER, False)
+    if event == integration.SLIP_STOPS:
+        depth = memory.push_flat(run.work.stack, 0, s, sign, run.record.counts[0])
+        return Cause.SLIP_STOPS.value, depth
+    if event == integration.RING_CLOSES:
+        s[0, at.B] = 0.0
+        return Cause.SEPARATION.value, 0
+    return Cause.UNRESOLVED.value, 0
+
+
 @entry_point()
-def run_phases(psi_1: float, chi: float, tolerance: float, work: Work, record: Record) -> int:
+def run_phases(
+    psi_1: float, chi: float, give: float, tolerance: float, work: Work, record: Record
+) -> int:
     """Run an impact, psi_1 >= 0, to its last state in row 0 of the series; return its status."""
     if not np.isfinite(psi_1):
         return Status.PSI_NOT_FINITE.value
@@ -186,8 +206,8 @@ def run_phases(psi_1: float, chi: float, tolerance: float, work: Work, record: R
     s[0, at.PSI] = psi_1
     # psi and Q are of the order of psi_1; errors grow with the number of oscillations
     tolerance *= min(1.0, max(psi_1, SMALLEST_PSI)) / max(1.0, chi)
-    run, depth = Run(work, record, chi, tolerance), 0
-    slides = psi_1 > 1.0 or (psi_1 == 1.0 and chi < 0.5)
+    run, depth = Run(work, record, chi, give, tolerance), 0
+    slides = psi_1 > 1.0 or (psi_1 == 1.0 and (chi < 0.5 or give > 0.0))
     kind = Kind.GROSS_SLIP.value if slides else Kind.STICK.value
     sign = 1 if slides else 0
     cause = Cause.FIRST_TOUCH.value
