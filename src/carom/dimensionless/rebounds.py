@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom.dimensionless.elastic import plates
 from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.motion import PSI
 from carom.dimensionless.elastic.phases import Status, new_work, run_phases
@@ -18,7 +19,7 @@ from carom.dimensionless.lossy.law import Loss, LossNumbers, LossyRebounds, Scal
 from carom.dimensionless.lossy.springs import march
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic, record, work
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Vector
+from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 from carom.quantities.arrays import along_the_same, pure_numbers, together
@@ -37,14 +38,18 @@ LOSSY_BLOCK, SMALLEST_LOSSY_BLOCK = 64, 2  # the same with losses
 
 
 @kernel
-def outgoing(psi_1: float, chi: float, work: Work, record: Record) -> tuple[float, int]:
-    """Return psi_2 of one impact, of either sign, and its status."""
+def outgoing(
+    psi_1: float, chi: float, give: float, work: Work, record: Record
+) -> tuple[float, int]:
+    """Return psi_2 of one impact, of either sign, and its status; `give` is lambda of a plate."""
     speed = abs(psi_1)
     scale = 1.0
     if 0.0 < speed < LINEAR_PSI:
         scale = speed / LINEAR_PSI
         speed = LINEAR_PSI
-    status = run_phases(speed, chi, 0.0, STEP_TOLERANCE, work, record)
+    if speed == 0.0 and give > 0.0:
+        return psi_1, Status.SOLVED.value
+    status = run_phases(speed, chi, give, STEP_TOLERANCE, work, record)
     if status != Status.SOLVED:
         return np.nan, status
     result = scale * work.series[0, PSI] if speed > 0.0 else 0.0
@@ -74,8 +79,30 @@ def fill(
     """Write psi_2, the status and the sequence of phases of every impact."""
     for i in range(psi_1.size):
         record.counts[:] = 0
-        psi_2[i], status[i] = outgoing(psi_1[i], chi[i], work, record)
+        psi_2[i], status[i] = outgoing(psi_1[i], chi[i], 0.0, work, record)
         sequence[i] = code_of_phases(record)
+
+
+@entry_point()
+def fill_plates(
+    psi_1: Vector,
+    chi: Vector,
+    give: Vector,
+    work: Work,
+    record: Record,
+    numbers: Matrix,
+    status: Codes,
+) -> None:
+    """Write what every impact on a plate comes to, and its status."""
+    for i in range(psi_1.size):
+        record.counts[:] = 0
+        out = numbers[i]
+        out[:] = 0.0
+        out[layout.PSI_OUT], status[i] = outgoing(psi_1[i], chi[i], give[i], work, record)
+        e, duration, deepest = plates.normal_motion(give[i], STEP_TOLERANCE, work)
+        out[layout.RESTITUTION], out[layout.LOST], out[layout.TIME] = e, 1.0 - e * e, duration
+        out[layout.DEEPEST], out[layout.WIDEST] = deepest, np.sqrt(deepest)
+        out[layout.STRONGEST] = deepest * np.sqrt(deepest)
 
 
 def solved(
@@ -129,7 +156,9 @@ def lossy_rebounds(
     def block(part: slice) -> None:
         psis, chis, parameters, extras = (column[part] for column in columns)
         out = rows[part], codes[part]
-        if losses.loss == Loss.VISCOUS:
+        if losses.loss == Loss.PLATE:
+            fill_plates(psis, chis, parameters, new_work(), new_record(False), *out)
+        elif losses.loss == Loss.VISCOUS:
             arrays = tolerance, work.new_work(), record.new_record(False)
             viscoelastic.fill(psis, chis, parameters, *arrays, *out)
         else:

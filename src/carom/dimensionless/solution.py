@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless import states
-from carom.dimensionless.elastic import dense_output as dense, record as recorded, slip
+from carom.dimensionless.elastic import dense_output as dense, plates, record as recorded, slip
 from carom.dimensionless.elastic.motion import PSI
 from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import Record, Steps, new_record, trimmed
@@ -62,13 +62,13 @@ class Solution(Trajectory):
     phases: tuple[Phase, ...]
     _record: Record = field(repr=False)
     _steps: Steps = field(repr=False)
+    restitution: float = field(default=1.0, repr=False)
+    duration: float = field(default=hertz.DURATION, repr=False)
+    max_penetration: float = field(default=1.0, repr=False)
+    max_force: float = field(default=1.0, repr=False)
+    max_radius: float = field(default=1.0, repr=False)
+    max_pressure: float = field(default=1.0, repr=False)
 
-    duration: float = field(default=hertz.DURATION, init=False, repr=False)
-    max_radius: float = field(default=1.0, init=False, repr=False)
-    restitution: ClassVar[float] = 1.0
-    max_penetration: ClassVar[float] = 1.0
-    max_force: ClassVar[float] = 1.0
-    max_pressure: ClassVar[float] = 1.0
     shear_lost: ClassVar[float] = 0.0
 
     @property
@@ -84,10 +84,13 @@ class Solution(Trajectory):
         wanted = self._times_within(time)
         rows, scale = np.empty((wanted.size, dense.SAMPLED)), self._scale
         dense.sample(self._steps, wanted, rows)
+        penetration, speed = rows[:, dense.AT_D], rows[:, dense.AT_V]
+        centre = plates.centre_speed(self._steps.give, penetration, speed)
         return History(
             time=wanted,
-            penetration=rows[:, dense.AT_D],
-            speed=rows[:, dense.AT_V],
+            penetration=penetration,
+            speed=speed,
+            centre_speed=centre,
             psi=scale * rows[:, dense.AT_PSI],
             displacement=scale * rows[:, dense.AT_U],
             force=scale * rows[:, dense.AT_Q],
@@ -96,9 +99,9 @@ class Solution(Trajectory):
             stored=scale**2 * rows[:, dense.AT_STORED],
             dissipated=scale**2 * rows[:, dense.AT_DISSIPATED],
             shear_lost=np.zeros(wanted.size),
-            normal_force=rows[:, dense.AT_D] ** 1.5,
-            normal_stored=rows[:, dense.AT_D] ** 2.5,
-            normal_lost=np.zeros(wanted.size),
+            normal_force=penetration**1.5,
+            normal_stored=penetration**2.5,
+            normal_lost=plates.lost(self._steps.give, penetration, centre),
         )
 
     @known_keywords
@@ -142,7 +145,11 @@ class Solution(Trajectory):
         return ContactState(np.sqrt(now["penetration"]), 0.0, profile, slid, slipping)
 
     def _touched(self, radii: Array) -> Array:
-        return np.array([hertz.time(r * r, np.sqrt(max(1.0 - r**5, 0.0))) for r in radii])
+        if self._steps.give == 0.0:
+            return np.array([hertz.time(r * r, np.sqrt(max(1.0 - r**5, 0.0))) for r in radii])
+        out = np.empty(radii.size)
+        slip.touched(self._steps, radii, out)
+        return out
 
     def _friction_work(self, radii: Array) -> Array:
         out = np.empty((radii.size, 2))
@@ -151,11 +158,11 @@ class Solution(Trajectory):
 
     def _pressed(self, radii: Array) -> Array:
         out = np.empty(radii.size)
-        slip.pressed(radii, out)
+        slip.pressed(self._steps, radii, out)
         return out
 
     def _slip_borders(self) -> Array:
-        return slip.borders(self._steps)
+        return slip.borders(self._steps, self.max_radius)
 
     @known_keywords
     def slip_rate(self, at: float) -> float:
@@ -200,7 +207,8 @@ class Solution(Trajectory):
         places = states.places_of(radii)
         out = np.empty((places.size, 2))
         last = int(np.searchsorted(self._steps.times, now["time"], side="right")) - 1
-        slip.slid(self._steps, last, now["contact_radius"], now["speed"], places, out)
+        state = now["time"], now["contact_radius"], now["speed"]
+        slip.slid(self._steps, last, *state, places, out)
         return self._scale * out
 
     def slip_angles(self, lateral_ratio: float) -> tuple[SlipAngle, ...]:
@@ -305,7 +313,9 @@ def solve(
 
 def solve_with(psi_1: float, chi: float, losses: LossNumbers) -> Solution | LossySolution:
     """Solve one impact with losses, as elastic if that is nothing."""
-    return solve_elastic(psi_1, chi) if is_elastic(*losses) else solve_lossy(psi_1, chi, losses)
+    if losses.loss == Loss.PLATE or is_elastic(*losses):
+        return solve_elastic(psi_1, chi, losses.parameter if losses.loss == Loss.PLATE else 0.0)
+    return solve_lossy(psi_1, chi, losses)
 
 
 def solve_lossy(psi_1: float, chi: float, losses: LossNumbers) -> LossySolution:
@@ -316,22 +326,27 @@ def solve_lossy(psi_1: float, chi: float, losses: LossNumbers) -> LossySolution:
     return solution
 
 
-def solve_elastic(psi_1: float, chi: float) -> Solution:
-    """Solve one elastic impact."""
+def solve_elastic(psi_1: float, chi: float, give: float = 0.0) -> Solution:
+    """Solve one elastic impact, on a plate if the wall gives way."""
     work, record = new_work(), new_record(True)
-    solved_for = max(abs(psi_1), LINEAR_PSI) if psi_1 != 0.0 else 0.0
-    status = Status(run_phases(solved_for, chi, 0.0, STEP_TOLERANCE, work, record))
+    solved_for = max(abs(psi_1), LINEAR_PSI) if psi_1 != 0.0 or give > 0.0 else 0.0
+    status = Status(run_phases(solved_for, chi, give, STEP_TOLERANCE, work, record))
     _refuse_unfit(psi_1, chi, status)
     record = trimmed(record)
     count, change_times = len(record.nodes), np.zeros(len(record.changes))
-    steps = Steps(record.nodes, record.series, chi, np.zeros(count), np.zeros((count + 1, 2)))
+    steps = Steps(record.nodes, record.series, chi, give, np.zeros(count), np.zeros((count + 1, 2)))
     dense.tabulate(record.changes, steps, change_times)
     mirror = -1 if np.signbit(psi_1) else 1
     phases = phases_of(record.changes, change_times, mirror)
     psi_out = float("nan")
     if status is Status.SOLVED:
         psi_out = mirror * min(1.0, abs(psi_1) / LINEAR_PSI) * float(work.series[0, PSI])
-    return Solution(psi_1, chi, psi_out, status, phases, record, steps)
+    solved = psi_1, chi, psi_out, status, phases, record, steps
+    if give == 0.0:
+        return Solution(*solved)
+    e, duration, deepest = plates.normal_motion(give, STEP_TOLERANCE, work)
+    widest = deepest**0.5
+    return Solution(*solved, e, duration, deepest, deepest**1.5, widest, widest)
 
 
 def _refuse_unfit(psi_1: float, chi: float, status: Status) -> None:

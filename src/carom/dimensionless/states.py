@@ -45,13 +45,16 @@ class SlipAngle(NamedTuple):
 class History:
     """An impact at some times, in the units of `Solution`.
 
-    `psi` and `force` are tangential; energies are `stored` elastically, `dissipated` by friction,
-    `shear_lost` to viscosity, and `normal_stored` and `normal_lost` of the normal motion.
+    `speed` is that of the surfaces, `centre_speed` that of the bodies' centres, which differs if a
+    plate gives way. `psi` and `force` are tangential; energies are `stored` elastically,
+    `dissipated` by friction, `shear_lost` to viscosity, and `normal_stored` and `normal_lost` of
+    the normal motion.
     """
 
     time: Array
     penetration: Array
     speed: Array
+    centre_speed: Array
     psi: Array
     displacement: Array
     force: Array

@@ -115,6 +115,7 @@ class PointStatus(WordedStatus):
     TOO_MANY_PHASES = 5, "not solved as chi is too large"
     UNRESOLVED = 6, "not solved as a phase did not end"
     STRENGTH_NOT_KNOWN = 7, "solved, but a strength is not known or a body is rigid"
+    PLATE_GIVES_WAY = 8, "not solved as so thin a plate gives way like a foil"
 
 
 OF_SOLVER = {
@@ -123,6 +124,7 @@ OF_SOLVER = {
     Status.CHI_NOT_POSITIVE: PointStatus.BEYOND_FLOATING_POINT,
     Status.TOO_MANY_PHASES: PointStatus.TOO_MANY_PHASES,
     Status.UNRESOLVED: PointStatus.UNRESOLVED,
+    Status.PLATE_GIVES_WAY: PointStatus.PLATE_GIVES_WAY,
 }
 FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
 POSITIVE = ("radius", "gyration_radius", "young", "density", "yield_velocity")

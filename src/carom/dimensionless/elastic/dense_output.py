@@ -24,8 +24,6 @@ SAMPLED = 9
 @entry_point()
 def tabulate(changes: Matrix, steps: Steps, change_times: Vector) -> None:
     """Write the times of all steps and changes, and displacement and frictional work at steps."""
-    for i in range(changes.shape[0]):
-        change_times[i] = hertz.time(changes[i, change.AT_B] ** 2, changes[i, change.AT_V])
     times, moved = steps.times, steps.moved
     for i in range(times.size):
         b, v = steps.series[i, 0, at.B], steps.series[i, 0, at.V]
@@ -34,6 +32,49 @@ def tabulate(changes: Matrix, steps: Steps, change_times: Vector) -> None:
             u, w = progress(steps, i - 1, steps.nodes[i - 1, STEP], b, v)
             moved[i, 0] = moved[i - 1, 0] + u
             moved[i, 1] = moved[i - 1, 1] + w
+            if steps.give > 0.0:
+                times[i] = times[i - 1] + elapsed(steps, i - 1, steps.nodes[i - 1, STEP])
+    for i in range(changes.shape[0]):
+        node = int(changes[i, change.AT_NODE])
+        if steps.give == 0.0:
+            change_times[i] = hertz.time(changes[i, change.AT_B] ** 2, changes[i, change.AT_V])
+        elif node < times.size:
+            change_times[i] = times[node]
+        else:
+            change_times[i] = times[node - 1] + elapsed(
+                steps, node - 1, steps.nodes[node - 1, STEP]
+            )
+
+
+@kernel
+def elapsed(steps: Steps, i: int, h: float) -> float:
+    """Return the time from the start of a step to h."""
+    total = 0.0
+    for k in range(ABSCISSAS.size):
+        x = 0.5 * h * (1.0 + ABSCISSAS[k])
+        total += h * WEIGHTS[k] * evaluate(steps.series[i][:, at.B], x) * pace(steps, i, x)
+    return total
+
+
+@kernel
+def reached(steps: Steps, i: int, time: float) -> float:
+    """Return how far into a step a time since its start is."""
+    low, high = 0.0, steps.nodes[i, STEP]
+    x = high
+    for _ in range(MAX_BISECTIONS):
+        difference = elapsed(steps, i, x) - time
+        if difference < 0.0:
+            low = x
+        else:
+            high = x
+        rate = 2.0 * evaluate(steps.series[i][:, at.B], x) * pace(steps, i, x)
+        following = x - difference / rate if rate > 0.0 else low
+        if not (low <= following <= high):
+            following = 0.5 * (low + high)
+        if abs(following - x) <= 1e-16 * x:
+            return float(following)
+        x = following
+    return float(x)
 
 
 @kernel
@@ -79,7 +120,14 @@ def gross_progress(steps: Steps, i: int, b: float, v: float) -> tuple[float, flo
 @kernel
 def position(steps: Steps, i: int, column: int, target: float, falling: bool) -> float:
     """Return how far into a step a monotone variable, falling or rising, reaches the target."""
-    low, high = 0.0, steps.nodes[i, STEP]
+    return position_between(steps, i, column, target, falling, 0.0, steps.nodes[i, STEP])
+
+
+@kernel
+def position_between(
+    steps: Steps, i: int, column: int, target: float, falling: bool, low: float, high: float
+) -> float:
+    """Return where, between two places of a step, a monotone variable reaches the target."""
     x = high
     for _ in range(MAX_BISECTIONS):
         value, steepness = value_and_slope(steps.series[i][:, column], x)
@@ -103,39 +151,49 @@ def sample(steps: Steps, wanted: Vector, out: Matrix) -> None:
     for row in range(wanted.size):
         t = wanted[row]
         i = np.searchsorted(steps.times, t, side="right") - 1
+        if steps.give > 0.0:
+            h = reached(steps, i, t - steps.times[i])
+            b, v = evaluate(steps.series[i][:, at.B], h), evaluate(steps.series[i][:, at.V], h)
+            write_sample(steps, i, h, max(b, 0.0) ** 2, v, out[row])
+            continue
         mirrored = steps.nodes[i, MODE] == RETRACED
         if mirrored:
             t = hertz.DURATION - t
             i = np.searchsorted(steps.times, t, side="right") - 1
         d, v = hertz.penetration_and_speed(t)
-        write_sample(steps, i, d, v, out[row])
+        write_sample(steps, i, place(steps, i, np.sqrt(d), v), d, v, out[row])
         if mirrored:
             out[row, AT_V] = -v
             out[row, AT_PSI] = -out[row, AT_PSI]
 
 
 @kernel
-def write_sample(steps: Steps, i: int, d: float, v: float, out: Array) -> None:
-    """Write what there is to tell at penetration d and speed v inside a step."""
+def place(steps: Steps, i: int, b: float, v: float) -> float:
+    """Return how far into a step the contact has the radius b and the speed v."""
+    if steps.nodes[i, MODE] == GROSS:
+        return 0.0
+    if abs(v) < 0.7:
+        return position(steps, i, at.V, v, True)
+    return position(steps, i, at.B, b, v < 0.0)
+
+
+@kernel
+def write_sample(steps: Steps, i: int, h: float, d: float, v: float, out: Array) -> None:
+    """Write what there is to tell at a place of a step, of penetration d and speed v."""
     node, series, chi = steps.nodes[i], steps.series[i], steps.chi
     psi_1 = steps.series[0, 0, at.PSI]
     b = np.sqrt(d)
-    h = 0.0
     if node[MODE] == GROSS:
         psi = series[0, at.PSI] - 2.0 * chi * node[SIGN] * (series[0, at.V] - v)
         q = node[SIGN] * (2.0 / 3.0) * d * b
         stick = 0.0
     else:
-        if abs(v) < 0.7:
-            h = position(steps, i, at.V, v, True)
-        else:
-            h = position(steps, i, at.B, b, v < 0.0)
         psi, q = evaluate(series[:, at.PSI], h), evaluate(series[:, at.Q], h)
         stick = b if node[MODE] == at.STICK else evaluate(series[:, at.A], h)
     u, w = progress(steps, i, h, b, v)
     out[AT_D], out[AT_V], out[AT_PSI], out[AT_Q] = d, v, psi, q
     out[AT_U], out[AT_DISSIPATED] = steps.moved[i, 0] + u, 3.75 * chi * (steps.moved[i, 1] + w)
-    if node[MODE] == GROSS:
+    if node[MODE] == GROSS or node[MODE] == at.SLIDE:
         out[AT_STORED] = chi * d * d * b  # (15/8) chi integral of (d - s)^2
     else:
         out[AT_STORED] = 0.5 * (psi_1 - psi) * (psi_1 + psi) - out[AT_DISSIPATED]

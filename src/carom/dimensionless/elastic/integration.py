@@ -35,8 +35,7 @@ class Work(NamedTuple):
 
 
 class Run(NamedTuple):
-    """An impact that is solved: its arrays, what is kept of it, chi, lambda, the error of a step.
-    """
+    """An impact that is solved: its arrays, what is kept of it, its numbers, its tolerance."""
 
     work: Work
     record: Record

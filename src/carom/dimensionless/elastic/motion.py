@@ -197,11 +197,12 @@ def starting_quotient(s: Series, sign: int, k: int) -> None:
 def expand(s: Series, mode: int, clock: int, sign: int, chi: float, give: float) -> None:
     """Expand the state in row 0 into Taylor series by the given clock."""
     for k in range(ORDER):
-        if mode in (STICK, SLIDE):
-            if mode == STICK:
-                stick_rates(s, chi, give, k)
-            else:
-                slide_rates(s, sign, chi, give, k)
+        if mode == STICK:
+            stick_rates(s, chi, give, k)
+            advance(s, B, B_RATE, False, k)
+            continue
+        if mode == SLIDE:
+            slide_rates(s, sign, chi, give, k)
             advance(s, B, B_RATE, False, k)
             continue
         ring_rates(s, mode, sign, chi, give, k)

@@ -76,6 +76,7 @@ class Status(WordedStatus):
     CHI_NOT_POSITIVE = 2, "chi must be positive and finite"
     TOO_MANY_PHASES = 3, f"not solved: more than {MAX_PHASES} phases (chi is too large)"
     UNRESOLVED = 4, "not solved: a phase did not end within the allowed number of steps"
+    PLATE_GIVES_WAY = 5, "not solved: so thin a plate gives way like a foil (lambda above 2)"
 
 
 # A stick phase that lasts to within this speed of the turning point, times psi_1, goes back as it
@@ -87,6 +88,7 @@ SPEED_ROUNDING = 1e-13
 SMALLEST_PSI = 1e-6
 # Beyond it impacts that do not slip throughout have too many phases, and take long to show it.
 LARGEST_CHI = 1e5
+LARGEST_GIVE = 2.0  # lambda, beyond which weight and deflection decide: e is 0.013 there
 # A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
 TINY_RADIUS = 1e-6
 NO_BORDER = -1.0  # a front at the centre stays away from
@@ -200,6 +202,8 @@ def run_phases(
         return Status.PSI_NOT_FINITE.value
     if not (0.0 < chi < np.inf):
         return Status.CHI_NOT_POSITIVE.value
+    if not 0.0 <= give <= LARGEST_GIVE:
+        return Status.PLATE_GIVES_WAY.value
     s = work.series
     s[0] = 0.0
     s[0, at.V] = 1.0

@@ -16,7 +16,7 @@ MAX_ANNULI = 400
 
 # Columns of a node and of a change.
 MODE, CLOCK, SIGN, STEP, STRETCH = range(5)
-KIND, KIND_SIGN, CAUSE, AT_B, AT_V = range(5)
+KIND, KIND_SIGN, CAUSE, AT_B, AT_V, AT_NODE = range(6)
 KEPT = SLOWER + 1
 
 
@@ -32,11 +32,12 @@ class Record(NamedTuple):
 
 
 class Steps(NamedTuple):
-    """Recorded steps for a chi: when each begins, and displacement and frictional work then."""
+    """Recorded steps for a chi and a lambda: when each begins, displacement, work of friction."""
 
     nodes: Matrix
     series: Cube
     chi: float
+    give: float
     times: Vector
     moved: Matrix
 
@@ -49,7 +50,7 @@ def new_record(wanted: bool) -> Record:
         series=np.empty((room * MAX_NODES, ORDER + 1, KEPT)),
         stacks=np.empty((room * MAX_STRETCHES, MAX_ANNULI, STACK_COLUMNS)),
         depths=np.empty(room * MAX_STRETCHES, dtype=np.int64),
-        changes=np.empty((MAX_PHASES + 1, 5)),
+        changes=np.empty((MAX_PHASES + 1, 6)),
         counts=np.zeros(3, dtype=np.int64),
     )
 
@@ -101,7 +102,7 @@ def note_change(record: Record, kind: int, sign: int, cause: int, series: Series
     row = record.counts[2]
     change = record.changes[row]
     change[KIND], change[KIND_SIGN], change[CAUSE] = kind, sign, cause
-    change[AT_B], change[AT_V] = series[0, B], series[0, V]
+    change[AT_B], change[AT_V], change[AT_NODE] = series[0, B], series[0, V], record.counts[0]
     record.counts[2] = row + 1
 
 

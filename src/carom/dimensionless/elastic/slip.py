@@ -14,7 +14,15 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.dimensionless.elastic import motion as at
-from carom.dimensionless.elastic.dense_output import gross_progress, pace, position
+from carom.dimensionless.elastic.dense_output import (
+    elapsed,
+    gross_progress,
+    pace,
+    place,
+    position,
+    position_between,
+    reached,
+)
 from carom.dimensionless.elastic.integration import evaluate, value_and_slope
 from carom.dimensionless.elastic.phases import GROSS, RETRACED
 from carom.dimensionless.elastic.record import MODE, SIGN, STEP, STRETCH, Steps
@@ -47,12 +55,33 @@ def slid_in_gross_slip(steps: Steps, i: int, r: float, b: float, v: float) -> fl
 
 
 @kernel
-def touch(steps: Steps, i: int, r: float) -> float:
-    """Return how far into a step the edge of the growing contact reaches r."""
+def edge_at(steps: Steps, i: int, r: float, recedes: bool) -> float:
+    """Return how far into a step the edge of the contact, growing or receding, is at r."""
+    if steps.give > 0.0:
+        end, turning = steps.nodes[i, STEP], 0.0
+        if evaluate(steps.series[i][:, at.V], end) > 0.0:
+            turning = end
+        elif steps.series[i, 0, at.V] > 0.0:
+            turning = position(steps, i, at.V, 0.0, True)
+        low, high = (turning, end) if recedes else (0.0, turning)
+        return float(position_between(steps, i, at.B, r, recedes, low, high))
     if r < 0.8:
-        return float(position(steps, i, at.B, r, False))
+        return float(position(steps, i, at.B, r, recedes))
     speed = np.sqrt(max(1.0 - r**5, 0.0))  # monotone where the step goes beyond the turning point
-    return float(position(steps, i, at.V, speed, True))
+    return float(position(steps, i, at.V, -speed if recedes else speed, True))
+
+
+@entry_point()
+def touched(steps: Steps, radii: Vector, out: Vector) -> None:
+    """Write when the edge of the growing contact touches radii, on a plate."""
+    for row in range(radii.size):
+        for i in range(steps.times.size):
+            outer = evaluate(steps.series[i][:, at.B], steps.nodes[i, STEP])
+            turns = evaluate(steps.series[i][:, at.V], steps.nodes[i, STEP]) <= 0.0
+            if outer >= radii[row] or turns:
+                h = edge_at(steps, i, radii[row], False)
+                out[row] = steps.times[i] + elapsed(steps, i, h)
+                break
 
 
 @kernel
@@ -64,7 +93,7 @@ def slid_in_ring(steps: Steps, i: int, r: float, h_end: float) -> tuple[float, f
             return 0.0, 0.0
         h0 = position(steps, i, at.A, r, True)
     if series[0, at.B] < r and series[0, at.V] > 0.0:
-        h0 = max(h0, touch(steps, i, r))
+        h0 = max(h0, edge_at(steps, i, r, False))
     mean, lateral = 0.0, 0.0
     high = h_end
     for level in range(PANELS_OF_SLIP):
@@ -83,17 +112,18 @@ def slid_in_ring(steps: Steps, i: int, r: float, h_end: float) -> tuple[float, f
 
 
 @entry_point()
-def slid(steps: Steps, last: int, b: float, v: float, radii: Vector, out: Matrix) -> None:
+def slid(
+    steps: Steps, last: int, time: float, b: float, v: float, radii: Vector, out: Matrix
+) -> None:
     """Write the radial functions of the slip up to step `last`, where b and v are, for each radius.
 
     Only points that are in contact then, r <= b, have a slip; the others get zero.
     """
     series, h_last = steps.series, 0.0
-    if steps.nodes[last, MODE] != GROSS and steps.nodes[last, MODE] != RETRACED:
-        if abs(v) < 0.7:
-            h_last = position(steps, last, at.V, v, True)
-        else:
-            h_last = position(steps, last, at.B, b, v < 0)
+    if steps.give > 0.0:
+        h_last = reached(steps, last, time - steps.times[last])
+    elif steps.nodes[last, MODE] != RETRACED:
+        h_last = place(steps, last, b, v)
     for row in range(radii.size):
         r = radii[row]
         out[row, 0], out[row, 1] = 0.0, 0.0
@@ -197,10 +227,10 @@ def work_in_gross_slip(
 
 
 @kernel
-def slipping(steps: Steps, i: int, r: float) -> tuple[float, float]:
-    """Return from where to where in a step points at r are in the slip ring."""
+def slipping(steps: Steps, i: int, r: float, all_slides: bool) -> tuple[float, float]:
+    """Return from where to where in a step points at r are in the slip ring, or in the contact."""
     series, low, high = steps.series[i], 0.0, steps.nodes[i, STEP]
-    if series[0, at.A] > r:
+    if series[0, at.A] > r and not all_slides:
         if evaluate(series[:, at.A], high) >= r:
             return 0.0, 0.0
         low = position(steps, i, at.A, r, True)
@@ -208,12 +238,9 @@ def slipping(steps: Steps, i: int, r: float) -> tuple[float, float]:
     if series[0, at.B] < r:
         if series[0, at.V] <= 0.0 or (outer < r and speed > 0.0):
             return 0.0, 0.0
-        low = max(low, touch(steps, i, r))
+        low = max(low, edge_at(steps, i, r, False))
     if outer < r and speed < 0.0:
-        if r < 0.8:
-            high = position(steps, i, at.B, r, True)
-        else:
-            high = position(steps, i, at.V, -np.sqrt(max(1.0 - r**5, 0.0)), True)
+        high = edge_at(steps, i, r, True)
     return low, high
 
 
@@ -228,7 +255,7 @@ def room(steps: Steps, i: int, r: float, h: float, side: float, own: float) -> f
     a, a_rate = value_and_slope(series[:, at.A], h)
     b, v = evaluate(series[:, at.B], h), evaluate(series[:, at.V], h)
     to_front = (r - side * a) / max(-a_rate, 1.0 / FAR_AWAY)
-    if r < 0.8:
+    if r < 0.8 or steps.give > 0.0:
         to_edge = (b - r) / max(side * v * rate, 1.0 / FAR_AWAY)
     else:
         limit = np.sqrt(max(1.0 - r**5, 0.0))
@@ -238,9 +265,12 @@ def room(steps: Steps, i: int, r: float, h: float, side: float, own: float) -> f
 
 
 @kernel
-def work_in_ring(steps: Steps, i: int, r: float) -> tuple[float, float]:
-    """Return the radial functions of the work per area in a step of a slip ring."""
-    low, high = slipping(steps, i, r)
+def work_in_ring(steps: Steps, i: int, r: float, steady: bool) -> tuple[float, float]:
+    """Return the radial functions of the work per area in a step of a slip ring.
+
+    Or, if the slip is steady, that at the rate 1 all over the contact.
+    """
+    low, high = slipping(steps, i, r, steady)
     length = high - low
     if length <= 0.0:
         return 0.0, 0.0
@@ -256,7 +286,7 @@ def work_in_ring(steps: Steps, i: int, r: float) -> tuple[float, float]:
                 phi = inner + half * (1.0 + RING_ABSCISSAS[k])
                 sine = np.sin(phi)
                 h = place + side * length * sine * sine
-                one, two = power(steps, i, r, h)
+                one, two = power(steps, i, r, h, steady)
                 weight = half * RING_WEIGHTS[k] * 2.0 * length * sine * np.cos(phi)
                 mean += weight * one
                 lateral += weight * two
@@ -267,12 +297,14 @@ def work_in_ring(steps: Steps, i: int, r: float) -> tuple[float, float]:
 
 
 @kernel
-def power(steps: Steps, i: int, r: float, h: float) -> tuple[float, float]:
+def power(steps: Steps, i: int, r: float, h: float, steady: bool) -> tuple[float, float]:
     """Return the radial functions of the work per area and per h, at a place of a step."""
     series, rate = steps.series[i], pace(steps, i, h)
     b = evaluate(series[:, at.B], h)
     excess = steps.nodes[i, SIGN] * evaluate(series[:, at.PSI], h) - evaluate(series[:, at.V], h)
     one, two = slip_shape(evaluate(series[:, at.A], h), r)
+    if steady:
+        excess, one, two = 1.0, 1.0, 0.0
     unit = 2.0 * b * rate * excess * np.sqrt(max((b - r) * (b + r), 0.0))
     return unit * one, unit * two
 
@@ -284,7 +316,7 @@ def work_in_step(steps: Steps, i: int, r: float) -> tuple[float, float]:
     if nodes[i, MODE] in (at.STICK, RETRACED):
         return 0.0, 0.0
     if nodes[i, MODE] != GROSS:
-        return work_in_ring(steps, i, r)
+        return work_in_ring(steps, i, r, False)
     b, v, sign = series[i, 0, at.B], series[i, 0, at.V], nodes[i, SIGN]
     rate_at = SlipRate(sign * series[i, 0, at.PSI] - v, v, 2.0 * steps.chi - 1.0)
     if i + 1 == nodes.shape[0]:
@@ -305,15 +337,18 @@ def work(steps: Steps, radii: Vector, out: Matrix) -> None:
 
 
 @entry_point()
-def pressed(radii: Vector, out: Vector) -> None:
+def pressed(steps: Steps, radii: Vector, out: Vector) -> None:
     """Write the integral of the pressure over the whole impact for each radius."""
+    steady = SlipRate(1.0, 0.0, 0.0)
     for row in range(radii.size):
-        steady = SlipRate(1.0, 0.0, 0.0)
-        inside = radii[row] < 1.0
-        out[row] = work_in_gross_slip(steady, radii[row], 0.0, 1.0, 0.0, -1.0) if inside else 0.0
+        out[row] = 0.0
+        if steps.give == 0.0 and radii[row] < 1.0:
+            out[row] = work_in_gross_slip(steady, radii[row], 0.0, 1.0, 0.0, -1.0)
+        for i in range(steps.times.size if steps.give > 0.0 else 0):
+            out[row] += work_in_ring(steps, i, radii[row], True)[0]
 
 
-def borders(steps: Steps) -> Array:
+def borders(steps: Steps, widest: float) -> Array:
     """Return radii between which the work is smooth: fronts at all steps, edges where rings begin.
 
     Steps are short where the front is about to stop, beside which the work has a steep flank.
@@ -321,8 +356,8 @@ def borders(steps: Steps) -> Array:
     nodes, series = steps.nodes, steps.series
     rings = np.flatnonzero((nodes[:, MODE] == at.LAID) | (nodes[:, MODE] == at.FLAT))
     new = np.flatnonzero(np.diff(nodes[:, STRETCH], prepend=-1.0))
-    radii = [0.0, 1.0, *series[new, 0, at.B], *series[rings, 0, at.A]]
+    radii = [0.0, widest, *series[new, 0, at.B], *series[rings, 0, at.A]]
     for i in np.intersect1d(rings, np.append(new[1:], len(nodes)) - 1):
         radii += [evaluate(series[i][:, column], nodes[i, STEP]) for column in (at.A, at.B)]
-    borders = np.unique(np.clip(radii, 0.0, 1.0))
+    borders = np.unique(np.clip(radii, 0.0, widest))
     return np.asarray(borders[np.append(np.diff(borders) > ALIKE_RADII, True)])

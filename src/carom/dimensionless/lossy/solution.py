@@ -75,6 +75,7 @@ class LossySolution(Trajectory):
             time=wanted,
             penetration=rows[layout.AT_D],
             speed=rows[layout.AT_V],
+            centre_speed=rows[layout.AT_V],
             psi=scale * (psi + excess),
             displacement=scale * (rows[layout.AT_U] + excess * wanted),
             force=scale * rows[layout.AT_Q],
