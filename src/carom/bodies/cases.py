@@ -53,11 +53,12 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
     "inner_radius": not_negative,
 }
 BODY = (*SIZES, "material")
+OF_SECOND = ("kind", "thickness")  # of a plate
 MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data", "spectrum")
 SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads
 SWEPT = ("samples", "seed", "table", "columns", "outputs", "axes")
-TABLES = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT, SWEEP_TABLE: SWEPT}
+TABLES = {"first": BODY, "second": (*OF_SECOND, *BODY), "output": OUTPUT, SWEEP_TABLE: SWEPT}
 KINDS = ("half-space", "sphere", "cup")
 SHAPES = (HalfSpace, Sphere, Cup)
 DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
@@ -210,6 +211,9 @@ def read_loss(name: str, value: Any) -> float | None:
 
 def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
     kind = one_of("kind", table.get("kind", KINDS[0]), KINDS)
+    thickness = table.get("thickness")
+    if thickness is not None and kind != "half-space":
+        raise refusal("thickness", thickness, f"a {kind} has none; leave it out")
     if kind == "sphere":
         same = {"material": first.material, "radius": first.radius}
         return _sphere("second", "second-", table, same)
@@ -218,7 +222,7 @@ def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
             raise refusal(name, table[name], f"a {kind} has none; leave it out")
     stuff = read_material(table.get("material", first.material))
     if kind == "half-space":
-        return HalfSpace(material=stuff)
+        return HalfSpace(material=stuff, thickness=thickness)
     return Cup(radius=_needed(table, "second", "second-", "radius", "10 mm"), material=stuff)
 
 

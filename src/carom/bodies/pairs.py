@@ -3,7 +3,7 @@
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, reduce
-from math import pi
+from math import inf, pi
 from operator import and_
 from typing import Any
 
@@ -12,7 +12,7 @@ from carom.bodies.shapes import Cup, HalfSpace, Sphere, named
 from carom.quantities.elementwise import quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, checked_type, refusal
+from carom.quantities.refusals import InputError, checked_type, refusal, refuse
 from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative
 
@@ -87,9 +87,14 @@ def checked_scales(
     )
 
 
-def checked_pair(pair: Any) -> "Pair":
-    """Return a pair, or raise InputError if it is none."""
-    return checked_type("pair", pair, Pair, "must be a Pair of bodies; make one with carom.Pair")
+def checked_pair(pair: Any, *, plates: bool = False) -> "Pair":
+    """Return a pair, or raise InputError if it is none, or has a plate where none is taken."""
+    allowed = "must be a Pair of bodies; make one with carom.Pair"
+    bodies: Pair = checked_type("pair", pair, Pair, allowed)
+    only = "only carom.impact takes a plate so far; leave it out for a thick wall"
+    thin = bodies.thickness is not None and not plates
+    refuse(thin and refusal("thickness", bodies.thickness, only))
+    return bodies
 
 
 def with_friction(pair: Any, why: str) -> "Pair":
@@ -108,6 +113,8 @@ def check_second_spin(pair: "Pair", spin2: Any, *, spins: bool) -> None:
 def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
     """Tell whether impacts of two pairs are the same, but for the friction unless that counts."""
     names = ("chi", "kappa", "effective_radius", "normal_mass", *(["friction"] * friction))
+    if one.thickness != other.thickness:
+        return False
     values = ((getattr(one, name), getattr(other, name)) for name in names)
     return all(abs(a - b) <= SAME_BODIES * abs(b) for a, b in values)
 
@@ -180,6 +187,20 @@ class Pair(Printed):
                 "pair: sizes, densities and stiffnesses of the bodies give numbers that floating "
                 "point cannot hold; check the units"
             )
+
+    @property
+    def thickness(self) -> float | None:
+        """Thickness of a plate that is struck, in m; None if it is none."""
+        return self.second.thickness if isinstance(self.second, HalfSpace) else None
+
+    def plate_give(self, scales: Scales) -> float:
+        """Return how far a plate gives way, lambda = m_n V_1/(8 sqrt(D rho h) d_max) (Zener 1941).
+
+        It is 0 for a thick wall.
+        """
+        wall = self.second
+        impedance = wall.impedance if isinstance(wall, HalfSpace) else inf
+        return self.normal_mass / (impedance * scales.time)
 
     @cached_property
     def effective_modulus(self) -> float:

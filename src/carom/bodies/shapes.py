@@ -9,7 +9,7 @@ from typing import Any, cast
 from carom.bodies.materials import VALUES, Material, as_material, set_fields
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative, positive
 
@@ -105,30 +105,55 @@ class Sphere(Body):
 
 @dataclass(frozen=True, init=False)
 class HalfSpace(Body):
-    """A flat body that does not move as a whole.
+    """A flat body that does not move as a whole: a thick wall, or a wide plate that gives way.
+
+        D = E h^3/(12 (1 - nu^2)), v = P/(8 sqrt(D rho h))
+
+    A plate of thickness h moves at the speed v under a force P, until waves have come back from its
+    rim (Zener 1941). Without a thickness the wall is taken as infinitely thick.
 
     Parameters
     ----------
     material : Material or str
         Material of the body, or the name of a material of the catalogue.
+    thickness : float or str, optional
+        Thickness h of a plate in m, which needs the density of its material.
 
     Raises
     ------
     InputError
-        If there is no material of that name.
+        If there is no material of that name, the thickness is not positive, or the material of a
+        plate has no density.
 
     Examples
     --------
     >>> import carom
     >>> carom.HalfSpace("rigid").material.is_rigid
     True
+    >>> print(carom.HalfSpace("steel", thickness="3 mm"))
+    plate (steel, h = 3 mm)
     """
 
     material: Material
+    thickness: float | None = None
 
     @known_keywords
-    def __init__(self, material: Material | str) -> None:
-        set_fields(self, material=as_material(material))
+    def __init__(self, material: Material | str, *, thickness: Value | None = None) -> None:
+        stuff = as_material(material)
+        set_fields(self, material=stuff, thickness=None)
+        if thickness is not None:
+            set_fields(self, thickness=positive("thickness", thickness))
+            needs = "a plate needs a material with a density; leave thickness out for a thick wall"
+            refuse(stuff.density is None and refusal("density", None, needs))
+
+    @property
+    def impedance(self) -> float:
+        """Force over speed of a plate's middle, 8 sqrt(D rho h) in N s/m; of a thick wall inf."""
+        if self.thickness is None:
+            return math.inf
+        stuff, h = self.material, self.thickness
+        stiffness = stuff.young * h**3 / (12.0 * (1.0 - stuff.poisson**2))
+        return 8.0 * math.sqrt(stiffness * cast(float, stuff.density) * h)
 
     @property
     def curvature(self) -> float:
@@ -185,7 +210,7 @@ def sphere_fits(ball: Sphere) -> bool:
 def describe(body: Body) -> dict[str, Any]:
     """Return what a body was made from, as plain numbers and words."""
     entries: dict[str, Any] = {"kind": type(body).__name__}
-    for name in ("radius", "gyration_radius", "inner_radius"):
+    for name in ("radius", "gyration_radius", "inner_radius", "thickness"):
         value = getattr(body, name, None)
         if value:
             entries[name] = value
@@ -202,8 +227,10 @@ def named(body: Body) -> str:
     """Return a body in a few words: its kind, material and sizes."""
     stuff = body.material
     words = [stuff.name or f"E = {text(stuff.young, 'Pa')}"]
-    sizes = {"R": "radius", "R_i": "inner_radius", "K": "gyration_radius"}
+    sizes = {"R": "radius", "R_i": "inner_radius", "K": "gyration_radius", "h": "thickness"}
     lengths = {symbol: getattr(body, name, None) for symbol, name in sizes.items()}
     words += [f"{symbol} = {text(size, 'm')}" for symbol, size in lengths.items() if size]
-    kind = "half-space" if isinstance(body, HalfSpace) else type(body).__name__.lower()
+    kind = type(body).__name__.lower()
+    if isinstance(body, HalfSpace):
+        kind = "half-space" if body.thickness is None else "plate"
     return f"{kind} ({', '.join(words)})"

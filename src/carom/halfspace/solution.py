@@ -117,6 +117,11 @@ class GridHistory(NamedTuple):
     moment: Field
     velocity_across: Field
 
+    @property
+    def centre_speed(self) -> Field:
+        """That of the bodies' centres, as the wall does not give way."""
+        return self.speed
+
 
 class Snapshot(NamedTuple):
     """The contact at the end of a step, with the velocity of slip during it."""

@@ -248,7 +248,10 @@ def _solution(
     pair: Pair, scales: Scales, psi: float, losses: LossLaw | None
 ) -> Solution | LossySolution:
     solution: Solution | LossySolution
-    if losses is None:
+    if pair.thickness is not None:
+        _refuse_thin(pair, scales, losses)
+        solution = solve_with(psi, pair.chi, LossNumbers(Loss.PLATE, pair.plate_give(scales)))
+    elif losses is None:
         solution = solve(psi, pair.chi)
     else:
         loss, *numbers = checked_law(losses)._loss(pair, scales)
@@ -258,7 +261,19 @@ def _solution(
     if solution.status is not Status.SOLVED:
         name, value = ("chi", pair.chi) if losses is None else ("losses", losses)
         message = solution.status.message
-        raise refusal(
-            name, value, f"the impact at psi_1 = {psi:g}, chi = {pair.chi:g} is {message}"
-        )
+        why = f"the impact at psi_1 = {psi:g}, chi = {pair.chi:g} is {message}"
+        if solution.status is Status.PLATE_GIVES_WAY:
+            raise refusal("thickness", pair.thickness, why)
+        raise refusal(name, value, why)
     return solution
+
+
+def _refuse_thin(pair: Pair, scales: Scales, losses: LossLaw | None) -> None:
+    """Raise InputError where the theory of a plate cannot be applied."""
+    thickness = pair.thickness
+    if losses is not None:
+        allowed = "bodies on a plate are elastic so far; leave losses or thickness out"
+        raise refusal("losses", losses, allowed)
+    if thickness is not None and not thickness > scales.length:
+        deep = f"the sphere would be pressed in by {text(scales.length, 'm')} on a thick wall"
+        raise refusal("thickness", thickness, f"must be above the penetration; {deep}")

@@ -61,7 +61,7 @@ def _psi_lost(chi: float, solution: InTime, h: Any) -> Any:
     """Return psi_1 - psi until now; in fast gross slip by its closed form, 2 chi (1 - v/V_1)."""
     most = 2.0 * chi
     if abs(solution.psi_in) > FAST * (1.0 + most * (1.0 + solution.restitution)):
-        return copysign(most, solution.psi_in) * (1.0 - h.speed)
+        return copysign(most, solution.psi_in) * (1.0 - h.centre_speed)
     return solution.psi_in - h.psi
 
 
@@ -84,7 +84,7 @@ def history_columns(outcome: "Outcome", n: int) -> dict[str, Any]:
         "time": h.time * scales.time,
         "penetration": h.penetration * scales.length,
         "displacement": h.displacement * scales.tangential_length + drift * h.time * scales.time,
-        "normal_velocity": h.speed * scales.speed,
+        "normal_velocity": h.centre_speed * scales.speed,
         "contact_velocity": velocity,
         "tangential_speed": now.tangential_speed,
         "spin": now.spin,
@@ -93,7 +93,7 @@ def history_columns(outcome: "Outcome", n: int) -> dict[str, Any]:
         "tangential_force": h.force * scales.tangential_force,
         "contact_radius": h.contact_radius * scales.radius,
         "stick_radius": h.stick_radius * scales.radius * (0.0 if slides_freely else 1.0),
-        "normal_kinetic_energy": h.speed**2 * scales.energy,
+        "normal_kinetic_energy": h.centre_speed**2 * scales.energy,
         "tangential_kinetic_energy": 0.5 * pair.normal_mass * now.tangential_speed**2,
         "spin_kinetic_energy": now.spin_energy(pair),
         "contact_kinetic_energy": 0.5 * pair.tangential_mass * velocity**2,

@@ -114,7 +114,7 @@ def impact(
     >>> round(hit.rebound_angle * 180 / 3.141592653589793, 2)
     18.6
     """
-    checked_pair(pair)
+    checked_pair(pair, plates=True)
     approaching, tangential = approach(speed, angle, normal_speed, tangential_speed)
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
     about_normal = finite("normal_spin", normal_spin)
@@ -124,6 +124,7 @@ def impact(
     scales = checked_scales(pair, approaching, velocity, tangential, *motion.carried(pair))
     if isinstance(method, str) and method == "exact":
         return solve_exactly(pair, scales, motion, losses, about_normal)
+    checked_pair(pair)
     elements = _elements(method, losses)
     from carom.impacts.boundary_elements import solve_by_elements
 
