@@ -53,7 +53,8 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
     "inner_radius": not_negative,
 }
 BODY = (*SIZES, "material")
-OF_SECOND = ("kind", "thickness")  # of a plate
+PLATE = ("thickness", "width")
+OF_SECOND = ("kind", *PLATE)
 MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data", "spectrum")
 SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads
@@ -211,9 +212,9 @@ def read_loss(name: str, value: Any) -> float | None:
 
 def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
     kind = one_of("kind", table.get("kind", KINDS[0]), KINDS)
-    thickness = table.get("thickness")
-    if thickness is not None and kind != "half-space":
-        raise refusal("thickness", thickness, f"a {kind} has none; leave it out")
+    for name in PLATE if kind != "half-space" else ():
+        if name in table:
+            raise refusal(name, table[name], f"a {kind} has none; leave it out")
     if kind == "sphere":
         same = {"material": first.material, "radius": first.radius}
         return _sphere("second", "second-", table, same)
@@ -222,7 +223,7 @@ def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
             raise refusal(name, table[name], f"a {kind} has none; leave it out")
     stuff = read_material(table.get("material", first.material))
     if kind == "half-space":
-        return HalfSpace(material=stuff, thickness=thickness)
+        return HalfSpace(material=stuff, **{name: table.get(name) for name in PLATE})
     return Cup(radius=_needed(table, "second", "second-", "radius", "10 mm"), material=stuff)
 
 

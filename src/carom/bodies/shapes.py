@@ -118,12 +118,14 @@ class HalfSpace(Body):
         Material of the body, or the name of a material of the catalogue.
     thickness : float or str, optional
         Thickness h of a plate in m, which needs the density of its material.
+    width : float or str, optional
+        Width of the plate in m, which is struck in its middle; by default it is wide enough.
 
     Raises
     ------
     InputError
-        If there is no material of that name, the thickness is not positive, or the material of a
-        plate has no density.
+        If there is no material of that name, a size is not positive, there is a width without a
+        thickness, or the material of a plate has no density.
 
     Examples
     --------
@@ -136,15 +138,25 @@ class HalfSpace(Body):
 
     material: Material
     thickness: float | None = None
+    width: float | None = None
 
     @known_keywords
-    def __init__(self, material: Material | str, *, thickness: Value | None = None) -> None:
+    def __init__(
+        self,
+        material: Material | str,
+        *,
+        thickness: Value | None = None,
+        width: Value | None = None,
+    ) -> None:
         stuff = as_material(material)
-        set_fields(self, material=stuff, thickness=None)
-        if thickness is not None:
-            set_fields(self, thickness=positive("thickness", thickness))
-            needs = "a plate needs a material with a density; leave thickness out for a thick wall"
-            refuse(stuff.density is None and refusal("density", None, needs))
+        sizes = {"thickness": thickness, "width": width}
+        read = {name: value and positive(name, value) for name, value in sizes.items()}
+        set_fields(self, material=stuff, **read)
+        needs = "a plate needs a material with a density; leave thickness out for a thick wall"
+        missing = thickness is not None and stuff.density is None
+        refuse(missing and refusal("density", None, needs))
+        alone = width is not None and thickness is None
+        refuse(alone and refusal("width", width, "is that of a plate; give its thickness, too"))
 
     @property
     def impedance(self) -> float:
@@ -210,7 +222,7 @@ def sphere_fits(ball: Sphere) -> bool:
 def describe(body: Body) -> dict[str, Any]:
     """Return what a body was made from, as plain numbers and words."""
     entries: dict[str, Any] = {"kind": type(body).__name__}
-    for name in ("radius", "gyration_radius", "inner_radius", "thickness"):
+    for name in ("radius", "gyration_radius", "inner_radius", "thickness", "width"):
         value = getattr(body, name, None)
         if value:
             entries[name] = value

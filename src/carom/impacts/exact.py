@@ -23,6 +23,7 @@ from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
 from carom.impacts.peaks import judge_strength, peaks_dataset, struck_bodies
+from carom.impacts.plates import judge_plate, refuse_thin
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import judge, judge_losses, judge_pressure
 from carom.impacts.wear import wear_of
@@ -63,7 +64,7 @@ class Impact(ImpactResult, InContact):
     def validity(self) -> Validity:
         """Whether the assumptions of the theory hold, as numbers with limits and verdicts."""
         if not isinstance(self.solution, LossySolution):
-            return judge(self, self._strength)
+            return judge(self, self._strength, judge_plate(self))
         losses = judge_losses(self.solution._losses, self.normal_restitution, self.pair.chi)
         return judge(self, self._strength, (losses,))
 
@@ -249,7 +250,7 @@ def _solution(
 ) -> Solution | LossySolution:
     solution: Solution | LossySolution
     if pair.thickness is not None:
-        _refuse_thin(pair, scales, losses)
+        refuse_thin(pair, scales, losses)
         solution = solve_with(psi, pair.chi, LossNumbers(Loss.PLATE, pair.plate_give(scales)))
     elif losses is None:
         solution = solve(psi, pair.chi)
@@ -266,14 +267,3 @@ def _solution(
             raise refusal("thickness", pair.thickness, why)
         raise refusal(name, value, why)
     return solution
-
-
-def _refuse_thin(pair: Pair, scales: Scales, losses: LossLaw | None) -> None:
-    """Raise InputError where the theory of a plate cannot be applied."""
-    thickness = pair.thickness
-    if losses is not None:
-        allowed = "bodies on a plate are elastic so far; leave losses or thickness out"
-        raise refusal("losses", losses, allowed)
-    if thickness is not None and not thickness > scales.length:
-        deep = f"the sphere would be pressed in by {text(scales.length, 'm')} on a thick wall"
-        raise refusal("thickness", thickness, f"must be above the penetration; {deep}")
