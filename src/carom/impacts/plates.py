@@ -1,4 +1,4 @@
-"""What the theory of a plate needs: long bending waves, a small contact, small deflection, width."""
+"""What the theory of a plate needs: long bending waves, a small contact and deflection, width."""
 
 from math import inf, pi, sqrt
 from typing import cast
@@ -50,7 +50,7 @@ def _judge_contact(ratio: float) -> Finding:
 
 
 def _judge_deflection(hit: ImpactResult, unit: float) -> Finding:
-    """Return the finding on how far the middle of the plate moves, the impulse over 8 sqrt(D rho h)."""
+    """Return the finding on how far the plate's middle moves, impulse over 8 sqrt(D rho h)."""
     impulse = hit.pair.normal_mass * hit.normal_speed * (1.0 + hit.normal_restitution)
     ratio = impulse / unit
     small = ratio <= SMALL_DEFLECTION
@@ -61,13 +61,11 @@ def _judge_deflection(hit: ImpactResult, unit: float) -> Finding:
 def _judge_width(plate: HalfSpace, thickness: float, duration: float) -> Finding:
     """Return the finding on the rim: waves of the period of the contact run to it and back."""
     needed = 2.0 * sqrt(2.0) * _bending(plate, thickness, duration)
-    words = (
-        f"waves come back from the rim after the contact if it is wider than {text(needed, 'm')}"
-    )
     if plate.width is None:
-        return Finding("width", inf, needed, True, f"the plate is taken as wide; {words}")
+        words = f"the plate is taken as wide, which it is above {text(needed, 'm', 3)}"
+        return Finding("width", inf, needed, True, words)
     wide = plate.width >= needed
-    answers = f"the rim answers within the contact; the plate must be {text(needed, 'm')} wide"
+    answers = f"the rim answers within the contact; it must be {text(needed, 'm', 3)} wide"
     verdict = "no wave comes back from the rim within the contact"
     return Finding("width", plate.width, needed, wide, verdict if wide else answers)
 
@@ -79,7 +77,7 @@ def _bending(plate: HalfSpace, thickness: float, duration: float) -> float:
     """
     stuff = plate.material
     stiffness = stuff.young * thickness**2 / (12.0 * (1.0 - stuff.poisson**2))
-    return sqrt(pi * duration) * (stiffness / cast(float, stuff.density)) ** 0.25
+    return sqrt(pi * duration * sqrt(stiffness / cast(float, stuff.density)))
 
 
 def _compressional_speed(plate: HalfSpace) -> float:
