@@ -76,7 +76,7 @@ def test_an_output_whose_strength_is_missing_is_refused(output, missing):
 
 
 def test_losses_are_refused_where_stresses_are_searched():
-    words = "a sweep with losses does not compute stresses"
+    words = "a sweep with losses or plates does not compute stresses"
     refused(words, one_angle, ["yield_speed_first"], restitution=0.9)
 
 

@@ -53,7 +53,7 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
     "inner_radius": not_negative,
 }
 BODY = (*SIZES, "material")
-PLATE = ("thickness", "width")
+PLATE: dict[str, Callable[[str, Any], float]] = {"thickness": positive, "width": positive}
 OF_SECOND = ("kind", *PLATE)
 MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data", "spectrum")

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any, cast
 
 from carom.bodies.materials import VALUES, Material, as_material, set_fields
+from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal, refuse
@@ -165,7 +166,7 @@ class HalfSpace(Body):
             return math.inf
         stuff, h = self.material, self.thickness
         stiffness = stuff.young * h**3 / (12.0 * (1.0 - stuff.poisson**2))
-        return 8.0 * math.sqrt(stiffness * cast(float, stuff.density) * h)
+        return 8.0 * sqrt(stiffness * cast(float, stuff.density) * h)
 
     @property
     def curvature(self) -> float:

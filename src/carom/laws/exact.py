@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from carom.bodies.losses import KelvinVoigt
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, checked_pair
 from carom.dem.base import Codes, Law
 from carom.dimensionless import rebound_tables as tables
 from carom.dimensionless.elastic.phases import Status
@@ -264,7 +264,7 @@ class ReboundLaw(Law):
 
     def rule(self, pair: Pair) -> Rule:
         """Return the numbers that a collision of this pair needs; its chi must be the law's."""
-        chi, (low, high) = pair.chi, self._ends
+        chi, (low, high) = checked_pair(pair).chi, self._ends
         if not (low <= chi <= high or abs(chi - low) <= 1e-9 * low == 1e-9 * high):
             own = f"{low:.10g}" if low == high else f"{low:.10g} to {high:.10g}"
             raise InputError(

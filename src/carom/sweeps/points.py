@@ -17,7 +17,7 @@ from carom.bodies.materials import STRENGTHS, Material, unchecked
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import LossNumbers
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.dimensionless.solution import solve
@@ -127,7 +127,7 @@ OF_SOLVER = {
     Status.PLATE_GIVES_WAY: PointStatus.PLATE_GIVES_WAY,
 }
 FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
-POSITIVE = ("radius", "gyration_radius", "young", "density", "yield_velocity")
+POSITIVE = ("radius", "gyration_radius", "thickness", "young", "density", "yield_velocity")
 NOT_NEGATIVE = ("friction", "inner_radius", "loss_time", "relaxation_time")
 IN_RANGE: dict[str, Callable[[Any], Any]] = {
     **dict.fromkeys(POSITIVE, lambda values: values > 0.0),
@@ -151,9 +151,9 @@ class BlockSolution(NamedTuple):
     shear_lost: Any = 0.0
 
     @classmethod
-    def blank(cls, size: int, losses: object) -> BlockSolution:
+    def blank(cls, size: int, loses: bool) -> BlockSolution:
         """Return what is filled before an outcome is asked: all with losses, else psi_out."""
-        return cls(*np.full((1 if losses is None else len(cls._fields), size), np.nan))
+        return cls(*np.full((len(cls._fields) if loses else 1, size), np.nan))
 
 
 def evaluate(
@@ -169,12 +169,16 @@ def evaluate(
         status = _status(columns, kind, size)
         first, second = _sphere(columns, "first"), _second(columns, kind)
         pair = unchecked(Pair, first=first, second=second, friction=columns["friction"])
-        solution, spins = BlockSolution.blank(size, loss), (columns["spin"], columns["spin2"])
+        loses = loss is not None or pair.thickness is not None
+        solution, spins = BlockSolution.blank(size, loses), (columns["spin"], columns["spin2"])
         normal, tangential = velocities(columns)
         scales = pair.scales(normal)
         outcome = Outcome(pair, normal, tangential, *spins, solution, scales=scales)
         lost = (status == PointStatus.SOLVED) & np.logical_not(outcome_fits(outcome))
         status[lost] = PointStatus.BEYOND_FLOATING_POINT
+        if pair.thickness is not None:
+            thin = np.logical_not(pair.thickness > scales.length)
+            status[(status == PointStatus.SOLVED) & thin] = PointStatus.OUT_OF_RANGE
         law = None if loss is None else law_of(loss, columns.get(loss), columns.get(RATIO))
         solve_block(outcome, law, status, threads)
         solved = status == PointStatus.SOLVED
@@ -193,6 +197,8 @@ def solve_block(outcome: Outcome, law: LossLaw | None, status: Codes, threads: i
     """Fill in the solution of the impacts whose status is SOLVED, and what became of them."""
     solution = cast(BlockSolution, outcome.solution)
     loss, *numbers = (None,) if law is None else law._loss(outcome.pair, outcome.scales)
+    if outcome.pair.thickness is not None:
+        loss, *numbers = LossNumbers(Loss.PLATE, outcome.pair.plate_give(outcome.scales))
     arguments = (outcome.psi_in, outcome.pair.chi, *numbers)
     psi, chi, *parameters = (np.broadcast_to(x, status.shape) for x in arguments)
     run = status == PointStatus.SOLVED
@@ -264,7 +270,7 @@ def _second(columns: Columns, kind: str) -> Counterbody:
     stuff = _material(columns, "second")
     if kind == "cup":
         return unchecked(Cup, radius=columns["second.radius"], material=stuff)
-    return unchecked(HalfSpace, material=stuff)
+    return unchecked(HalfSpace, material=stuff, thickness=columns.get("second.thickness"))
 
 
 def _sphere(columns: Columns, body: str) -> Sphere:

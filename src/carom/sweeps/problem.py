@@ -32,11 +32,11 @@ from carom.sweeps.points import WANTED, PointStatus, evaluate, needed_by, needed
 
 OF_STRENGTH = tuple(f"material.{name}" for name in STRENGTHS)
 OF_SECOND = {  # what describes a second body of each kind
-    "half-space": ("material.young", "material.poisson", *OF_STRENGTH),
+    "half-space": ("thickness", *(f"material.{name}" for name in ELASTIC), *OF_STRENGTH),
     "cup": ("radius", "material.young", "material.poisson", *OF_STRENGTH),
     "sphere": (*cases.SIZES, *(f"material.{name}" for name in ELASTIC), *OF_STRENGTH),
 }
-OPTIONAL = ("gyration_radius", "inner_radius", *OF_STRENGTH)
+OPTIONAL = ("gyration_radius", "inner_radius", "thickness", *OF_STRENGTH)
 YIELD = "yield_strength"
 AT_REST = {"angle": 0.0, "tangential_speed": 0.0, "spin": 0.0, "spin2": 0.0}
 
@@ -121,13 +121,16 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
     fixed = {name: value for name, value in fixed.items() if leaf(name) not in unneeded}
     if fixed.get("spin2") == 0.0:  # every body may be without
         del fixed["spin2"]
-    if "sphere" not in kinds:  # a material may have more than a fixed body needs
+    plate = "second.thickness" in {*names, *fixed}
+    if "sphere" not in kinds and not plate:  # a material may have more than a fixed body needs
         fixed.pop("second.material.density", None)
     cases.refuse_half({*names, *losses, *fixed})
     refuse_contradictions({*names, *losses, *(name for name in fixed if "material" not in name)})
     whole = Common(design, fixed, kinds, inherits, next(iter(losses), None), yields, strengths)
     _refuse_foreign(whole)
     _refuse_missing(whole)
+    lossy = "bodies on a plate are elastic so far; leave it or the thickness out"
+    refuse(plate and whole.loss is not None and f"{whole.loss}: {lossy}")
     if not any("." in name for name in names):
         cases.pair_of({**case, "friction": 0.0})  # bodies that do not fit are refused at once
     return whole
@@ -143,8 +146,9 @@ def _numbers(case: cases.Case) -> Iterator[tuple[str, float]]:
             yield name, value
     for body in BODIES:
         table = case.get(body, {})
-        for name, check in cases.SIZES.items():
-            if table.get(name) is not None:
+        sizes = cases.SIZES if body == "first" else {**cases.SIZES, **cases.PLATE}
+        for name, check in sizes.items():
+            if name != "width" and table.get(name) is not None:
                 yield f"{body}.{name}", check(name, table[name])
         if table.get("material") is not None:
             for name, value in cases.material_values(table["material"]).items():
@@ -179,13 +183,18 @@ def _refuse_missing(whole: Common) -> None:
     for kind in whole.kinds:
         columns = whole.columns(first_point, kind)
         needed = ["friction", "first.radius", *(f"first.material.{name}" for name in ELASTIC)]
-        needed += [f"second.{name}" for name in OF_SECOND[kind] if name not in OPTIONAL]
+        optional = (*OPTIONAL, *(("material.density",) if not _is_plate(columns, kind) else ()))
+        needed += [f"second.{name}" for name in OF_SECOND[kind] if name not in optional]
         needed += ["normal_speed" if "normal_speed" in columns else "speed"]
         missing = [name for name in needed if name not in columns]
         refuse(
             *(f"{name}: missing; give it in the case or in the design" for name in missing),
             whole.yields and YIELD not in map(leaf, columns) and NO_YIELD_VELOCITY,
         )
+
+
+def _is_plate(columns: Mapping[str, Any], kind: str) -> bool:
+    return kind == "sphere" or "second.thickness" in columns
 
 
 OUTPUTS = (
@@ -231,7 +240,8 @@ class SweepProblem:
     @property
     def loses(self) -> bool:
         """Whether energy is lost but to friction."""
-        return self._common.loss is not None
+        plate = "second.thickness" in {*self.design.names, *self._common.fixed}
+        return self._common.loss is not None or plate
 
     def chunks(self) -> tuple[int, ...]:
         """Return the shape of the blocks into which the sweep is cut."""
@@ -297,7 +307,7 @@ class SweepProblem:
         """Yield what keeps outputs from being known: losses, rigid bodies, missing strengths."""
         for output in filter(WANTED.__contains__, self.outputs):
             if self.loses:
-                allowed = "a sweep with losses does not compute stresses; leave them out"
+                allowed = "a sweep with losses or plates does not compute stresses; leave them out"
                 yield refusal("outputs", output, allowed)
                 continue
             body = WANTED[output].body

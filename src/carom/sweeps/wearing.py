@@ -115,7 +115,7 @@ def _solve_all(
 def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
     """Solve a block of impacts and write what comes of it."""
     normal, motion = _motion_of(block.columns)
-    solution = BlockSolution.blank(block.counts.size, losses)
+    solution = BlockSolution.blank(block.counts.size, losses is not None)
     tangential, spin, spin2 = motion
     scales = pair.scales(normal)
     outcome = Outcome(pair, normal, tangential, spin, spin2, solution, scales=scales)
