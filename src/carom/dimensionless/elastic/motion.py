@@ -98,29 +98,25 @@ def combine(s: Series, mode: int, sign: int, k: int) -> None:
 
 
 @kernel
-def stick_rates(s: Series, chi: float, give: float, k: int) -> None:
+def stick_rates(s: Series, chi: float, k: int) -> None:
     """Extend the rates of a contact that sticks as a whole to order k."""
     multiply(s, B, B, BB, k)
     b4, force = 0.0, 0.0
     for j in range(k + 1):
         b4 += s[j, BB] * s[k - j, BB]
         force += s[j, BB] * s[k - j, PSI]
-    if give > 0.0:
-        b4 += 1.5 * give * product(s, BB, V, k)
     write_contact_rates(s, chi, b4, force, k)
 
 
 @kernel
-def slide_rates(s: Series, sign: int, chi: float, give: float, k: int) -> None:
+def slide_rates(s: Series, sign: int, chi: float, k: int) -> None:
     """Extend the rates of a contact that slips as a whole to order k."""
     multiply(s, B, B, BB, k)
-    force = product(s, BB, V, k)
-    b4 = product(s, BB, BB, k) + 1.5 * give * force
-    write_contact_rates(s, chi, b4, sign * force, k)
+    write_contact_rates(s, chi, product(s, BB, BB, k), sign * product(s, BB, V, k), k)
 
 
 @kernel
-def ring_rates(s: Series, mode: int, sign: int, chi: float, give: float, k: int) -> None:
+def ring_rates(s: Series, mode: int, sign: int, chi: float, k: int) -> None:
     """Extend the rates of contact and front to order k, each by its own clock."""
     multiply_both(s, k)
     combine(s, mode, sign, k)
@@ -131,9 +127,6 @@ def ring_rates(s: Series, mode: int, sign: int, chi: float, give: float, k: int)
         slipping += s[j, B] * s[k - j, BV]
         a4 += s[j, AA] * s[k - j, AA]
         laid += s[j, A] * s[k - j, APSI]
-    if give > 0.0:
-        b4 += 1.5 * give * product(s, BB, V, k)
-        a4 += 1.5 * give * product(s, AA, V_A, k)
     write_contact_rates(s, chi, b4, sign * (stuck + slipping), k)
     if mode == FLAT:
         s[k, A_RATE] = -1.0 if k == 0 else 0.0
@@ -152,6 +145,14 @@ def write_contact_rates(s: Series, chi: float, b4: float, force: float, k: int) 
     s[k, V_RATE] = -2.5 * b4
     s[k, PSI_RATE] = -7.5 * chi * s[k, BQ]
     s[k, Q_RATE] = 2.0 * force
+
+
+@kernel
+def give_way(s: Series, mode: int, give: float, k: int) -> None:
+    """Add to the rates of the normal speed, of order k, that of a plate which gives way."""
+    s[k, V_RATE] -= 3.75 * give * product(s, BB, V, k)
+    if mode == LAID:
+        s[k, VA_RATE] += 3.75 * give * product(s, AA, V_A, k)
 
 
 @kernel
@@ -198,14 +199,16 @@ def expand(s: Series, mode: int, clock: int, sign: int, chi: float, give: float)
     """Expand the state in row 0 into Taylor series by the given clock."""
     for k in range(ORDER):
         if mode == STICK:
-            stick_rates(s, chi, give, k)
+            stick_rates(s, chi, k)
+        elif mode == SLIDE:
+            slide_rates(s, sign, chi, k)
+        else:
+            ring_rates(s, mode, sign, chi, k)
+        if give > 0.0:
+            give_way(s, mode, give, k)
+        if mode in (STICK, SLIDE):
             advance(s, B, B_RATE, False, k)
             continue
-        if mode == SLIDE:
-            slide_rates(s, sign, chi, give, k)
-            advance(s, B, B_RATE, False, k)
-            continue
-        ring_rates(s, mode, sign, chi, give, k)
         if clock == FRONT:
             quotient(s, D, N, k)
             advance(s, B, B_RATE, True, k)
