@@ -226,7 +226,8 @@ class Sheet:
         if size not in self.places:
             stride = int(np.ceil((_block([""]).height + APART) / self.pixel / 2.0))
             fits = self._fits(~self.busy & ~self.lines, block)[::stride, ::stride]
-            self.places[size] = (np.argwhere(fits)[:, ::-1] * stride + 0.5) * self.pixel
+            at = np.argwhere(fits)[:, ::-1] * stride + 0.5
+            self.places[size] = np.asarray(at * self.pixel, dtype=np.float64)
         return self.places[size]
 
     def _fits(self, free: Mask, block: Block) -> Mask:
