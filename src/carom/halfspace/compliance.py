@@ -187,11 +187,11 @@ class _Tensor(NamedTuple):
 
     def applied(self, transform: Transform, field: Field) -> Field:
         """Return a field of two components, convolved."""
-        even, odd = transform.forward_pair(field)
+        even, odd = transform.forward(field[0]), transform.forward(field[1], odd=True)
         along, across = self.along * even, self.across * odd
         along[transform.even] += self.to_even * odd[transform.odd]
         across[transform.odd] += self.to_odd * even[transform.even]
-        return transform.backward_pair(along, across)
+        return np.stack([transform.backward(along), transform.backward(across, odd=True)])
 
 
 def _used(kernel: Field) -> Field:

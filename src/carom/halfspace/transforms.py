@@ -1,7 +1,7 @@
 """Fourier transforms of fields on a grid, of which symmetry may leave a half or a quarter."""
 
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import scipy.fft
@@ -50,20 +50,9 @@ class Transform:
     def forward(self, field: Field, odd: bool = False) -> Spectrum:
         """Return the spectrum of a field."""
         self.count += 1
-        return self._forward_plain(self._waves(field, odd))
-
-    def forward_pair(self, field: Field) -> Spectrum:
-        """Return the spectra of an even and an odd field, in less time than one by one."""
-        self.count += 2
-        pair: Any = np.stack([self._waves(field[0], False), self._waves(field[1], True)])
-        return self._forward_plain(pair)
-
-    def _waves(self, field: Spectrum, odd: bool) -> Spectrum:
+        spectrum: Spectrum = field
         for axis in self.mirrored:
-            field = _waves(field, self.period // 2, axis, odd)
-        return field
-
-    def _forward_plain(self, spectrum: Spectrum) -> Spectrum:
+            spectrum = _waves(spectrum, self.period // 2, axis, odd)
         for axis in self.plain:
             transform = scipy.fft.rfft if axis == self.plain[0] else scipy.fft.fft
             spectrum = transform(spectrum, self.period, axis=axis)
@@ -72,23 +61,10 @@ class Transform:
     def backward(self, spectrum: Spectrum, odd: bool = False) -> Field:
         """Return the field of a spectrum, without its padding."""
         self.count += 1
-        return self._samples(self._backward_plain(spectrum), odd)
-
-    def backward_pair(self, even: Spectrum, odd: Spectrum) -> Field:
-        """Return the fields of an even and an odd spectrum, in less time than one by one."""
-        self.count += 2
-        pair: Any = np.stack([even, odd])
-        fields = self._backward_plain(pair)
-        return np.stack([self._samples(fields[0], False), self._samples(fields[1], True)])
-
-    def _backward_plain(self, spectrum: Spectrum) -> Spectrum:
         for axis in reversed(self.plain):
             inverse = scipy.fft.irfft if axis == self.plain[0] else scipy.fft.ifft
             kept = (..., slice(self.shape[axis]), *(slice(None),) * (-1 - axis))
             spectrum = inverse(spectrum, self.period, axis=axis)[kept]
-        return spectrum
-
-    def _samples(self, spectrum: Spectrum, odd: bool) -> Field:
         for axis in self.mirrored:
             spectrum = _samples(spectrum, self.shape[axis], axis, odd)
         return np.asarray(spectrum)
