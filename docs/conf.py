@@ -64,7 +64,7 @@ sphinx_gallery_conf = {
     "show_memory": False,
     "download_all_examples": False,
     "show_signature": False,
-    "within_subsection_order": "pictures.IndexOrder",
+    "within_subsection_order": "pictures.place_in_index",
     "nested_sections": False,
     "write_computation_times": False,
     "abort_on_example_error": True,

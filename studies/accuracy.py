@@ -4,7 +4,6 @@ python studies/accuracy.py    half a minute
 """
 
 import csv
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -109,8 +108,7 @@ def main() -> None:
             axis.set_title(f"({'abcd'[place]})", loc="left")
             if axis.get_legend_handles_labels()[1]:
                 axis.legend(loc="upper left", ncols=2)
-        with tempfile.TemporaryDirectory() as folder:
-            store_small(style.save_figure(figure, Path(folder) / FIGURE.name), FIGURE)
+        store_small(figure, FIGURE)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 """The figure of docs/bulk.md."""
 
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 from bulk import gas, modulus, shear
@@ -89,5 +88,4 @@ def draw() -> None:
         axis.set_title(f"({letter}) {title}", loc="left")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=6)
-    with TemporaryDirectory() as folder:
-        store_small(style.save_figure(figure, Path(folder, "bulk.png")), PICTURE)
+    store_small(figure, PICTURE)

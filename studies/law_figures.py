@@ -96,5 +96,4 @@ def draw_figures(ranking: "xr.Dataset", folder: Path) -> None:
         figures[f"map_{name}"] = plot_error_map(found, SCALE)
     figures |= {"stiffness": plot_stiffness(), "forces": plot_histories()}
     for name, figure in track(figures.items(), "figures", len(figures)):
-        path = style.save_figure(figure, folder / f"law_{name}.png")
-        store_small(path, path, all_colors=name.startswith("map"))
+        store_small(figure, folder / f"law_{name}.png", all_colors=name.startswith("map"))

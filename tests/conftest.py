@@ -54,6 +54,12 @@ def pytest_collection_finish():
     gc.set_threshold(100_000, 50, 1000)
 
 
+def pytest_unconfigure():
+    """Collect garbage once; pytest does so five times, for what the first leaves behind."""
+    gc.collect()
+    gc.freeze()
+
+
 def pytest_addoption(parser):
     words = "calls of the cheapest fuzz test; the others take a share of it (default: %(default)s)"
     parser.addoption("--fuzz", type=int, default=1000, metavar="N", help=words)

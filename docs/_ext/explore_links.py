@@ -21,16 +21,12 @@ ONLY_LIVE = {"law", "data"}
 EXAMPLES = {preset.id: preset.query for preset in PRESETS}
 
 
-def opened(query: str) -> str:
-    """Return what the page is opened with."""
-    name, _, example = query.partition("=")
-    found = f"{EXAMPLES[example]}&preset={example}" if name == "example" else query
-    return quote(found, safe="=&+%-._")
-
-
-def is_live(query: str) -> bool:
-    """Return whether the live page is needed."""
-    return bool(ONLY_LIVE & set(parse_qs(query, keep_blank_values=True)))
+def opened(target: str) -> tuple[str, str]:
+    """Return which page a link opens, the live one where only that has it, and with what."""
+    name, _, example = target.partition("=")
+    query = f"{EXAMPLES[example]}&preset={example}" if name == "example" else target
+    live = ONLY_LIVE & parse_qs(query, keep_blank_values=True).keys()
+    return LIVE if live else COPY, quote(query, safe="=&+%-._")
 
 
 class Explore(ReferenceRole):
@@ -39,10 +35,9 @@ class Explore(ReferenceRole):
     def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
         if not self.has_explicit_title:
             raise ValueError(f"explore: {self.text!r} is no title with a query in <...>")
-        query, up = opened(self.target), "../" * self.env.docname.count("/")
-        place = LIVE if is_live(query) else f"{up}{COPY}"
-        link = nodes.reference(self.rawtext, self.title, refuri=f"{place}?{query}", internal=False)
-        return [link], []
+        place, query = opened(self.target)
+        uri = "../" * self.env.docname.count("/") * (place == COPY) + f"{place}?{query}"
+        return [nodes.reference(self.rawtext, self.title, refuri=uri, internal=False)], []
 
 
 def add_copy(app: Sphinx, error: Exception | None) -> None:

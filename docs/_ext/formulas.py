@@ -40,7 +40,6 @@ INNER = r"(?:[^()]|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))*"  # with brackets 
 ASIDE = re.compile(  # a bracket with a relation, a comma or no letter
     rf"[(\[](?!(?=[^)]*[A-Za-z])(?:[^()=<>,;]|\({INNER}\))*[)\]])"
 )
-ROOT = (rf"\bsqrt\(({INNER})\)", r"\\sqrt{\1}")
 TEX = (  # one after the other
     (r"\s+", " "),
     (rf"(?<=[^\s<>=+-])(?<!{NAMES}) x (?=[\w(|])", r" \\times "),
@@ -66,7 +65,7 @@ TEX = (  # one after the other
     (r"\|([^|]*)\|", r"\\lvert \1\\rvert"),
     (r"\^(-?\d+\.\d+|-\w+|\w{2,})", r"^{\1}"),
     (rf"\^(-?)\(({INNER})\)", r"^{\1\2}"),
-    *(ROOT, ROOT),
+    *[(rf"\bsqrt\(({INNER})\)", r"\\sqrt{\1}")] * 2,  # a root in a root
 )
 UNIT = r"(?:[kM]?Pa|[kM]?N|[cmun]?m|[mu]?s|[mk]?J|[kmu]?g|rad|Hz)\b(?:\^-?\d+(?:\.\d+)?)?"
 QUANTITY = re.compile(
@@ -128,7 +127,7 @@ def latex(text: str) -> str:
 
 
 def marked(text: str) -> str:
-    """Return a text with roles for its formulas and names, each between two marks."""
+    """Return a text with roles for its formulas and names, each between two marks; |x| stays."""
     done, at = "", 0
     while at < len(text):
         end = 0 if text.startswith("integral", at) else formula(text, at)
@@ -143,7 +142,7 @@ def marked(text: str) -> str:
             at = end
         else:
             word = WORD.match(text, at)
-            done += f"\1``{word[0]}``\2" if word["code"] else word[0]
+            done += f"\1``{word[0]}``\2" if word["code"] else word[0].replace("|", r"\|")
             at = word.end()
     return done
 
@@ -213,13 +212,8 @@ def convert(lines: list[str]) -> list[str]:
 
 
 def process(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
-    """Convert a docstring of the reference, and let |x| be what it is, outside examples."""
+    """Convert a docstring of the reference."""
     lines[:] = convert(lines)
-    example = False
-    for number, line in enumerate(lines):
-        example = bool(line.strip()) and (example or line.lstrip().startswith(">>>"))
-        if not example:
-            lines[number] = re.sub(r"(`[^`]*`)|\|", lambda found: found[1] or r"\|", line)
 
 
 def setup(app: Any) -> dict[str, Any]:

@@ -6,7 +6,7 @@
 import re
 from contextlib import suppress
 from dataclasses import fields, is_dataclass
-from inspect import ismodule
+from importlib import import_module
 from pkgutil import resolve_name
 from typing import Any
 
@@ -18,15 +18,14 @@ from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.util.logging import getLogger
 
-import carom
+from carom.names import GROUPS
 from carom.quantities.glossary import GLOSSARY
 
 NAME = re.compile(r"(carom(?:\.\w+)+)(\(.*\))?")
 COMMAND = re.compile(r"carom(?: verify)? [a-z]+")
-PACKAGES = (carom, *filter(ismodule, (getattr(carom, name) for name in carom.__all__)))
 HOMES = {  # where public names are defined, and where they are offered
-    f"{thing.__module__}.{thing.__qualname__}": f"{package.__name__}.{name}"
-    for package in PACKAGES
+    f"{thing.__module__}.{thing.__qualname__}": f"{group}.{name}"
+    for group, package in zip(GROUPS, map(import_module, GROUPS), strict=True)
     for name in package.__all__
     if hasattr(thing := getattr(package, name), "__qualname__")
 }
@@ -67,12 +66,10 @@ def offered(name: str) -> str:
     >>> offered("carom.bodies.pairs.Pair.chi"), offered("carom.dimensionless.rebounds")
     ('carom.Pair.chi', 'carom.dimensionless.rebounds')
     """
-    parts = name.split(".")
-    for end in range(len(parts), 1, -1):
-        home = ".".join(parts[:end])
-        if home in HOMES:
-            return ".".join([HOMES[home], *parts[end:]])
-    return name
+    if name in HOMES or name.count(".") < 2:
+        return HOMES.get(name, name)
+    home, _, field = name.rpartition(".")
+    return f"{offered(home)}.{field}"
 
 
 def exists(name: str) -> bool:

@@ -13,12 +13,9 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 def take_picture(block: Any, variables: dict[str, Any], gallery: dict[str, Any]) -> str:
     """Take what a script has drawn, a file of its own name; return how a page shows it."""
     script = Path(variables["src_file"])
-    taken = []
-    for suffix in (".png", ".gif"):
-        written = script.with_suffix(suffix)
-        if written.exists():
-            place = Path(next(variables["image_path_iterator"])).with_suffix(suffix)
-            taken.append(move(written, place))
+    written = [path for path in map(script.with_suffix, (".png", ".gif")) if path.exists()]
+    places = map(Path, variables["image_path_iterator"])
+    taken = [move(path, next(places).with_suffix(path.suffix)) for path in written]
     return figure_rst(taken, gallery["src_dir"])
 
 
@@ -27,14 +24,6 @@ def give_file(gallery: dict[str, Any], script: str | None) -> None:
     vars(builtins)["__file__"] = str(EXAMPLES / (script or ""))
 
 
-class IndexOrder:
-    """The order of the examples: that of their index, as a key to sort by."""
-
-    def __init__(self, folder: str) -> None:
-        self.index = (EXAMPLES / "README.md").read_text(encoding="utf-8")
-
-    def __repr__(self) -> str:  # it is part of what decides whether the gallery is built anew
-        return "IndexOrder"
-
-    def __call__(self, script: str) -> int:
-        return self.index.find(f"[{script}]")
+def place_in_index(script: str) -> int:
+    """Return where the index of the examples names a script: their order."""
+    return (EXAMPLES / "README.md").read_text(encoding="utf-8").find(f"[{script}]")

@@ -3,9 +3,9 @@
 Needs a browser and Playwright: python docs/make/explorer_figure.py
 """
 
-import shutil
 from io import BytesIO
 from pathlib import Path
+from shutil import which
 from threading import Thread
 
 from PIL import Image
@@ -14,14 +14,13 @@ from playwright.sync_api import sync_playwright
 from carom.explorer import explorer
 
 FIGURES = Path(__file__).parents[1] / "figures" / "explorer"
-LAWS = "law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun"
-STATE = f"?angle=25&friction=0.25&{LAWS}&time=0.6&theme=light&data=kharaz2001"
-TWO = "?angle=25&friction=0.25&time=0.6&theme=light"
+VIEW = "?angle=25&friction=0.25&time=0.6&theme=light"
+STATE = f"{VIEW}&law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun&data=kharaz2001"
 SIZES = {400: 800, 1024: 768, 1440: 900, 1920: 1080}  # heights of windows by their widths
 PICTURES = {  # state, width
     **{f"{width}": (STATE, width) for width in SIZES},
     "dark": (STATE.replace("light", "dark"), 1440),
-    "two": (f"{TWO}&beside=angle%3D60%26friction%3D0.25", 1440),
+    "two": (f"{VIEW}&beside=angle%3D60%26friction%3D0.25", 1440),
     "fit": (STATE + "&tab=Measurements", 1440),
 }
 
@@ -31,9 +30,7 @@ def main() -> None:
     page = explorer(port=0)
     Thread(target=page.serve, daemon=True).start()
     with sync_playwright() as play:
-        browser = play.chromium.launch(
-            executable_path=shutil.which("chromium"), args=["--no-sandbox"]
-        )
+        browser = play.chromium.launch(executable_path=which("chromium"), args=["--no-sandbox"])
         for name, (state, width) in PICTURES.items():
             tab = browser.new_page(viewport={"width": width, "height": SIZES[width]})
             tab.goto(page.url + state)

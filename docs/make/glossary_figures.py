@@ -3,10 +3,8 @@
 python docs/make/glossary_figures.py
 """
 
-import tempfile
 from functools import partial
 from math import atan, cos, degrees, pi, radians, sin, tan
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -262,17 +260,15 @@ FIGURES = {  # height in mm, and the panels with their shares of the width
 @style.styled
 def main() -> None:
     """Draw and store, with a letter above the upper left corner of each panel."""
-    with tempfile.TemporaryDirectory() as folder:
-        for name, (height, panels) in FIGURES.items():
-            figure = style.blank_figure(style.DOUBLE, height)
-            parts = figure.subfigures(1, len(panels), width_ratios=[*panels.values()])
-            for part, draw, letter in zip(parts, panels, "abcd", strict=False):
-                axis = part.subplots()
-                draw(axis)
-                axis.set_title(f"({letter})", loc="left", fontweight="bold")
-                axis.spines[["top", "right"]].set_visible(False)
-            large = style.save_figure(figure, Path(folder) / "large.png")
-            store_small(large, DOCS / "figures" / f"glossary_{name}.png", all_colors=True)
+    for name, (height, panels) in FIGURES.items():
+        figure = style.blank_figure(style.DOUBLE, height)
+        parts = figure.subfigures(1, len(panels), width_ratios=[*panels.values()])
+        for part, draw, letter in zip(parts, panels, "abcd", strict=False):
+            axis = part.subplots()
+            draw(axis)
+            axis.set_title(f"({letter})", loc="left", fontweight="bold")
+            axis.spines[["top", "right"]].set_visible(False)
+        store_small(figure, DOCS / "figures" / f"glossary_{name}.png", all_colors=True)
 
 
 if __name__ == "__main__":

@@ -31,18 +31,12 @@ def write(axis: Axes, x: float, y: float, words: str, colour: str = PLAIN, **loo
 
 
 def arrow(
-    axis: Axes,
-    start: Any,
-    end: Any,
-    colour: str,
-    words: str = "",
-    beside: Any = (0, 0),
-    **look: Any,
+    axis: Axes, start: Any, end: Any, colour: str, words: str = "", beside: Any = 0.0, **look: Any
 ) -> None:
     """Draw an arrow, with words beside its middle."""
     plain = {"arrowstyle": "-|>", "color": colour, "lw": 1.1, "mutation_scale": 7}
-    ends = {"shrinkA": 0, "shrinkB": 0}
-    axis.annotate("", end, start, arrowprops={**plain, **ends, **look}, zorder=2.5)
+    line = {**plain, "shrinkA": 0, "shrinkB": 0, **look}
+    axis.annotate("", end, start, arrowprops=line, zorder=2.5)
     write(axis, *(0.5 * np.add(start, end) + beside), words, colour)
 
 

@@ -1,8 +1,6 @@
 """Write the table of docs/phases.md and draw its figure, from the table that the solver follows."""
 
 from collections import defaultdict
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from measuring_drawing import PLAIN, arrow, sheet, write
 from run_pages import DOCS, store_small
@@ -70,8 +68,7 @@ def draw() -> None:
             arrow(axis, (x - 3, y + 2), (x + 3, y + 2), PLAIN, connectionstyle="arc3,rad=-2")
         else:
             arrow(axis, (x, y), PLACES[after], PLAIN, **ends)
-    with TemporaryDirectory() as folder:
-        store_small(style.save_figure(figure, Path(folder) / FIGURE.name), FIGURE)
+    store_small(figure, FIGURE)
 
 
 if __name__ == "__main__":

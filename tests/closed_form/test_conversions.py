@@ -7,7 +7,7 @@ from math import gamma, log, pi, sqrt
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from tests.oracles.springs import damped_rebound
 
 import carom
 from carom.verify import (
@@ -104,23 +104,6 @@ def test_damping_and_restitution_are_inverse(convention):
     assert np.copysign(1.0, values[-1]) == 1.0
 
 
-def rebound(damping_of, power, pulls=True):
-    """Return -v_2/v_1 of d'' = -d^power - c(d) d', the end where d, or the force, vanishes."""
-
-    def force(d, v):
-        return max(d, 0.0) ** power + damping_of(max(d, 0.0)) * v
-
-    def end(_, y):
-        return y[0] if pulls else force(*y)
-
-    end.terminal, end.direction = True, -1.0
-    start = [1e-9, 1.0]
-    done = solve_ivp(
-        lambda _, y: [y[1], -force(*y)], (0.0, 1e3), start, events=end, rtol=1e-10, atol=1e-12
-    )
-    return -done.y[1, -1]
-
-
 @pytest.mark.parametrize("e", [0.05, 0.3, 0.7, 0.95])
 def test_damping_leaves_what_was_wanted(e):
     """Equations of motion in units k = m = 1, S = (3/2) sqrt(d) the tangent stiffness of Hertz.
@@ -130,18 +113,18 @@ def test_damping_leaves_what_was_wanted(e):
     """
     zeta = damping_from_restitution(e)
     assert zeta == pytest.approx(-log(e) / sqrt(pi**2 + log(e) ** 2), rel=1e-14)
-    assert rebound(lambda d: 2.0 * zeta, 1.0) == pytest.approx(e, abs=1e-7)
-    hertz = rebound(lambda d: 2.0 * zeta * sqrt(5.0 / 6.0 * 1.5 * sqrt(d)), 1.5)
+    assert damped_rebound(lambda d: 2.0 * zeta, 1.0) == pytest.approx(e, abs=1e-7)
+    hertz = damped_rebound(lambda d: 2.0 * zeta * sqrt(5.0 / 6.0 * 1.5 * sqrt(d)), 1.5)
     assert hertz == pytest.approx(e, abs=1e-5)
     beta = damping_from_restitution(e, "thornton")
-    left = rebound(lambda d: 2.0 * beta * sqrt(1.5 * sqrt(d)), 1.5, pulls=False)
+    left = damped_rebound(lambda d: 2.0 * beta * sqrt(1.5 * sqrt(d)), 1.5, pulls=False)
     assert left == pytest.approx(e, abs=4e-4 if e < 0.9 else 4e-3)
 
 
 def test_tsuji_leaves_more_than_was_asked_for():
     """c = alpha sqrt(m F_n/d): LAMMPS leaves 0.7777 where 0.7 is asked for, as measured there."""
     alpha = damping_from_restitution(0.7, "lammps tsuji")
-    left = rebound(lambda d: alpha * sqrt(sqrt(d)), 1.5)
+    left = damped_rebound(lambda d: alpha * sqrt(sqrt(d)), 1.5)
     assert left == pytest.approx(0.7777, abs=2e-4)
 
 

@@ -182,12 +182,12 @@ def test_impulses_of_random_impacts():
 
 @cache
 def dense(law):
-    return oblique(law).history(60_001)
+    return oblique(law).history(40_001)
 
 
 @pytest.mark.parametrize("law", LAWS)
 def test_dense_sums_of_the_history_agree(law):
-    """The rule of the trapezium on 60,001 times, and nothing of panels or phases."""
+    """The rule of the trapezium on 40,001 times, and nothing of panels or phases."""
     hit, history = oblique(law), dense(law)
     frequencies = np.linspace(0.0, 5.0, 11) / hit.duration
     data = hit.spectrum(frequencies)

@@ -5,6 +5,7 @@ alone and import what they name.
 """
 
 import doctest
+import linecache
 import pkgutil
 from importlib import import_module
 
@@ -21,6 +22,7 @@ OF_METHODS = {"carom": carom, "ball": BALL, "pair": PAIR, "hit": HIT}
 @pytest.mark.parametrize("name", ["carom", *MODULES])
 def test_examples(name):
     runner = doctest.DocTestRunner()
+    linecache.clearcache()  # each run looks whether any of its files has changed
     for test in doctest.DocTestFinder().find(import_module(name), globs={}):
         if "." in test.name.removeprefix(f"{name}."):
             test.globs.update(OF_METHODS)

@@ -53,7 +53,7 @@ SENTENCES = {
     "by Barber's (15)-(37) of 1979, for mu\np and psi_in, in m/s": (
         r"by Barber's (15)-(37) of 1979, for :math:`\mu p` and ``psi_in``, in m/s"
     ),
-    "max |psi_2 of the law|, psi_1's": r"max |:math:`\psi_2` of the law|, :math:`\psi_1`'s",
+    "max |psi_2 of the law|, psi_1's": r"max \|:math:`\psi_2` of the law\|, :math:`\psi_1`'s",
     "angle between slip and $x$": "angle between slip and :math:`x`",
 }
 UNTOUCHED = [

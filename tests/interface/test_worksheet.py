@@ -17,8 +17,9 @@ sys.path.append(str(DOCS / "_ext"))
 explore_links = pytest.importorskip("explore_links")  # of the manual, which needs sphinx
 
 TEXT = (DOCS / "how-to/worksheet.md").read_text(encoding="utf-8")
-LINKS = [explore_links.opened(query) for query in re.findall(r"{explore}`[^<`]*<([^>]*)>`", TEXT)]
-LIVE = [query for query in LINKS if explore_links.is_live(query)]
+OPENED = [explore_links.opened(link) for link in re.findall(r"{explore}`[^<`]*<([^>]*)>`", TEXT)]
+LINKS = [query for _, query in OPENED]
+LIVE = [query for page, query in OPENED if page == explore_links.LIVE]
 COPY = [query for query in LINKS if query not in LIVE]
 
 

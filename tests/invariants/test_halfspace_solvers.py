@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.optimize import nnls
+from tests.oracles.influence import least_energy
 
 from carom.halfspace.compliance import Compliance, Materials
 from carom.halfspace.traction import solve_pressure, solve_traction
@@ -40,28 +41,12 @@ def test_pressure_of_rough_bodies(seed):
     assert np.array_equal(load.ravel() > 0.0, exact > 0.0)
 
 
-def by_projected_gradients(compliance, inputs, bound):
-    """Return the traction of least energy by Nesterov's accelerated gradients (1983)."""
-    dense = matrix(compliance.tangential, 2)
-    values = np.linalg.eigvalsh(dense)
-    ratio = np.sqrt(values[0] / values[-1])
-    speed = (1.0 - ratio) / (1.0 + ratio)
-    here = ahead = np.zeros(inputs.size)
-    for _ in range(1500):
-        trial = ahead + (inputs.ravel() - dense @ ahead) / values[-1]
-        size = np.hypot(*trial.reshape(2, -1))
-        cut = np.minimum(1.0, bound.ravel() / np.maximum(size, 1e-300))
-        new = trial * np.tile(cut, 2)
-        here, ahead = new, new + speed * (new - here)
-    return here.reshape(inputs.shape)
-
-
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("kappa", [1.0, 0.7])
 def test_traction_of_any_history(seed, kappa):
     compliance = Compliance(SIZE, 0.3, Materials(kappa))
     values, bound = 0.5 * bumps(seed, 2), np.maximum(bumps(seed + 100), 0.0)
-    exact = by_projected_gradients(compliance, values, bound)
+    exact = least_energy(matrix(compliance.tangential, 2), values, bound)
     load = solve_traction(compliance, values, bound, np.zeros_like(values), TIGHT).load
     assert np.abs(load - exact).max() <= 1e-7 * bound.max()
     slips = np.hypot(*exact) >= bound * (1.0 - 1e-9)

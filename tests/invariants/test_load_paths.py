@@ -8,6 +8,7 @@ from hypothesis import given, settings, strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import quad
 from tests.checks import BALL, FLOOR
+from tests.oracles.springs import along_a_path
 
 import carom
 from carom.contacts.load_paths import load_path
@@ -41,28 +42,12 @@ def deflections(stack, s):
     return q
 
 
-def springs(d, u, s, parts):
-    """q of springs at s, each clamped to Coulomb's limits after each small part of a step."""
-    a, touching, old = np.zeros(s.size), np.zeros(s.size, dtype=bool), (0.0, 0.0)
-    for new in zip(d, u, strict=True):
-        for k in range(parts):
-            d0, d1 = (old[0] + (new[0] - old[0]) * i / parts for i in (k, k + 1))
-            u0, u1 = (old[1] + (new[1] - old[1]) * i / parts for i in (k, k + 1))
-            met = (s < d1) & ~touching
-            if met.any():
-                a[met] = s[met] - u0 - (u1 - u0) * (s[met] - d0) / (d1 - d0)
-            touching = s < d1
-            a = np.where(touching, np.clip(a, 2 * s - d1 - u1, d1 - u1), a)
-        old = new
-    return np.where(touching, a - s + u1, 0.0)
-
-
 @EXAMPLES
 @given(walks)
 def test_same_as_springs_one_by_one(walk):
     s = ((np.arange(101) + 0.5) / 101) ** 2
     actual = deflections(moved(*walk).stack, s)
-    assert_allclose(actual, springs(*walk, s, 3), rtol=0, atol=3e-15)
+    assert_allclose(actual, along_a_path(*walk, s, 3), rtol=0, atol=3e-15)
 
 
 @EXAMPLES

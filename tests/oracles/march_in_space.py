@@ -29,3 +29,20 @@ def marched(psi, rates, springs):
 def extrapolated(psi, rates, springs=500):
     """Return the same by Richardson's extrapolation, as of first order."""
     return 2.0 * marched(psi, rates, 2 * springs) - marched(psi, rates, springs)
+
+
+def rates_of(body):
+    """Return B, the matrix of w' = -(5/4) B (P, Q)."""
+    return np.array(
+        [
+            [1.0, 1.5 * body.eps, 1.5 * body.eps_across],
+            [body.zeta, 3.0 * body.chi, 3.0 * body.mixed],
+            [body.zeta_across, 3.0 * body.mixed, 3.0 * body.across],
+        ]
+    )
+
+
+def energy(body, out):
+    """Return the kinetic energy of a motion (v, psi, psi across), of m_n V_1^2/2."""
+    share = 1.5 * np.hypot(body.eps, body.eps_across) / np.hypot(body.zeta, body.zeta_across)
+    return float(out @ np.diag([1.0, share, share]) @ np.linalg.inv(rates_of(body)) @ out)

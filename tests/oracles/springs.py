@@ -1,6 +1,7 @@
-"""Elastic contact laws of DEM codes by plain integrals, in units of Hertz's impact."""
+"""Contact laws of DEM codes, and springs in shear along a path, by plain integrals."""
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 
 def linear_springs(ratios, psi, chi, count=3000):
@@ -51,3 +52,36 @@ def mindlin_out(psi, chi, count=20_000):
         depth += step * speed
         spring += step * psi
     return psi
+
+
+def damped_rebound(damping_of, power, pulls=True):
+    """Return -v_2/v_1 of d'' = -d^power - c(d) d', the end where d, or the force, vanishes."""
+
+    def force(d, v):
+        return max(d, 0.0) ** power + damping_of(max(d, 0.0)) * v
+
+    def end(_, y):
+        return y[0] if pulls else force(*y)
+
+    end.terminal, end.direction = True, -1.0
+    start = [1e-9, 1.0]
+    done = solve_ivp(
+        lambda _, y: [y[1], -force(*y)], (0.0, 1e3), start, events=end, rtol=1e-10, atol=1e-12
+    )
+    return -done.y[1, -1]
+
+
+def along_a_path(d, u, s, parts):
+    """q of springs at s, each clamped to Coulomb's limits after each small part of a step."""
+    a, touching, old = np.zeros(s.size), np.zeros(s.size, dtype=bool), (0.0, 0.0)
+    for new in zip(d, u, strict=True):
+        for k in range(parts):
+            d0, d1 = (old[0] + (new[0] - old[0]) * i / parts for i in (k, k + 1))
+            u0, u1 = (old[1] + (new[1] - old[1]) * i / parts for i in (k, k + 1))
+            met = (s < d1) & ~touching
+            if met.any():
+                a[met] = s[met] - u0 - (u1 - u0) * (s[met] - d0) / (d1 - d0)
+            touching = s < d1
+            a = np.where(touching, np.clip(a, 2 * s - d1 - u1, d1 - u1), a)
+        old = new
+    return np.where(touching, a - s + u1, 0.0)

@@ -1,5 +1,8 @@
 """All commands, and what they answer to arguments that cannot be used."""
 
+from functools import cache
+from typing import Any
+
 import typer
 
 import carom
@@ -47,10 +50,16 @@ def _common(
         raise typer.Exit
 
 
+@cache
+def _built() -> Any:
+    """Return all commands with their options, which takes longer than most of them."""
+    return typer.main.get_command(app)
+
+
 def answer(arguments: list[str] | None) -> int:
     """Run a command and return its exit code; raises InputError for bad input."""
     try:
-        code = int(app(arguments, standalone_mode=False) or 0)
+        code = int(_built()(arguments, standalone_mode=False) or 0)
     except typer.TyperException as error:
         if type(error).__name__ == "NoArgsIsHelpError":  # no command: the message is the help
             typer.echo(error.format_message())

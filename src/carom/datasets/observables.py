@@ -121,11 +121,9 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
 
 def _check_name(where: str, name: Any) -> None:
     text = name if isinstance(name, str) else ""
-    words = f"unknown quantity; {hint(text, NAMES)}"
-    refuse(
-        text not in NAMES
-        and (f"{heading(text)}: {words}" if text.strip() else refusal(where, name, words))
-    )
+    if text not in NAMES:
+        words = f"unknown quantity; {hint(text, NAMES)}"
+        refuse(f"{heading(text)}: {words}" if text.strip() else refusal(where, name, words))
 
 
 def _values(name: str, value: Any) -> Array:

@@ -31,7 +31,7 @@ from carom.quantities.units import threads_or_none
 THROUGHOUT = 3  # place of the regime of gross slip throughout
 STEP_TOLERANCE = 1e-10  # of one Taylor step; keeps psi_2 to a tenth of what `rebound` promises
 LINEAR_PSI = 1e-6  # below, psi_2 is taken proportional to psi_1: rounding would cost more
-BLOCK, SMALLEST_BLOCK = 256, 8  # impacts that a thread takes at once
+BLOCK, SMALLEST_BLOCK = 256, 64  # impacts that a thread takes at once
 
 NEARLY_ELASTIC, NEARLY_YIELDING = 1e-10, 1e-5
 LOSSY_BLOCK, SMALLEST_LOSSY_BLOCK = 64, 2  # the same with losses

@@ -162,7 +162,8 @@ class _Film:
 
     def _draw_still(self, moving: tuple[Artist, ...]) -> Any:
         """Return what is the same in all frames, laid out with room for the rest."""
-        self.canvas.draw()
+        layout: Any = self.figure.get_layout_engine()
+        layout.execute(self.figure)
         self.figure.set_layout_engine("none")
         for artist in moving:
             artist.set_visible(False)

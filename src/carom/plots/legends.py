@@ -9,12 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
+from matplotlib.transforms import Bbox
 
 from carom.plots.look import AXES, RC, own_figure
 
 SPARE = 1.03  # letters on a screen are wider than their outlines
 SPACES = ("handlelength", "handletextpad", "columnspacing", "borderpad")  # of a legend
 HINTS = 1.1  # by which text can be wider on a screen than its outlines
+FONTS = [name for name in RC if name.startswith(("font.", "mathtext.", "text.usetex"))]
 LOWEST = 0.1  # of the height of a figure: axes are left at least so high
 LABEL_ROOM = 5.0  # beside axes, in sizes of the font
 
@@ -75,7 +77,8 @@ def fitting_columns(handles: list[Any], most: int, room: float, **options: Any) 
     settings = {n: options.get(n, RC[f"legend.{n}"]) for n in SPACES}
     em = font_size(options.get("fontsize", RC["legend.fontsize"]))
     labels = [str(handle.get_label()).strip() or "-" for handle in handles]
-    widths = [TextPath((0, 0), label, size=em).get_extents().width for label in labels]
+    fonts = _fonts()
+    widths = [_outline(label, em, fonts).width for label in labels]
     beside = em * (settings["handlelength"] + settings["handletextpad"])
     for columns in range(min(most, len(handles)), 1, -1):
         wide = [part.max() for part in np.array_split(widths, columns)]
@@ -92,17 +95,27 @@ def font_size(size: str | float) -> float:
 
 def text_width(text: str, size: str | float = "small") -> float:
     """Return how wide a line of text may be, in points."""
-    family = str(RC["font.family"])
-    words = [_em_width(word, family) for word in text.split(" ")]
-    spaces = (len(words) - 1) * _em_width(" ", family)
+    fonts = _fonts()
+    words = [_em_width(word, fonts) for word in text.split(" ")]
+    spaces = (len(words) - 1) * _em_width(" ", fonts)
     return HINTS * font_size(size) * (sum(words) + spaces)
 
 
-@lru_cache(1024)
-def _em_width(word: str, family: str) -> float:
-    """Return how wide a word is in a family of fonts, in sizes of the font."""
-    ends = [TextPath((0, 0), text, size=100.0).get_extents().x1 for text in ("||", f"|{word}|")]
+def _em_width(word: str, fonts: tuple[str, ...]) -> float:
+    """Return how wide a word is, in sizes of the font."""
+    ends = [_outline(text, 100.0, fonts).x1 for text in ("||", f"|{word}|")]
     return float(ends[1] - ends[0]) / 100.0
+
+
+@lru_cache(4096)
+def _outline(text: str, size: float, fonts: tuple[str, ...]) -> Bbox:
+    """Return the box around a text in the fonts that are set; they tell kept boxes apart."""
+    return TextPath((0, 0), text, size=size).get_extents()
+
+
+def _fonts() -> tuple[str, ...]:
+    """Return all that is set of fonts."""
+    return tuple(str(RC[name]) for name in FONTS)
 
 
 def wrapped(text: str, room: float) -> str:

@@ -158,7 +158,11 @@ def _set_height(figure: Figure, axis: Axes) -> None:
 
 def _laid_out(figure: Figure, axis: Axes) -> tuple[tuple[float, float], Array]:
     """Return the size of the axes in mm, and what makes mm of its coordinates: factor, shift."""
-    figure.draw_without_rendering()
+    engine = figure.get_layout_engine()
+    if engine is None or AXES.get() is not None:
+        figure.draw_without_rendering()
+    else:  # sooner
+        engine.execute(figure)
     box = axis.get_window_extent()
     size = np.array([box.width, box.height]) * 25.4 / figure.dpi
     low, high = np.array([axis.get_xlim(), axis.get_ylim()]).T

@@ -162,6 +162,7 @@ class Sheet:
         around = (maximum_filter(self.owner, 3), minimum_filter(self.owner, 3))
         self.lines = np.not_equal(*around)
         self.busy = np.zeros(self.owner.shape, dtype=np.bool_)
+        self.places: dict[tuple[float, float], Array] = {}  # of labels, once nothing more is busy
 
     def keep_off(self, points: Array) -> None:
         """Keep labels off a line through points in mm."""
@@ -203,13 +204,10 @@ class Sheet:
         Lines cost their length, more on borders and where they pass the anchors of others closely.
         """
         most = SPOTS // (3 * len(anchors))
-        stride = int(np.ceil((_block([""]).height + APART) / self.pixel / 2.0))
         start, others = anchors[k], np.delete(anchors, k, axis=0)
         for block in blocks:
             half = 0.5 * np.array([block.width, block.height])
-            fits = np.argwhere(self._fits(~self.busy & ~self.lines, block))
-            fits = fits[np.all(fits % stride == 0, axis=1)]
-            places = (fits[:, ::-1] + 0.5) * self.pixel
+            places = self._free_places(block)
             ends = np.clip(start, places - half, places + half)
             length = np.hypot(*(ends - start).T)
             allowed = (length >= LEADER) & (length <= LONGEST)
@@ -221,6 +219,16 @@ class Sheet:
                     close = np.hypot(*(points[:, np.newaxis] - others).T).min(axis=-1) < CLOSE
                     cost += BY_OTHER * close.sum() + extra
                     yield Spot(cost, Label(block, places[i], start))
+
+    def _free_places(self, block: Block) -> Array:
+        """Return where a label could stand in free room, in mm: a lattice of places."""
+        size = block[1:3]
+        if size not in self.places:
+            stride = int(np.ceil((_block([""]).height + APART) / self.pixel / 2.0))
+            fits = self._fits(~self.busy & ~self.lines, block)[::stride, ::stride]
+            at = np.argwhere(fits)[:, ::-1] * stride + 0.5
+            self.places[size] = np.asarray(at * self.pixel, dtype=np.float64)
+        return self.places[size]
 
     def _fits(self, free: Mask, block: Block) -> Mask:
         size = [int(np.ceil((side + APART) / self.pixel)) for side in (block.height, block.width)]
@@ -270,19 +278,21 @@ def _meeting(labels: list[Label]) -> Callable[[int], Mask]:
 
     A line that passes a label crosses one of its diagonals.
     """
-    at, end = (np.array([getattr(label, name) for label in labels]) for name in ("at", "end"))
-    start = np.array([one.at if one.start is None else one.start for one in labels])
-    half = 0.5 * np.array([one.block[1:3] for one in labels]) + 0.5 * APART
-    diagonals = [(at - half * (1.0, sense), at + half * (1.0, sense)) for sense in (1.0, -1.0)]
+    at, end = (np.array([getattr(label, name) for label in labels]).T for name in ("at", "end"))
+    start = np.array([one.at if one.start is None else one.start for one in labels]).T
+    half = 0.5 * np.array([one.block[1:3] for one in labels]).T + 0.5 * APART
+    falling = half * np.array([[1.0], [-1.0]])
+    lines = [(start, end), (at - half, at + half), (at - falling, at + falling)]
+    begin, stop = (np.hstack(ends) for ends in zip(*lines, strict=True))
 
     @cache
     def meets(k: int) -> Mask:
-        line = start[k], end[k]
-        apart = np.abs(at - at[k]) - half - half[k]
-        meet = (apart[:, 0] < 0.0) & (apart[:, 1] < 0.0)
-        meet |= _crossing(*line, start, end)
-        for low, high in diagonals:
-            meet |= _crossing(*line, low, high) | _crossing(low[k], high[k], start, end)
+        own = np.s_[:, k : k + 1]
+        apart = np.abs(at - at[own]) - half - half[own]
+        meet = (apart[0] < 0.0) & (apart[1] < 0.0)
+        meet |= _crossing(start[own], end[own], begin, stop).reshape(len(lines), -1).any(axis=0)
+        for low, high in lines[1:]:
+            meet |= _crossing(low[own], high[own], start, end)
         return np.asarray(meet)
 
     return meets
@@ -290,13 +300,15 @@ def _meeting(labels: list[Label]) -> Callable[[int], Mask]:
 
 def _crossing(a: Array, b: Array, c: Array, d: Array) -> Mask:
     """Tell which of the lines from c to d the line from a to b crosses."""
-    apart = _sides(a, b, c) * _sides(a, b, d), _sides(c, d, a) * _sides(c, d, b)
-    return np.asarray((apart[0] < 0.0) & (apart[1] < 0.0))
+    crossed = _sides(a, b, c) * _sides(a, b, d) < 0.0
+    c, d = c[:, crossed], d[:, crossed]
+    crossed[crossed] = _sides(c, d, a) * _sides(c, d, b) < 0.0
+    return crossed
 
 
 def _sides(start: Array, end: Array, points: Array) -> Array:
     """Return on which side of lines points lie, by sign."""
-    (x, y), (u, v) = (end - start).T, (points - start).T
+    (x, y), (u, v) = end - start, points - start
     return np.asarray(x * v - y * u)
 
 

@@ -20,7 +20,7 @@ def in_blocks(
     threads = threads or available_cores()
     size = min(largest, max(smallest, -(-count // (2 * threads))))
     parts = [slice(start, start + size) for start in range(0, count, size)]
-    workers = min(threads, len(parts))
+    workers = min(threads, len(parts) - 1)
     if workers <= 1:
         for part in parts:
             task(part)
