@@ -94,7 +94,7 @@ class Solution(Trajectory):
             psi=scale * rows[:, dense.AT_PSI],
             displacement=scale * rows[:, dense.AT_U],
             force=scale * rows[:, dense.AT_Q],
-            stick_radius=rows[:, dense.AT_STICK],
+            stick_radius=rows[:, dense.AT_STICK if self.psi_in else dense.AT_CONTACT],
             contact_radius=rows[:, dense.AT_CONTACT],
             stored=scale**2 * rows[:, dense.AT_STORED],
             dissipated=scale**2 * rows[:, dense.AT_DISSIPATED],
@@ -346,6 +346,9 @@ def solve_elastic(psi_1: float, chi: float, give: float = 0.0) -> Solution:
         return Solution(*solved)
     e, duration, deepest = plates.normal_motion(give, STEP_TOLERANCE, work)
     widest = deepest**0.5
+    if psi_1 == 0.0:  # recorded at the smallest psi_1
+        phases = (Phase(states.KIND_NAMES[Kind.STICK], 0, 0.0, duration, Cause.SEPARATION.message),)
+        solved = *solved[:4], phases, record, steps
     return Solution(*solved, e, duration, deepest, deepest**1.5, widest, widest)
 
 

@@ -304,7 +304,8 @@ def _impact_text(hit: ImpactResult) -> str:
     """Return the result as text to read."""
     scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
     note = NOTES["lossy" if hit.losses is not None else method]
-    loses = hit.losses is not None or (method != "exact" and hit.pair.dundurs_beta != 0.0)
+    coupled = method != "exact" and hit.pair.dundurs_beta != 0.0
+    loses = hit.losses is not None or hit.pair.thickness is not None or coupled
     shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
     if loses and not scalars["shear_lost_energy"]:  # as of spheres that yield
         shown.remove("shear_lost_energy")
