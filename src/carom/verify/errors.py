@@ -283,11 +283,13 @@ def step_error(
 
     Parameters
     ----------
+    law : Law or callable
+        A contact law, as for `force_error`.
     steps : int
         Time steps per t_c, from 10 to two million.
     psi_1 : array_like
         Incidences psi_1.
-    law, chi, kappa
+    chi, kappa : float, optional
         As for `force_error`.
 
     Returns
@@ -328,9 +330,11 @@ def advised_steps(
 
     Parameters
     ----------
+    law : Law or callable
+        A contact law, as for `force_error`.
     allowed : float
         Largest |error in psi_2| that the steps may cause.
-    law, psi_1, chi, kappa
+    psi_1, chi, kappa : optional
         As for `step_error`.
 
     Returns
