@@ -119,6 +119,16 @@ def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
     return all(abs(a - b) <= SAME_BODIES * abs(b) for a, b in values)
 
 
+def plate_give(pair: "Pair", scales: Scales) -> float:
+    """Return how far a plate gives way, lambda = m_n V_1/(8 sqrt(D rho h) d_max) (Zener 1941).
+
+    It is 0 for a thick wall.
+    """
+    wall = pair.second
+    impedance = wall.impedance if isinstance(wall, HalfSpace) else inf
+    return pair.normal_mass / (impedance * scales.time)
+
+
 def pair_fits(pair: "Pair") -> bool:
     """Return whether floating point holds masses and stiffnesses of two bodies together."""
     with suppress(OverflowError, ZeroDivisionError):
@@ -192,15 +202,6 @@ class Pair(Printed):
     def thickness(self) -> float | None:
         """Thickness of a plate that is struck, in m; None if it is none."""
         return self.second.thickness if isinstance(self.second, HalfSpace) else None
-
-    def plate_give(self, scales: Scales) -> float:
-        """Return how far a plate gives way, lambda = m_n V_1/(8 sqrt(D rho h) d_max) (Zener 1941).
-
-        It is 0 for a thick wall.
-        """
-        wall = self.second
-        impedance = wall.impedance if isinstance(wall, HalfSpace) else inf
-        return self.normal_mass / (impedance * scales.time)
 
     @cached_property
     def effective_modulus(self) -> float:

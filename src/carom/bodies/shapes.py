@@ -161,7 +161,7 @@ class HalfSpace(Body):
 
     @property
     def impedance(self) -> float:
-        """Force over speed of a plate's middle, 8 sqrt(D rho h) in N s/m; of a thick wall inf."""
+        """Force over speed of a plate's middle, 8 sqrt(D rho h), infinite if thick, in N s/m."""
         if self.thickness is None:
             return math.inf
         stuff, h = self.material, self.thickness
