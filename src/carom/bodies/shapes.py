@@ -161,7 +161,7 @@ class HalfSpace(Body):
 
     @property
     def impedance(self) -> float:
-        """Force over speed of a plate's middle, 8 sqrt(D rho h), infinite if thick, in N s/m."""
+        """Force over speed of a plate's middle, 8 sqrt(D rho h), infinite if thick, in kg/s."""
         if self.thickness is None:
             return math.inf
         stuff, h = self.material, self.thickness
