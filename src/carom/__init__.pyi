@@ -13,6 +13,7 @@ from .bodies.losses import (
     ElasticPlastic as ElasticPlastic,
     KelvinVoigt as KelvinVoigt,
     StandardLinearSolid as StandardLinearSolid,
+    ZenerPlate as ZenerPlate,
 )
 from .bodies.materials import Material as Material, material as material, materials as materials
 from .bodies.pairs import Pair as Pair

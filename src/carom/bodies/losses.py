@@ -21,12 +21,15 @@ from carom.quantities.units import Value, not_negative, positive, within
 
 SMALLEST_RESTITUTION = 1e-3
 STIFFEST = 1000.0  # modulus at once over the relaxed one
+ZENER = 1.25**0.4  # his inelasticity parameter over lambda
+LARGEST_INELASTICITY = 2.18  # lambda = 2
 READERS: dict[str, Callable[[str, Any], float]] = {
     "restitution": partial(within, least=SMALLEST_RESTITUTION, most=1.0),
     "loss_time": not_negative,
     "yield_velocity": positive,
     "modulus_ratio": partial(within, least=1.0, most=STIFFEST),
     "relaxation_time": not_negative,
+    "inelasticity": partial(within, least=0.0, most=LARGEST_INELASTICITY),
 }
 LIMIT_PRESSURE = 1.6  # in yield strengths: where a sphere first yields (Johnson 1985, 6.1)
 NO_YIELD_VELOCITY = "yield_velocity: missing; give it, or a yield_strength of a material"
@@ -245,6 +248,56 @@ class StandardLinearSolid(LossLaw):
             ratio = np.where((ratio >= 1.0) & (ratio <= STIFFEST), ratio, np.nan)
         time = self.relaxation_time / scales.time
         return LossNumbers(Loss.RELAXING, time, ratio - 1.0)
+
+
+@dataclass(frozen=True)
+class ZenerPlate(LossLaw):
+    """A wide elastic plate that gives way under the force, by Zener's inelasticity parameter.
+
+        d'' = -(5/4) (d^(3/2) + (3/2) lambda sqrt(d) d'), lambda_Z = (5/4)^(2/5) lambda
+
+    The bodies lose nothing; waves in the plate carry energy away, and e is close to
+    exp(-1.719 lambda_Z) while that is near 1. For a plate of which the thickness is known use
+    `HalfSpace(material, thickness=...)`: its lambda grows as V_1^(1/5).
+
+    Parameters
+    ----------
+    inelasticity : float
+        lambda_Z = (5/4)^(2/5) m_n V_1/(8 sqrt(D rho h) d_max), from 0 to 2.18, with the stiffness D
+        in bending, the mass rho h per area, and d_max of the impact on a thick wall.
+
+    Raises
+    ------
+    InputError
+        If it is out of range.
+
+    Notes
+    -----
+    Zener (1941), Phys. Rev. 59:669-673.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.rebound([0.5, 9.0], 1.44, losses=carom.ZenerPlate(inelasticity=0.4)).round(6)
+    array([0.049481, 4.637839])
+    """
+
+    _source: ClassVar[str] = "zener1941"
+    inelasticity: Any
+
+    @known_keywords
+    def __init__(self, inelasticity: Any) -> None:
+        self._keep(inelasticity=inelasticity)
+
+    def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
+        """Return the kind of loss and lambda."""
+        return LossNumbers(Loss.PLATE, self.inelasticity / ZENER)
+
+    def _scale_free(self) -> LossNumbers:
+        """Return the kind of loss and lambda; one must have been given."""
+        many = np.ndim(self.inelasticity) and "give one, or use carom.sweep"
+        refuse(many and refusal("losses", self, many))
+        return LossNumbers(Loss.PLATE, float(self.inelasticity) / ZENER)
 
 
 def yield_velocity(pair: Pair) -> float:

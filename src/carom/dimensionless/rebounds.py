@@ -238,16 +238,17 @@ def rebound(
     return answered({"psi_1": psi_1, "chi": chi}, solve, Status, return_status)
 
 
-def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
+def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0, turning: float = 0.0) -> Array:
     """Return the |psi_1| at which the regime changes, along a new last axis.
 
-    They are 1; 2 chi, up to which gross slip ends before the largest compression; and
-    2 chi (1 + e) - e, from which on gross slip lasts to the end. All are 1 for chi <= 1/2.
+    They are 1; 2 chi (1 - w), up to which gross slip ends before the largest compression; and
+    2 chi (1 + e) - e, from which on gross slip lasts to the end. All are 1 for chi <= 1/2. w is the
+    speed of the centres as the surfaces turn, 0 unless a plate gives way.
     """
     chi, e = np.broadcast_arrays(np.asarray(chi, dtype=np.float64), np.asarray(restitution))
     with np.errstate(over="ignore"):
         twice = 2.0 * chi
-        borders = np.ones_like(twice), twice, twice * (1.0 + e) - e
+        borders = np.ones_like(twice), twice * (1.0 - turning), twice * (1.0 + e) - e
     return np.asarray(np.maximum(np.stack(borders, axis=-1), 1.0))
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
+from carom.dimensionless.lossy.law import Loss, ScaleFreeLaw, scale_free
 from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
 from carom.impacts.map_borders import border_variables
 from carom.impacts.sequences import Sequences
@@ -109,7 +109,7 @@ def curve(
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     outgoing = rebound(nonzero, rows, losses=losses)
     contact = outgoing / nonzero
-    wide, border = ("chi", "psi_in"), regime_borders(chis, _restitution(losses))
+    wide, border = ("chi", "psi_in"), regime_borders(chis, *_ends(losses))
     attributes: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
     return labelled_dataset(
         {
@@ -140,12 +140,14 @@ def _axes(chi: Any, psi_1: Any) -> tuple[Array, Array]:
     return chis, incoming
 
 
-def _restitution(losses: ScaleFreeLaw | None) -> float:
-    """Return e of a law of losses, or raise InputError if it depends on the speed."""
+def _ends(losses: ScaleFreeLaw | None) -> tuple[float, float]:
+    """Return e, and the speed of the centres as the surfaces turn, or raise InputError."""
     if losses is None:
-        return 1.0
-    one = np.ones(1)
-    return float(lossy_rebounds(one, one, scale_free(losses)).restitution[0])
+        return 1.0, 0.0
+    one, numbers = np.ones(1), scale_free(losses)
+    values = lossy_rebounds(one, one, numbers)
+    gives = 1.25 * numbers.parameter if numbers.loss == Loss.PLATE else 0.0
+    return float(values.restitution[0]), float(gives * values.max_force[0])
 
 
 @known_keywords
@@ -203,7 +205,7 @@ def regime_map(
     gross slip +, stick, slip -, gross slip -
     """
     chis, incoming = _axes(chi, psi_1)
-    e = _restitution(losses)
+    e, _ = _ends(losses)
     sequences, rows = Sequences(losses, e), []
     with advancing("computing the map of regimes", len(chis), progress, unit="rows") as advance:
         for value in chis:
