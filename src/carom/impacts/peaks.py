@@ -49,6 +49,7 @@ VERDICTS = {  # of whom, and the ending of the verb: it holds, it fails, it may 
         "flaws in {0} may grow into cracks",
     ),
 }
+UNSURE = "{0} may yield: the yield strength in an impact is not known well enough"
 MAY_YIELD = 1.1  # stress over Y up to which e is above 0.99: V_1/V_y = 1.27, Thornton (1997)
 YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 1985, 6.1)
 WHERE = " (give them to carom.Material or carom.material(name, ...))"
@@ -273,10 +274,21 @@ def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
 
 
 def _yields(bodies: dict[str, StruckBody]) -> Finding:
-    """Return the finding on yield, at the yield strength of slow tests and at that of impacts."""
-    ratios = _ratios("yield_ratio", bodies)
-    broken = [body for body, ratio in ratios.items() if ratio > MAY_YIELD * _hardened(bodies[body])]
-    without = _without("yield_strength", bodies)
+    """Return the finding on yield, at the yield strength of slow tests and at that of impacts.
+
+    What is brittle yields between a third of its hardness and all of it (Johnson 1985, 6.3).
+    """
+    ratios, broken = _ratios("yield_ratio", bodies), []
+    for which, body in bodies.items():
+        if which in ratios:
+            limit = MAY_YIELD * _hardened(body)
+        elif body.bears("hardness") > 0.0:
+            ratios[which] = 3.0 * body.peak("peak_von_mises").value / body.bears("hardness")
+            limit = 3.0
+        else:
+            continue
+        broken += [which] * (ratios[which] > limit)
+    without = {which: body.material for which, body in bodies.items() if which not in ratios}
     if ratios and (broken or not without or any(b.searched_depth for b in bodies.values())):
         return _finding("yield_ratio", ratios, bodies, broken)
     worst = max(ratios.values(), default=nan)
@@ -344,13 +356,20 @@ def _finding(
         words = f"the stresses in {whose} are {below}; the surface is not judged"
         return Finding(label, ratio, 1.0, None, words)
     good, bad, perhaps = VERDICTS[name]
+    if ratio > MAY_YIELD and name == "yield_ratio" and not broken:
+        perhaps = UNSURE
     words = (bad if broken else perhaps if beyond else good).format(whose, "" if several else "s")
     return Finding(label, ratio, 1.0, False if broken else None if beyond else True, words)
 
 
 def _hardened(body: StruckBody) -> float:
     """Return by what the yield strength is larger at the rate of strain of the impact."""
-    return 1.0
+    hardening = body.material.rate_hardening
+    if hardening is None:
+        return 1.0
+    strain = body.peak("peak_von_mises").value / body.material.young
+    rate = strain / (0.5 * body.contacts.solution.duration * body.scales.time)
+    return 1.0 + float((rate / hardening["coefficient"]) ** (1.0 / hardening["exponent"]))
 
 
 def judge_pressure(pair: Pair, pressure: float, *, yields: bool) -> Finding:

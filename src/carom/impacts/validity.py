@@ -5,10 +5,11 @@ None. What the bodies bear, which takes more, is in `peaks`.
 """
 
 from collections.abc import Callable, Sequence
-from math import isfinite, nan, sqrt
+from math import isfinite, isnan, nan, sqrt
 
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
+from carom.bodies.shapes import Sphere
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.neglected import (
     NO_BETA,
@@ -18,6 +19,7 @@ from carom.dimensionless.neglected import (
     rebound_error,
     spin_error,
 )
+from carom.impacts.dissipation import adhesion, damping, together, waves
 from carom.impacts.findings import bounded, judged
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding, Validity
@@ -27,6 +29,9 @@ WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundr
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
 STUDIED, LEAST_STUDIED = (0.3, 5.0), 0.5  # chi, and e, for which solids of one e were compared
 FAST, YIELDED = 10.0, 0.05  # V_1/V_y up to which psi_2 is as close as this to rings of traction
+STIFF_SHELL, SOFT_SHELL = 0.01, 0.1  # dent of a shell over Hertz's depth: as a ball, as none
+SOLID_BALL = 0.4 * (1.0 + 1e-9)  # K^2/R^2
+NO_SOLID_BALL = "a ball with this radius of gyration is not solid"
 FULL = "the full contact in three dimensions"
 Assumption = Callable[[ImpactResult], Finding | None]
 
@@ -63,6 +68,40 @@ def _transit(pair: Pair) -> float:
     """Return the time of a bar wave through the slower sphere and back, 4 R sqrt(rho/E)."""
     bodies = [(body.radius, body.material) for body in pair.moving if not body.material.is_rigid]
     return max([4.0 * r / sqrt(m.young / (m.density or 1.0)) for r, m in bodies], default=0.0)
+
+
+def _shell(hit: ImpactResult) -> Finding | None:
+    """Return the finding on hollow spheres: the dent of a shell under a point load, over d_max.
+
+    Its stiffness is 4 E h^2/(R sqrt(3 (1 - nu^2))) (Reissner 1946).
+    """
+    dents = [_dent(body, hit) for body in hit.pair.moving if not body.material.is_rigid]
+    dent, name = max(dents, default=0.0), "dent of the shell/d_max"
+    if isnan(sum(dents)):
+        words = f"{NO_SOLID_BALL}; Sphere(inner_radius=...) tells a shell"
+        return Finding(name, nan, STIFF_SHELL, None, f"not judged: {words}", "inner_radius")
+    if dent == 0.0:
+        return None
+    if dent <= SOFT_SHELL:
+        good = "the shell is so stiff that its contact is that of a solid ball"
+        perhaps = "the shell gives way a little, which the theory neglects"
+        return bounded(name, dent, STIFF_SHELL, good, perhaps)
+    words = (
+        "the shell dents, which the theory neglects: measure e and the rebound at several angles, "
+        "and let carom.fit find kappa"
+    )
+    return Finding(name, dent, STIFF_SHELL, False, words)
+
+
+def _dent(ball: Sphere, hit: ImpactResult) -> float:
+    """Return the dent of a shell over d_max: 0 if it is solid, NaN if that is not known."""
+    if ball.gyration_radius is not None:
+        return nan if ball.gyration_ratio > SOLID_BALL else 0.0
+    if ball.inner_radius == 0.0:
+        return 0.0
+    wall, stuff = ball.radius - ball.inner_radius, ball.material
+    thin = 4.0 * stuff.young * wall**2 / ball.radius
+    return hit.scales.force * sqrt(3.0 * (1.0 - stuff.poisson**2)) / (thin * hit.scales.length)
 
 
 def _solid(hit: ImpactResult) -> Finding | None:
@@ -164,5 +203,13 @@ def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
     return judged("error of psi_2", psi_out, *limits), judged("error of energy", energy, *limits)
 
 
-OF_BODIES: tuple[Assumption, ...] = (_slow_contact, _solid)
+OF_BODIES: tuple[Assumption, ...] = (
+    _slow_contact,
+    _shell,
+    waves,
+    adhesion,
+    damping,
+    together,
+    _solid,
+)
 OF_THEORY: tuple[Assumption, ...] = (*OF_BODIES, _spin, _rebound)
