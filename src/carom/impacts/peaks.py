@@ -50,7 +50,7 @@ VERDICTS = {  # of whom, and the ending of the verb: it holds, it fails, it may 
     ),
 }
 UNSURE = "{0} may yield: the yield strength in an impact is not known well enough"
-MAY_YIELD = 1.1  # stress over Y up to which e is above 0.99: V_1/V_y = 1.27, Thornton (1997)
+MAY_YIELD = 1.09  # stress over Y up to which e is above 0.99: V_1/V_y = 1.24, Thornton (1997)
 YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 1985, 6.1)
 WHERE = " (give them to carom.Material or carom.material(name, ...))"
 UPPER_BOUND = (
