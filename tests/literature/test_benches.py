@@ -3,7 +3,7 @@
 None says "holds" where e is known to be below 0.99; none says "fails" where the theory is good to
 that; and where it is good, and the catalogue has what the verdict needs, it says "holds". What is
 known is a measurement, or that no loss of energy reaches a hundredth: stresses below first yield
-(Johnson 1985, 6.1), waves in a thick wall (Hunter 1957), adhesion (Johnson, Kendall & Roberts 1971).
+(Johnson 1985, 6.1), waves in a thick wall (Hunter 1957), adhesion (Johnson, Kendall & Roberts).
 """
 
 import pytest
