@@ -7,6 +7,7 @@ import pytest
 
 import carom
 from carom import Cup, HalfSpace, InputError, Material, Pair, Sphere
+from carom.bodies.materials import VALUES
 from carom.dimensionless.neglected import not_studied, rebound_error
 
 STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
@@ -248,7 +249,8 @@ def test_catalogue():
     for name, stuff in catalogue.items():
         sources = carom.material(name).sources
         assert stuff.density is not None
-        for key in ("young", "poisson", "density", "yield_strength"):
+        assert set(sources) <= {*VALUES, "rate_hardening"}, name
+        for key in (*VALUES, "rate_hardening"):
             assert (getattr(stuff, key) is not None) == (key in sources), (name, key)
             assert len(sources.get(key, "long enough")) > 8
     assert carom.material("  Mild Steel ") == carom.material("steel")

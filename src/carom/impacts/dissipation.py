@@ -79,9 +79,9 @@ def pull_off_work(pair: Pair, usual: float) -> float:
     """
     energies = [m.surface_energy for m in (pair.first.material, pair.second.material)]
     one, two = (usual if energy is None else energy for energy in energies)
-    adhering = (2.0 * sqrt(one * two)) ** 5
-    size = adhering * pair.effective_radius**4 / pair.effective_modulus**2
-    return float(PULL_OFF * size ** (1.0 / 3.0))
+    adhering = (2.0 * sqrt(one * two)) ** (5.0 / 3.0)
+    size = (pair.effective_radius**2 / pair.effective_modulus) ** (2.0 / 3.0)
+    return float(PULL_OFF * adhering * size)
 
 
 def damping(hit: ImpactResult) -> Finding | None:

@@ -40,7 +40,7 @@ VERDICTS = {  # of whom, and the ending of the verb: it holds, it fails, it may 
     "yield_ratio": (
         "{0} stay{1} elastic",
         "{0} yield{1}, so the real restitution is below 1 and stresses are upper bounds",
-        "{0} may yield; the real restitution is hardly below 1, stresses are upper bounds",
+        "{0} may yield; e is then still above 0.99, and stresses are upper bounds",
     ),
     "tension_ratio": ("{0} bear{1} the tensile stress", "", "{0} may crack"),
     "toughness_ratio": (
