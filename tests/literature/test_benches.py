@@ -105,6 +105,7 @@ OPEN = [  # the theory is good, or nobody knows; what a verdict would need is no
     (GLASS, "5 mm", None, 0.05, 0, 0.1, "loss_factor of soda-lime-glass"),
     ("silicon-nitride", "10 mm", BEARING, 0.1, 0, 0.1, "loss_factor of silicon-nitride"),
     ("zirconia", "10 mm", BEARING, 0.1, 0, 0.1, "loss_factor of zirconia"),
+    (BEARING, "10 mm", "bk7", 0.1, 0, 0.1, "fracture_toughness of bk7"),
     ("tungsten", "10 mm", None, 0.005, 0, 0.3, "loss_factor of tungsten"),
     ("ice", "20 mm", None, 0.1, 0, 0.1, "yield_strength of ice"),
     ("granite", "50 mm", None, 0.1, 0, 0.5, "yield_strength of granite"),

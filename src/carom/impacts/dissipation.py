@@ -24,8 +24,7 @@ def waves(hit: ImpactResult) -> Finding | None:
 
     The wall radiates B times the integral of F'^2 dt with B = f(nu)/(2 pi G c_s), f from the force
     on a half-space that oscillates (Miller & Pursey 1955: 4.836 for nu = 1/4). For like materials
-    that is 1.11 (V_1/c)^(3/5) of the energy at nu = 1/4; Hunter (1957) has 1.04 for a pulse that is
-    a half sine.
+    that is 1.11 (V_1/c)^(3/5) of the energy at nu = 1/4; Hunter (1957) is quoted with 1.04.
     """
     wall, stuff = hit.pair.second, hit.pair.second.material
     if isinstance(wall, Sphere) or stuff.is_rigid or hit.losses is not None:

@@ -67,7 +67,7 @@ class Impact(ImpactResult, InContact):
     @cached_property
     def _strength(self) -> tuple[Finding, ...]:
         if isinstance(self.solution, MarchedSolution):
-            yields = self.solution._losses.loss == Loss.PLASTIC
+            yields = self.solution._losses.loss != Loss.RELAXING
             return (judge_pressure(self.pair, self.scales.pressure, yields=yields),)
         return judge_strength(struck_bodies(self.pair, self.scales, self.solution))
 

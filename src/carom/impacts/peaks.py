@@ -97,6 +97,14 @@ class StruckBody:
         return self._in_units(peak, self.scales.pressure * sqrt(pi * width))
 
     @property
+    def is_brittle(self) -> bool:
+        """Whether it may crack: so far as is known of its material."""
+        by_hardness = self.bears("hardness") > 0.0 and isnan(self.bears("yield_strength"))
+        return (
+            by_hardness or self.bears("fracture_toughness") > 0.0 or self.bears("flaw_size") > 0.0
+        )
+
+    @property
     def judges_flaws(self) -> bool:
         """Whether the stress is known up to the surface."""
         return isinstance(self.contacts.solution, Solution)
@@ -305,24 +313,27 @@ def _tears(bodies: dict[str, StruckBody]) -> Finding | None:
 
 
 def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
-    """Return the finding on flaws, of any depth where it is not known how deep they are."""
-    tough = {name: body for name, body in bodies.items() if body.bears("fracture_toughness") > 0.0}
-    label, key = RATIOS["toughness_ratio"][0], "flaw_size"
-    flawed = {name: body for name, body in bodies.items() if body.bears(key) > 0.0}
-    if fragile := _without("fracture_toughness", flawed):
-        return lacking(label, 1.0, "fracture_toughness", fragile)
-    if not tough:
+    """Return the finding on flaws, of any depth where it is not known how deep they are.
+
+    It arises where a body is brittle: toughness, flaws or, without a yield strength, its hardness
+    are known.
+    """
+    label = RATIOS["toughness_ratio"][0]
+    brittle = {name: body for name, body in bodies.items() if body.is_brittle}
+    if not brittle:
         return None
-    if not all(body.judges_flaws for body in tough.values()):
+    if not all(body.judges_flaws for body in brittle.values()):
         words = "not judged with losses, as stresses at the surface have no bound"
         return Finding(label, nan, 1.0, None, words)
-    ratios = {name: tough[name].toughness_ratio() for name in flawed if name in tough}
-    deep = {name: tough[name].deep_toughness_ratio() for name in tough if name not in flawed}
+    ratios = _ratios("toughness_ratio", brittle)
     broken = [name for name, ratio in ratios.items() if ratio > 1.0]
-    unsure = {name: tough[name].material for name, ratio in deep.items() if ratio > 1.0}
-    if unsure and not broken:
-        return lacking(label, 1.0, key, unsure, max(deep.values()))
-    return _finding("toughness_ratio", ratios | deep, tough, broken)
+    deep = {n: b for n, b in brittle.items() if n not in ratios}
+    ratios |= _ratios("deep_toughness_ratio", deep)
+    for key in ("fracture_toughness", "flaw_size"):
+        unsure = _without(key, {n: b for n, b in deep.items() if not ratios.get(n, inf) <= 1.0})
+        if unsure and not broken:
+            return lacking(label, 1.0, key, unsure, max(ratios.values(), default=nan))
+    return _finding("toughness_ratio", ratios, brittle, broken)
 
 
 def _ratios(name: str, bodies: dict[str, StruckBody]) -> dict[str, float]:
