@@ -64,7 +64,7 @@ def test_waves_take_what_hertz_force_radiates(poisson):
 
 
 def test_waves_are_about_those_of_hunter():
-    """They go with (V_1/c)^(3/5) for like materials; Hunter (1957) is quoted with 1.04, not 1.11."""
+    """They go with (V_1/c)^(3/5) for like materials; Hunter (1957) is quoted with 1.04 of it."""
     stuff = carom.Material(young="200 GPa", poisson=0.25, density=7800)
     ball = carom.Sphere(radius="5 mm", material=stuff)
     pair = carom.Pair(ball, carom.HalfSpace(material=stuff), friction=0.0)
