@@ -7,6 +7,7 @@ import pytest
 
 import carom
 from carom import Cup, HalfSpace, InputError, Material, Pair, Sphere
+from carom.bodies.materials import VALUES
 from carom.dimensionless.neglected import not_studied, rebound_error
 
 STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
@@ -133,19 +134,22 @@ def test_cup_and_rigid_counterbody():
 
 
 def test_validity_speaks_up():
-    fine = carom.impact(PLATE, speed=0.1).validity
-    assert fine.holds
-    assert "not known" in str(fine)
-    assert fine.findings[1].holds is None
+    unjudged = carom.impact(PLATE, speed=0.1).validity
+    assert unjudged.holds is None
+    assert unjudged.verdict == "not judged"
+    assert "no yield strength of the first body and the second body: Material(" in str(unjudged)
+    assert unjudged.findings[1].holds is None
     soft = Sphere(radius="20 mm", material="rubber")
     unlike = carom.impact(Pair(soft, HalfSpace(material=STEEL), 0.5), speed=20.0).validity
     verdicts = {finding.name: finding.holds for finding in unlike.findings}
-    assert not verdicts["a_max/R*"]
+    assert verdicts["a_max/R*"] is False
+    assert unlike.holds is False
     mixed = Pair(Sphere(radius="5 mm", material=GLASS), HalfSpace(material=STEEL), 0.2)
-    judged = carom.impact(mixed, speed=1.0).validity
-    assert [f.name for f in judged.findings if f.holds is False] == ["Dundurs beta"]
+    head_on = carom.impact(mixed, speed=1.0).validity.findings[-1]
+    assert (head_on.name, head_on.holds) == ("error of psi_2", True)
     oblique = carom.impact(mixed, speed=1.0, angle="20 deg").validity
-    assert [f.name for f in oblique.findings if f.holds is False][1:] == ["error of psi_2"]
+    assert (oblique.findings[-1].name, oblique.findings[-1].holds) == ("error of psi_2", None)
+    assert "unlike (Dundurs beta 0.196)" in str(oblique)
     assert "method='halfspace'" in str(oblique)
     hard = carom.impact(Pair(Sphere(radius="5 mm", material="steel"), BALL, 0.2), speed=5.0)
     assert "yields" in str(hard.validity)
@@ -245,7 +249,8 @@ def test_catalogue():
     for name, stuff in catalogue.items():
         sources = carom.material(name).sources
         assert stuff.density is not None
-        for key in ("young", "poisson", "density", "yield_strength"):
+        assert set(sources) <= {*VALUES, "rate_hardening"}, name
+        for key in (*VALUES, "rate_hardening"):
             assert (getattr(stuff, key) is not None) == (key in sources), (name, key)
             assert len(sources.get(key, "long enough")) > 8
     assert carom.material("  Mild Steel ") == carom.material("steel")

@@ -76,7 +76,8 @@ def test_values_of_materials_with_and_without_gaps():
         (
             lambda: material_values({"xyz": 1}),
             "^xyz: unknown in a material; known names are young, poisson, density, yield_strength, "
-            "tensile_strength, fracture_toughness, flaw_size, name$",
+            "tensile_strength, fracture_toughness, flaw_size, hardness, surface_energy, "
+            "loss_factor, name$",
         ),
         (lambda: material_values({"modulus": 1}), "modulus: unknown in a material"),
         (lambda: read_material("young=210 GPa, poisson=0,3, density=7850"), POINTS),

@@ -76,8 +76,7 @@ def numbers(name):
 FAILED = {  # a finding that fails, and the words that a caution has for it
     "a_max/R*": r"contact radius is ({value:.2f})",
     "contact time/wave transit": "elastic waves matter",
-    "Dundurs beta": "couple",
-    "error of psi_2": r"off by up to {value:.2g}",
+    "energy of waves in the wall": r"glass take {value:.2g}",
 }
 
 
@@ -127,7 +126,7 @@ def test_a_caution_says_where_the_theory_fails(preset):
 def test_the_steel_balls_yield_where_the_caution_says():
     def yields(speed):
         findings = solved("steel", speed=speed).validity.findings
-        return any(f.name == "von Mises stress/Y" and f.holds is False for f in findings)
+        return any(f.name == "von Mises stress/Y" and f.holds is not True for f in findings)
 
     assert "about 0.45 m/s" in NAMED["steel"].caution
     assert (yields(0.43), yields(0.47)) == (False, True)

@@ -11,10 +11,11 @@ from carom.quantities.glossary import listed
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import checked_type, hint, nearest, refusal, refuse
 from carom.quantities.shown import Printed
-from carom.quantities.units import Value, number, positive
+from carom.quantities.units import Value, not_negative, number, positive
 
 STRENGTHS = ("yield_strength", "tensile_strength", "fracture_toughness", "flaw_size")
-VALUES = ("young", "poisson", "density", *STRENGTHS)
+JUDGED_BY = ("hardness", "surface_energy", "loss_factor")  # verdicts, and nothing else
+VALUES = ("young", "poisson", "density", *STRENGTHS, *JUDGED_BY)
 T = TypeVar("T")
 
 
@@ -53,6 +54,14 @@ class Material(Printed):
         Stress intensity at which cracks grow, in Pa m^0.5, e.g. `"0.75 MPa m^0.5"`.
     flaw_size : float or str, optional
         Depth of the flaws in the surface from which cracks grow.
+    hardness : float or str, optional
+        Indentation hardness, as Vickers's, in Pa: a material that is brittle yields at a third of
+        it at least.
+    surface_energy : float or str, optional
+        Energy of the surface per area, e.g. `"40 mJ/m^2"`: half the work of adhesion of two such
+        surfaces.
+    loss_factor : float or str, optional
+        Loss factor eta, the tangent of the loss angle of vibrations.
     name : str, optional
         Name of the material in results.
 
@@ -76,6 +85,9 @@ class Material(Printed):
     tensile_strength: float | None
     fracture_toughness: float | None
     flaw_size: float | None
+    hardness: float | None
+    surface_energy: float | None
+    loss_factor: float | None
     name: str | None
 
     @known_keywords
@@ -89,15 +101,20 @@ class Material(Printed):
         tensile_strength: Value | None = None,
         fracture_toughness: Value | None = None,
         flaw_size: Value | None = None,
+        hardness: Value | None = None,
+        surface_energy: Value | None = None,
+        loss_factor: Value | None = None,
         name: str | None = None,
     ) -> None:
         ratio = number("poisson", poisson)
         if not -1.0 < ratio <= 0.5:
             raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
         set_fields(self, young=_stiffness(young), poisson=ratio)
-        others = (density, yield_strength, tensile_strength, fracture_toughness, flaw_size)
+        strengths = (yield_strength, tensile_strength, fracture_toughness, flaw_size)
+        others = (density, *strengths, hardness, surface_energy, loss_factor)
         for key, value in zip(VALUES[2:], others, strict=True):
-            set_fields(self, **{key: None if value is None else positive(key, value)})
+            check = not_negative if key in VALUES[-2:] else positive
+            set_fields(self, **{key: None if value is None else check(key, value)})
         if name is not None:
             checked_type("name", name, str, "must be a text")
         set_fields(self, name=name)
@@ -117,11 +134,22 @@ class Material(Printed):
         """Sources of the values that are those of the catalogue, each by its name.
 
         >>> sorted(carom.material("steel").sources)
-        ['density', 'poisson', 'yield_strength', 'young']
+        ['density', 'loss_factor', 'poisson', 'rate_hardening', 'yield_strength', 'young']
         """
         entry = _catalogue().get(self.name or "", {})
         texts: dict[str, str] = entry.get("sources", {})
         return {key: text for key, text in texts.items() if getattr(self, key) == entry[key]}
+
+    @property
+    def rate_hardening(self) -> dict[str, float] | None:
+        """Coefficient D in 1/s and exponent q of Cowper & Symonds, 1 + (rate/D)^(1/q).
+
+        This is by what the yield strength of the catalogue is larger at a rate of strain; None
+        where it is not known.
+        """
+        entry = _catalogue().get(self.name or "", {})
+        same = self.yield_strength == entry.get("yield_strength")
+        return entry.get("rate_hardening") if same else None
 
     def __str__(self) -> str:
         values = {key: getattr(self, key) for key in VALUES}

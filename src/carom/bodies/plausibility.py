@@ -35,6 +35,9 @@ LIKELY = {
     "tensile_strength": Likely(1e3, 1e12, "MPa"),
     "fracture_toughness": Likely(1e3, 1e10, "MPa m^0.5"),
     "flaw_size": Likely(0.0, 0.01, "um"),
+    "hardness": Likely(1e3, 1e12, "GPa"),
+    "surface_energy": Likely(0.0, 10.0, "mJ/m^2"),
+    "loss_factor": Likely(0.0, 3.0, "%"),
     "friction": Likely(0.0, 5.0, "%"),
 }
 

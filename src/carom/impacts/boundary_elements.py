@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -18,9 +19,9 @@ from carom.halfspace.motion import LedgerEntry, NormalSpin
 from carom.halfspace.solution import HalfspaceSolution, Resolution, refinement_error, solve
 from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
-from carom.impacts.validity import WEAK_COUPLING, judge_contact, judge_errors
+from carom.impacts.validity import OF_BODIES, WEAK_COUPLING, judge, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
-from carom.io.labels import Validity, labelled_dataset
+from carom.io.labels import Finding, Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal, refuse
@@ -157,16 +158,20 @@ class HalfspaceImpact(ImpactResult):
     @property
     def validity(self) -> Validity:
         """Whether the remaining assumptions hold, and whether the grid is fine enough."""
+        errors = judge_errors(self.psi_out_error, self.energy_error)
+        return Validity((*judge(self, OF_BODIES).findings, *errors))
+
+    @cached_property
+    def _strength(self) -> tuple[Finding, ...]:
         psi = self.psi_in if isfinite(self.psi_in) else 0.0
         solution = theory.solve(psi, self.pair.chi)
         strength = judge_strength(struck_bodies(self.pair, self.scales, solution))
-        if abs(self.pair.dundurs_beta) > WEAK_COUPLING:
-            strength = tuple(
-                finding._replace(holds=None, verdict=f"{finding.verdict}; {BY_THEORY}")
-                for finding in strength
-            )
-        assumed = judge_contact(self, strength)
-        return Validity((*assumed, *judge_errors(self.psi_out_error, self.energy_error)))
+        if abs(self.pair.dundurs_beta) <= WEAK_COUPLING:
+            return strength
+        return tuple(
+            finding._replace(holds=None, verdict=f"{finding.verdict}; {BY_THEORY}")
+            for finding in strength
+        )
 
     def scalars(self) -> dict[str, float]:
         errors = {"psi_out_error": self.psi_out_error, "energy_error": self.energy_error}

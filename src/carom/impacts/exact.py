@@ -22,10 +22,10 @@ from carom.dimensionless.lossy.springs.solution import MarchedSolution
 from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
-from carom.impacts.peaks import judge_strength, peaks_dataset, struck_bodies
-from carom.impacts.plates import judge_plate, refuse_thin
+from carom.impacts.peaks import judge_pressure, judge_strength, peaks_dataset, struck_bodies
+from carom.impacts.plates import refuse_thin
 from carom.impacts.result import ImpactResult
-from carom.impacts.validity import judge, judge_losses, judge_pressure
+from carom.impacts.validity import OF_THEORY, judge
 from carom.impacts.wear import wear_of
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import Finding, Validity
@@ -63,15 +63,13 @@ class Impact(ImpactResult, InContact):
     @property
     def validity(self) -> Validity:
         """Whether the assumptions of the theory hold, as numbers with limits and verdicts."""
-        if not isinstance(self.solution, LossySolution):
-            return judge(self, self._strength, judge_plate(self))
-        losses = judge_losses(self.solution._losses, self.normal_restitution, self.pair.chi)
-        return judge(self, self._strength, (losses,))
+        return judge(self, OF_THEORY)
 
     @cached_property
     def _strength(self) -> tuple[Finding, ...]:
         if isinstance(self.solution, MarchedSolution):
-            return (judge_pressure(self.pair, self.scales.pressure),)
+            yields = self.solution._losses.loss != Loss.RELAXING
+            return (judge_pressure(self.pair, self.scales.pressure, yields=yields),)
         return judge_strength(struck_bodies(self.pair, self.scales, self.solution))
 
     @property

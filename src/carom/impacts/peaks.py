@@ -17,6 +17,7 @@ from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.strength.cracking import cracking_width, intensity
 from carom.dimensionless.strength.peaks import Contacts, Peak, peaks
+from carom.impacts.findings import judged, lacking
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.labels import Finding, labelled_dataset
 from carom.quantities.glossary import GLOSSARY, PEAKS
@@ -35,14 +36,22 @@ RATIOS = {  # what they are a share of, and what tells how much the body bears
     "tension_ratio": ("tension/strength", ("tensile_strength",)),
     "toughness_ratio": ("K/K_c", ("fracture_toughness", "flaw_size")),
 }
-VERDICTS = {  # of whom, and the ending of the verb
+VERDICTS = {  # of whom, and the ending of the verb: it holds, it fails, it may fail
     "yield_ratio": (
         "{0} stay{1} elastic",
         "{0} yield{1}, so the real restitution is below 1 and stresses are upper bounds",
+        "{0} may yield; e is then still above 0.99, and stresses are upper bounds",
     ),
-    "tension_ratio": ("{0} bear{1} the tensile stress", "{0} may crack"),
-    "toughness_ratio": ("flaws in {0} do not grow into cracks", "flaws in {0} grow into cracks"),
+    "tension_ratio": ("{0} bear{1} the tensile stress", "", "{0} may crack"),
+    "toughness_ratio": (
+        "flaws in {0} do not grow into cracks",
+        "flaws in {0} grow into cracks",
+        "flaws in {0} may grow into cracks",
+    ),
 }
+UNSURE = "{0} may yield: the yield strength in an impact is not known well enough"
+MAY_YIELD = 1.09  # stress over Y up to which e is above 0.99: V_1/V_y = 1.24, Thornton (1997)
+YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 1985, 6.1)
 WHERE = " (give them to carom.Material or carom.material(name, ...))"
 UPPER_BOUND = (
     "a body yields, so these stresses, which are those of elastic bodies, are upper bounds"
@@ -76,16 +85,24 @@ class StruckBody:
         peak = peaks(self.contacts, self.material.poisson, (MEASURES[name],))[0]
         return self._in_units(peak, self.scales.pressure)
 
-    def intensity(self) -> Peak:
+    def intensity(self, flaw: float | None = None) -> Peak:
         """Return the largest stress intensity at flaws up to `flaw_size`, z the depth of the flaw.
 
         NaN where the depth of flaws is not known, or viscous bodies have no bound at the surface.
         """
-        flaw, width = self.bears("flaw_size"), self.scales.radius
+        flaw, width = self.bears("flaw_size") if flaw is None else flaw, self.scales.radius
         if not (flaw > 0.0 and self.judges_flaws):
             return Peak(*(nan,) * 5)
         peak = intensity(self.contacts, self.material.poisson, flaw / width)
         return self._in_units(peak, self.scales.pressure * sqrt(pi * width))
+
+    @property
+    def is_brittle(self) -> bool:
+        """Whether it may crack: so far as is known of its material."""
+        by_hardness = self.bears("hardness") > 0.0 and isnan(self.bears("yield_strength"))
+        return (
+            by_hardness or self.bears("fracture_toughness") > 0.0 or self.bears("flaw_size") > 0.0
+        )
 
     @property
     def judges_flaws(self) -> bool:
@@ -109,6 +126,11 @@ class StruckBody:
         """Return the largest stress intensity over the fracture toughness."""
         toughness = self.bears("fracture_toughness")
         return self.intensity().value / toughness if toughness > 0.0 else nan
+
+    def deep_toughness_ratio(self) -> float:
+        """Return the same if there are flaws of any depth."""
+        toughness = self.bears("fracture_toughness")
+        return self.intensity(inf).value / toughness if toughness > 0.0 else nan
 
     def cracking(self) -> float:
         """Return the factor by which all velocities must grow for flaws to crack; inf for never."""
@@ -255,17 +277,74 @@ def _line(name: str, row: dict[str, float], value: str) -> str:
 
 def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
     """Return whether the bodies of an impact bear it: yield with friction, tension, toughness."""
-    findings = []
-    for name, (label, needed) in RATIOS.items():
-        lacks = {which: _lacking(body, needed) for which, body in bodies.items()}
-        ratios = {which: getattr(bodies[which], name)() for which in bodies if not lacks[which]}
-        ratios = {which: ratio for which, ratio in ratios.items() if isfinite(ratio)}
-        partly = any(0 < len(names) < len(needed) for names in lacks.values())
-        if ratios:
-            findings.append(_finding(name, label, ratios, bodies))
-        elif name == "yield_ratio" or partly or not all(lacks.values()):
-            findings.append(Finding(label, nan, 1.0, None, _why_not(needed, lacks)))
-    return tuple(findings)
+    findings = (_yields(bodies), _tears(bodies), _cracks(bodies))
+    return tuple(finding for finding in findings if finding is not None)
+
+
+def _yields(bodies: dict[str, StruckBody]) -> Finding:
+    """Return the finding on yield, at the yield strength of slow tests and at that of impacts.
+
+    What is brittle yields between a third of its hardness and all of it (Johnson 1985, 6.3).
+    """
+    ratios, broken = _ratios("yield_ratio", bodies), []
+    for which, body in bodies.items():
+        if which in ratios:
+            limit = MAY_YIELD * _hardened(body)
+        elif body.bears("hardness") > 0.0:
+            ratios[which] = 3.0 * body.peak("peak_von_mises").value / body.bears("hardness")
+            limit = 3.0
+        else:
+            continue
+        broken += [which] * (ratios[which] > limit)
+    without = {which: body.material for which, body in bodies.items() if which not in ratios}
+    if ratios and (broken or not without or any(b.searched_depth for b in bodies.values())):
+        return _finding("yield_ratio", ratios, bodies, broken)
+    worst = max(ratios.values(), default=nan)
+    return lacking("von Mises stress/Y", 1.0, "yield_strength", without, worst)
+
+
+def _tears(bodies: dict[str, StruckBody]) -> Finding | None:
+    """Return the finding on tension; what is beyond its strength beside a contact may still hold.
+
+    The stress falls so fast with the depth that flaws hardly feel it (see `bearable_speeds`).
+    """
+    ratios = _ratios("tension_ratio", bodies)
+    return _finding("tension_ratio", ratios, bodies, []) if ratios else None
+
+
+def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
+    """Return the finding on flaws, of any depth where it is not known how deep they are.
+
+    It arises where a body is brittle: toughness, flaws or, without a yield strength, its hardness
+    are known.
+    """
+    label = RATIOS["toughness_ratio"][0]
+    brittle = {name: body for name, body in bodies.items() if body.is_brittle}
+    if not brittle:
+        return None
+    if not all(body.judges_flaws for body in brittle.values()):
+        words = "not judged with losses, as stresses at the surface have no bound"
+        return Finding(label, nan, 1.0, None, words)
+    ratios = _ratios("toughness_ratio", brittle)
+    broken = [name for name, ratio in ratios.items() if ratio > 1.0]
+    deep = {n: b for n, b in brittle.items() if n not in ratios}
+    ratios |= _ratios("deep_toughness_ratio", deep)
+    for key in ("fracture_toughness", "flaw_size"):
+        unsure = _without(key, {n: b for n, b in deep.items() if not ratios.get(n, inf) <= 1.0})
+        if unsure and not broken:
+            return lacking(label, 1.0, key, unsure, max(ratios.values(), default=nan))
+    return _finding("toughness_ratio", ratios, brittle, broken)
+
+
+def _ratios(name: str, bodies: dict[str, StruckBody]) -> dict[str, float]:
+    """Return the shares of a strength, of the bodies of which it is known."""
+    ratios = {which: getattr(body, name)() for which, body in bodies.items()}
+    return {which: ratio for which, ratio in ratios.items() if isfinite(ratio)}
+
+
+def _without(key: str, bodies: dict[str, StruckBody]) -> dict[str, Material]:
+    """Return the materials that lack a value, by body."""
+    return {name: body.material for name, body in bodies.items() if isnan(body.bears(key))}
 
 
 def _lacking(body: StruckBody, needed: tuple[str, ...]) -> list[str]:
@@ -273,28 +352,52 @@ def _lacking(body: StruckBody, needed: tuple[str, ...]) -> list[str]:
     return [name for name in needed if isnan(body.bears(name))]
 
 
-def _why_not(needed: tuple[str, ...], lacks: dict[str, list[str]]) -> str:
-    """Return why none of the bodies is judged."""
-    partly = {which: names for which, names in lacks.items() if 0 < len(names) < len(needed)}
-    for which, names in partly.items():
-        return f"not judged, as {' and '.join(names)} of the {which} body is not known"
-    if all(lacks.values()):
-        return f"not judged, as the {needed[0].replace('_', ' ')} is not known"
-    return "not judged with losses, as stresses at the surface have no bound"
-
-
 def _finding(
-    name: str, label: str, ratios: dict[str, float], bodies: dict[str, StruckBody]
+    name: str, ratios: dict[str, float], bodies: dict[str, StruckBody], broken: list[str]
 ) -> Finding:
+    """Return a finding on known shares of a strength, some of which are surely `broken`."""
+    label = RATIOS[name][0]
     which, ratio = max(ratios.items(), key=lambda one: one[1])
-    broken = [body for body, share in ratios.items() if share > 1.0]
+    beyond = broken or [body for body, share in ratios.items() if share > 1.0]
     depth = bodies[which].searched_depth
-    several = len(broken or ratios) == 2
-    whose = "both bodies" if several else f"the {(broken or [which])[0]} body"
-    if depth > 0.0 and not broken:
+    several = len(beyond or ratios) == 2
+    whose = "both bodies" if several else f"the {(beyond or [which])[0]} body"
+    if depth > 0.0 and not beyond:
         below = f"known only below a depth of {text(depth, 'm', 3)}"
         words = f"the stresses in {whose} are {below}; the surface is not judged"
         return Finding(label, ratio, 1.0, None, words)
-    good, bad = VERDICTS[name]
-    words = (bad if broken else good).format(whose, "" if several else "s")
-    return Finding(label, ratio, 1.0, not broken, words)
+    good, bad, perhaps = VERDICTS[name]
+    if ratio > MAY_YIELD and name == "yield_ratio" and not broken:
+        perhaps = UNSURE
+    words = (bad if broken else perhaps if beyond else good).format(whose, "" if several else "s")
+    return Finding(label, ratio, 1.0, False if broken else None if beyond else True, words)
+
+
+def _hardened(body: StruckBody) -> float:
+    """Return by what the yield strength is larger at the rate of strain of the impact."""
+    hardening = body.material.rate_hardening
+    if hardening is None:
+        return 1.0
+    strain = body.peak("peak_von_mises").value / body.material.young
+    rate = strain / (0.5 * body.contacts.solution.duration * body.scales.time)
+    return 1.0 + float((rate / hardening["coefficient"]) ** (1.0 / hardening["exponent"]))
+
+
+def judge_pressure(pair: Pair, pressure: float, *, yields: bool) -> Finding:
+    """Return the finding on yield where stresses are not known: by the pressure, without friction.
+
+    First yield of a sphere under a pressure of Hertz's (Johnson 1985, section 6.1). What yields by
+    its law of losses need not stay elastic.
+    """
+    stuffs = {"first": pair.first.material, "second": pair.second.material}
+    without = {w: m for w, m in stuffs.items() if not (m.yield_strength or m.is_rigid)}
+    ratio = pressure / min(
+        [m.yield_strength for m in stuffs.values() if m.yield_strength], default=nan
+    )
+    name = "p_0/Y"
+    if yields:
+        return Finding(name, ratio, YIELD_PRESSURE, True, "what yields is in the law of losses")
+    if without and not ratio > YIELD_PRESSURE:
+        return lacking(name, YIELD_PRESSURE, "yield_strength", without, ratio)
+    bad = f"a body yields above {YIELD_PRESSURE}, so the real restitution is below 1"
+    return judged(name, ratio, YIELD_PRESSURE, "the bodies stay elastic", bad)

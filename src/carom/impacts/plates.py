@@ -6,6 +6,8 @@ from typing import cast
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair, Scales
 from carom.bodies.shapes import HalfSpace
+from carom.impacts.dissipation import compressional_speed
+from carom.impacts.findings import judged
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding
 from carom.quantities.prefixes import text
@@ -17,76 +19,64 @@ SMALL_CONTACT = 0.1  # a_max/h: what the other face and the moment of friction c
 SMALL_DEFLECTION = 0.2  # of h, up to which a plate bends without stretching
 
 
-def judge_plate(hit: ImpactResult) -> tuple[Finding, ...]:
-    """Return the findings on a plate that is struck; none on a thick wall."""
-    plate = hit.pair.second
-    if not isinstance(plate, HalfSpace) or plate.thickness is None:
-        return ()
-    return (
-        _judge_waves(plate, plate.thickness, hit.duration),
-        _judge_contact(hit.max_radius / plate.thickness),
-        _judge_deflection(hit, plate.impedance * plate.thickness),
-        _judge_width(plate, plate.thickness, hit.duration),
-    )
-
-
-def _judge_waves(plate: HalfSpace, thickness: float, duration: float) -> Finding:
-    """Return the finding on bending: waves of some lengths of the thickness, or no echo at all."""
-    name, ratio = "bending wave/h", 2.0 * _bending(plate, thickness, duration) / thickness
-    if duration < ECHO * thickness / _compressional_speed(plate):
+def bending(hit: ImpactResult) -> Finding | None:
+    """Return the finding on a plate that bends: its waves are long, or no echo comes back."""
+    if hit.pair.thickness is None:
+        return None
+    plate, thickness = cast(HalfSpace, hit.pair.second), hit.pair.thickness
+    name, ratio = "bending wave/h", 2.0 * _half_wave(plate, hit.duration) / thickness
+    if hit.duration < ECHO * thickness / compressional_speed(plate.material):
         thick = "the contact ends before an echo is back: the wall is thick; leave thickness out"
         return Finding(name, ratio, LONG_WAVE, False, thick)
     if ratio < LONG_WAVE:
-        between = "the plate is neither thin nor a thick wall: 1 - e is an estimate"
+        between = "not judged: the plate is neither thin nor a thick wall; 1 - e is an estimate"
         return Finding(name, ratio, LONG_WAVE, None, between)
     return Finding(name, ratio, LONG_WAVE, True, "the plate is thin enough to bend as a whole")
 
 
-def _judge_contact(ratio: float) -> Finding:
-    small = ratio <= SMALL_CONTACT
+def small_on_plate(hit: ImpactResult) -> Finding | None:
+    """Return the finding on the contact against the thickness."""
+    if hit.pair.thickness is None:
+        return None
+    ratio = hit.max_radius / hit.pair.thickness
     good = "the contact is small against the plate, whose turning by friction is neglected"
     bad = "the contact is large against the plate; its other face and its turning matter"
-    return Finding("a_max/h", ratio, SMALL_CONTACT, small, good if small else bad)
+    return judged("a_max/h", ratio, SMALL_CONTACT, good, bad)
 
 
-def _judge_deflection(hit: ImpactResult, unit: float) -> Finding:
+def deflection(hit: ImpactResult) -> Finding | None:
     """Return the finding on how far the plate's middle moves, impulse over 8 sqrt(D rho h)."""
+    if hit.pair.thickness is None:
+        return None
     impulse = hit.pair.normal_mass * hit.normal_speed * (1.0 + hit.normal_restitution)
-    ratio = impulse / unit
-    small = ratio <= SMALL_DEFLECTION
+    ratio = impulse / (cast(HalfSpace, hit.pair.second).impedance * hit.pair.thickness)
     good, bad = "the plate bends without stretching", "the plate bends so far that it stretches"
-    return Finding("deflection/h", ratio, SMALL_DEFLECTION, small, good if small else bad)
+    return judged("deflection/h", ratio, SMALL_DEFLECTION, good, bad)
 
 
-def _judge_width(plate: HalfSpace, thickness: float, duration: float) -> Finding:
+def rim(hit: ImpactResult) -> Finding | None:
     """Return the finding on the rim: waves of the period of the contact run to it and back."""
-    needed = 2.0 * sqrt(2.0) * _bending(plate, thickness, duration)
+    if hit.pair.thickness is None:
+        return None
+    plate = cast(HalfSpace, hit.pair.second)
+    needed = 2.0 * sqrt(2.0) * _half_wave(plate, hit.duration)
     if plate.width is None:
-        words = f"the plate is taken as wide, which it is above {text(needed, 'm', 3)}"
+        words = f"the plate is taken to be wide: more than {text(needed, 'm', 2)}"
         return Finding("width", inf, needed, True, words)
     wide = plate.width >= needed
-    answers = f"the rim answers within the contact; it must be {text(needed, 'm', 3)} wide"
-    verdict = "no wave comes back from the rim within the contact"
-    return Finding("width", plate.width, needed, wide, verdict if wide else answers)
+    answers = f"the rim answers within the contact; it must be {text(needed, 'm', 2)} wide"
+    good = "no wave comes back from the rim within the contact"
+    return Finding("width", plate.width, needed, wide, good if wide else answers)
 
 
-def _bending(plate: HalfSpace, thickness: float, duration: float) -> float:
+def _half_wave(plate: HalfSpace, duration: float) -> float:
     """Return half the length of a bending wave of twice the contact time.
 
     pi (D/(rho h))^(1/4)/sqrt(omega), omega = pi/t_c.
     """
-    stuff = plate.material
+    stuff, thickness = plate.material, cast(float, plate.thickness)
     stiffness = stuff.young * thickness**2 / (12.0 * (1.0 - stuff.poisson**2))
     return sqrt(pi * duration * sqrt(stiffness / cast(float, stuff.density)))
-
-
-def _compressional_speed(plate: HalfSpace) -> float:
-    """Return c_L, infinite in what cannot be compressed."""
-    stuff = plate.material
-    squeezed = (1.0 + stuff.poisson) * (1.0 - 2.0 * stuff.poisson)
-    if squeezed <= 0.0:
-        return inf
-    return sqrt(stuff.young * (1.0 - stuff.poisson) / (cast(float, stuff.density) * squeezed))
 
 
 def refuse_thin(pair: Pair, scales: Scales, losses: LossLaw | None) -> None:

@@ -17,7 +17,7 @@ from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.outcome import RESULTS, InTime, Outcome, history_columns
 from carom.impacts.spectrum import read_frequencies, spectrum_dataset
-from carom.io.labels import MARKS, Validity, labelled, phases_at
+from carom.io.labels import MARKS, Finding, Validity, labelled, phases_at
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY, listed
@@ -86,6 +86,11 @@ class ImpactResult(Outcome, Result):
     @abstractmethod
     def validity(self) -> Validity:
         """Whether the assumptions hold: numbers with their limits and verdicts."""
+
+    @property
+    @abstractmethod
+    def _strength(self) -> tuple[Finding, ...]:
+        """The findings on what the bodies bear."""
 
     def history(self, n: int = 200) -> xr.Dataset:
         """Return the impact at n times: a table of forces, velocities, radii, energies, phases.
@@ -232,8 +237,10 @@ class ImpactResult(Outcome, Result):
         Returns
         -------
         dict
-            inputs, result (all numbers by name, SI units), phases and validity.
+            inputs, result (all numbers by name, SI units), phases, verdict (holds, fails or not
+            judged) and validity, the findings behind it.
         """
+        validity = self.validity
         return {
             "inputs": self.inputs(),
             "result": {name: or_none(value) for name, value in self.scalars().items()},
@@ -245,9 +252,10 @@ class ImpactResult(Outcome, Result):
                 }
                 for phase, angle in zip(self.phases, self.slip_angles, strict=True)
             ],
+            "verdict": validity.verdict,
             "validity": [
                 {**finding._asdict(), "value": or_none(finding.value)}
-                for finding in self.validity.findings
+                for finding in validity.findings
             ],
         }
 
@@ -321,8 +329,10 @@ def _impact_text(hit: ImpactResult) -> str:
     ]
     columns = f"{f'from ({unit})':>12s} {f'to ({unit})':>12s} {'mean*':>9s} {'max*':>9s}"
     head = f"  {'':14s}{columns}   ended by"
-    findings = [f"  {MARKS[f.holds]} {f.label:38s} {f.verdict}" for f in hit.validity.findings]
-    parts = ("Rebound", *lines, "Phases", head, *phases, note, "Validity", *findings)
+    validity = hit.validity
+    findings = [f"  {MARKS[f.holds]} {f.label:38s} {f.verdict}" for f in validity.findings]
+    theory = f"Validity: {validity.verdict}"
+    parts = ("Rebound", *lines, "Phases", head, *phases, note, theory, *findings)
     return "\n".join(parts)
 
 

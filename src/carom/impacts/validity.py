@@ -1,86 +1,130 @@
-"""Whether the assumptions of the theory hold for an impact, as numbers with a verdict."""
+"""Whether the assumptions of the theory hold for an impact, as numbers with a verdict.
 
-from math import isfinite, nan, sqrt
+A finding is a function of an impact in one of the lists at the end; one that does not arise is
+None. What the bodies bear, which takes more, is in `peaks`.
+"""
+
+from collections.abc import Callable, Sequence
+from math import isfinite, isnan, nan, sqrt
 
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
+from carom.bodies.shapes import Sphere
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.neglected import (
+    NO_BETA,
     SMALL_CONTACT,
     SPIN,
     not_studied,
     rebound_error,
     spin_error,
 )
+from carom.impacts.dissipation import adhesion, damping, together, waves
+from carom.impacts.findings import bounded, judged
+from carom.impacts.plates import bending, deflection, rim, small_on_plate
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding, Validity
 
-YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 1985, 6.1)
 SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and back (Love 1927)
 WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
 STUDIED, LEAST_STUDIED = (0.3, 5.0), 0.5  # chi, and e, for which solids of one e were compared
 FAST, YIELDED = 10.0, 0.05  # V_1/V_y up to which psi_2 is as close as this to rings of traction
+STIFF_SHELL, SOFT_SHELL = 0.01, 0.1  # dent of a shell over Hertz's depth: as a ball, as none
+SOLID_BALL = 0.4 * (1.0 + 1e-9)  # K^2/R^2
+NO_SOLID_BALL = "a ball with this radius of gyration is not solid"
 FULL = "the full contact in three dimensions"
+Assumption = Callable[[ImpactResult], Finding | None]
 
 
-def judge(
-    hit: ImpactResult, strength: tuple[Finding, ...], losses: tuple[Finding, ...] = ()
-) -> Validity:
-    """Return the findings on an impact; `strength` are those on what the bodies bear."""
-    coupling = _judged(
-        "Dundurs beta",
-        hit.pair.dundurs_beta,
-        WEAK_COUPLING,
-        "normal and tangential contact do not couple",
-        "the materials are unlike, and this answer neglects their coupling",
+def judge(hit: ImpactResult, assumptions: Sequence[Assumption]) -> Validity:
+    """Return the findings on an impact, of what its bodies bear and of these assumptions."""
+    findings = (assumption(hit) for assumption in assumptions)
+    there = tuple(finding for finding in findings if finding is not None)
+    return Validity((*doubts(hit.pair), _small_contact(hit), *hit._strength, *there))
+
+
+def _small_contact(hit: ImpactResult) -> Finding:
+    return judged(
+        "a_max/R*",
+        hit.scales.radius / hit.pair.effective_radius,
+        SMALL_CONTACT,
+        "the contact is small compared with the bodies",
+        f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most",
     )
-    spinning = (_judge_spin(hit, bool(losses)),) if hit.normal_spin else ()
-    contact = judge_contact(hit, strength)
-    return Validity((*contact, *losses, coupling, *spinning, _judge_rebound(hit, bool(losses))))
 
 
-def _judge_rebound(hit: ImpactResult, loses: bool) -> Finding:
-    """Return the finding on what slip off the motion and coupling may do to psi_2."""
-    pair, name = hit.pair, "error of psi_2"
-    numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
-    if pair.friction == 0.0 or not isfinite(hit.psi_in):
-        nothing = "without friction the theory neglects nothing"
-        return Finding(name, 0.0, CLOSE_REBOUND, True, nothing)
-    if outside := not_studied(*numbers):
-        return _unknown(name, f"{outside}; method='halfspace' solves the full contact")
-    error = float(rebound_error(*numbers, hit.psi_in))
-    if loses:
-        return _unknown(name, f"with losses; for elastic bodies it is at most {error:.2g}")
-    but = "apart from the spin about the normal, " if hit.normal_spin else ""
-    good = f"{but}psi_2 is at most this far from {FULL}, by a study of such impacts"
-    bad = f"{but}psi_2 may be this far from {FULL}, which method='halfspace' solves"
-    return _judged(name, error, CLOSE_REBOUND, good, bad)
+def _slow_contact(hit: ImpactResult) -> Finding:
+    transits = hit.duration / max(_transit(hit.pair), 1e-300)
+    slow = transits >= SLOW_CONTACT
+    verdict = (
+        "the contact lasts long enough to be quasi-static"
+        if slow
+        else f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
+    )
+    return Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
 
 
-def _judge_spin(hit: ImpactResult, loses: bool) -> Finding:
-    """Return the finding on what spin about the normal, which the theory leaves out, may do."""
-    pair, name = hit.pair, "error of psi_2 by normal spin"
-    cure = "method='halfspace' solves for it"
-    if pair.friction == 0.0 or not isfinite(hit.psi_in):
-        return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction this spin does not matter")
-    spin = abs(hit.normal_spin) * hit.scales.radius / (pair.friction * hit.normal_speed)
-    outside = not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
-    if spin > SPIN.most:
-        outside = f"spin of {spin:.3g} mu V_1/a_max is above {SPIN.most:g}"
-    if loses:
-        return _unknown(name, "with losses; the theory neglects this spin")
-    if outside:
-        return _unknown(name, f"{outside}; {cure}")
-    good = "the spin about the normal, which the theory neglects, hardly matters"
-    bad = f"the theory neglects the spin about the normal; {cure}"
-    error = float(spin_error(pair.chi, hit.psi_in, spin))
-    return _judged(name, error, CLOSE_REBOUND, good, bad)
+def _transit(pair: Pair) -> float:
+    """Return the time of a bar wave through the slower sphere and back, 4 R sqrt(rho/E)."""
+    bodies = [(body.radius, body.material) for body in pair.moving if not body.material.is_rigid]
+    return max([4.0 * r / sqrt(m.young / (m.density or 1.0)) for r, m in bodies], default=0.0)
 
 
-def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding:
+def _shell(hit: ImpactResult) -> Finding | None:
+    """Return the finding on hollow spheres: the dent of a shell under a point load, over d_max.
+
+    Its stiffness is 4 E h^2/(R sqrt(3 (1 - nu^2))) (Reissner 1946).
+    """
+    dents = [_dent(body, hit) for body in hit.pair.moving if not body.material.is_rigid]
+    dent, name = max(dents, default=0.0), "dent of the shell/d_max"
+    if isnan(sum(dents)):
+        words = f"{NO_SOLID_BALL}; Sphere(inner_radius=...) tells a shell"
+        return Finding(name, nan, STIFF_SHELL, None, f"not judged: {words}", "inner_radius")
+    if dent == 0.0:
+        return None
+    if dent <= SOFT_SHELL:
+        good = "the shell is so stiff that its contact is that of a solid ball"
+        perhaps = "the shell gives way a little, which the theory neglects"
+        return bounded(name, dent, STIFF_SHELL, good, perhaps)
+    words = (
+        "the shell dents, which the theory neglects: measure e and the rebound at several angles, "
+        "and let carom.fit find kappa"
+    )
+    return Finding(name, dent, STIFF_SHELL, False, words)
+
+
+def _dent(ball: Sphere, hit: ImpactResult) -> float:
+    """Return the dent of a shell over d_max: 0 if it is solid, NaN if that is not known."""
+    if ball.gyration_radius is not None:
+        return nan if ball.gyration_ratio > SOLID_BALL else 0.0
+    if ball.inner_radius == 0.0:
+        return 0.0
+    wall, stuff = ball.radius - ball.inner_radius, ball.material
+    thin = 4.0 * stuff.young * wall**2 / ball.radius
+    return hit.scales.force * sqrt(3.0 * (1.0 - stuff.poisson**2)) / (thin * hit.scales.length)
+
+
+def _solid(hit: ImpactResult) -> Finding | None:
+    """Return the finding on the solid that losses assume."""
+    if hit.losses is None:
+        return None
+    numbers = hit.losses._loss(hit.pair, hit.scales)
+    if numbers.loss == Loss.PLATE:
+        words = "not judged: nothing but its inelasticity is known of the plate"
+        where = "HalfSpace(thickness=...) instead of ZenerPlate"
+        return Finding("e", hit.normal_restitution, 1.0, None, f"{words}; give {where}", where)
+    return judge_losses(numbers, hit.normal_restitution, hit.pair.chi, oblique=hit.psi_in != 0.0)
+
+
+def judge_losses(
+    losses: LossNumbers, restitution: float, chi: float, *, oblique: bool = True
+) -> Finding:
     """Return the finding on losses: which solid is assumed, and how much that may be in psi_2."""
     if losses.loss != Loss.PLASTIC:
+        if not oblique:
+            words = "struck head-on, where what the solid loses in shear does not matter"
+            return Finding("e", restitution, 1.0, True, words)
         solid = "as viscous" if losses.loss == Loss.VISCOUS else "to relax"
         others = _others(losses.loss, restitution, chi)
         words = f"the solid is assumed {solid} in shear as in compression; {others}"
@@ -106,24 +150,48 @@ def _others(loss: int, restitution: float, chi: float) -> str:
     return f"psi_2 of other solids of this e differs by up to {most:.2g}"
 
 
-def judge_contact(hit: ImpactResult, strength: tuple[Finding, ...]) -> tuple[Finding, ...]:
-    """Return the findings on values that are hardly meant, a small contact, strength, slowness."""
-    transits = hit.duration / max(_transit(hit.pair), 1e-300)
-    slow = transits >= SLOW_CONTACT
-    small = _judged(
-        "a_max/R*",
-        hit.scales.radius / hit.pair.effective_radius,
-        SMALL_CONTACT,
-        "the contact is small compared with the bodies",
-        f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most",
-    )
-    verdict = (
-        "the contact lasts long enough to be quasi-static"
-        if slow
-        else f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
-    )
-    waves = Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
-    return *doubts(hit.pair), small, *strength, waves
+def _spin(hit: ImpactResult) -> Finding | None:
+    """Return the finding on what spin about the normal, which the theory leaves out, may do."""
+    if not hit.normal_spin:
+        return None
+    pair, name = hit.pair, "error of psi_2 by normal spin"
+    cure = "method='halfspace' solves for it"
+    if pair.friction == 0.0 or not isfinite(hit.psi_in):
+        return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction this spin does not matter")
+    spin = abs(hit.normal_spin) * hit.scales.radius / (pair.friction * hit.normal_speed)
+    outside = not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
+    if spin > SPIN.most:
+        outside = f"spin of {spin:.3g} mu V_1/a_max is above {SPIN.most:g}"
+    if hit.losses is not None:
+        return _unknown(name, "with losses; the theory neglects this spin")
+    if outside:
+        return _unknown(name, f"{outside}; {cure}")
+    good = "the spin about the normal, which the theory neglects, hardly matters"
+    bad = f"the theory neglects the spin about the normal; {cure}"
+    error = float(spin_error(pair.chi, hit.psi_in, spin))
+    return bounded(name, error, CLOSE_REBOUND, good, bad)
+
+
+def _rebound(hit: ImpactResult) -> Finding:
+    """Return the finding on what slip off the motion and coupling may do to psi_2."""
+    pair, name = hit.pair, "error of psi_2"
+    numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
+    unlike = abs(pair.dundurs_beta) > NO_BETA
+    if pair.friction == 0.0 or not isfinite(hit.psi_in):
+        nothing = "without friction the theory neglects nothing"
+        return Finding(name, 0.0, CLOSE_REBOUND, True, nothing)
+    if hit.psi_in == 0.0 and not unlike:
+        return Finding(name, 0.0, CLOSE_REBOUND, True, "like bodies that meet head-on do not slip")
+    if outside := not_studied(*numbers):
+        return _unknown(name, f"{outside}; method='halfspace' solves the full contact")
+    error = float(rebound_error(*numbers, hit.psi_in))
+    if hit.losses is not None:
+        return _unknown(name, f"with losses; for elastic bodies it is at most {error:.2g}")
+    but = "apart from the spin about the normal, " if hit.normal_spin else ""
+    why = f", as the materials are unlike (Dundurs beta {pair.dundurs_beta:.3g})" * unlike
+    good = f"{but}psi_2 is at most this far from {FULL}, by a study of such impacts"
+    bad = f"{but}psi_2 may be this far from {FULL}{why}, which method='halfspace' solves"
+    return bounded(name, error, CLOSE_REBOUND, good, bad)
 
 
 def _unknown(name: str, why: str) -> Finding:
@@ -132,38 +200,25 @@ def _unknown(name: str, why: str) -> Finding:
     return Finding(name, nan, CLOSE_REBOUND, None, f"not studied{colon} {why}")
 
 
-def _judged(name: str, value: float, limit: float, good: str, bad: str) -> Finding:
-    """Return the finding on a number that must not be beyond a limit."""
-    holds = abs(value) <= limit
-    return Finding(name, value, limit, holds, good if holds else bad)
-
-
-def judge_pressure(pair: Pair, pressure: float) -> Finding:
-    """Return the finding on yield where stresses are not known: by the pressure, without friction.
-
-    First yield of a sphere under a pressure of Hertz's (Johnson 1985, section 6.1).
-    """
-    strengths = [
-        m.yield_strength for m in (pair.first.material, pair.second.material) if m.yield_strength
-    ]
-    if not strengths:
-        unknown = "not judged, as the yield strength is not known"
-        return Finding("p_0/Y", float("nan"), YIELD_PRESSURE, None, unknown)
-    body = "the softer body" if len(strengths) == 2 else "the body whose strength is known"
-    yields = f"{body} yields above {YIELD_PRESSURE}, so the real restitution is below 1"
-    ratio = pressure / min(strengths)
-    return _judged("p_0/Y", ratio, YIELD_PRESSURE, f"{body} stays elastic", yields)
-
-
-def _transit(pair: Pair) -> float:
-    """Return the time of a bar wave through the slower sphere and back, 4 R sqrt(rho/E)."""
-    bodies = [(body.radius, body.material) for body in pair.moving if not body.material.is_rigid]
-    return max([4.0 * r / sqrt(m.young / (m.density or 1.0)) for r, m in bodies], default=0.0)
-
-
 def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
     """Return the findings on what a grid and steps leave of psi_2 and of the energy."""
     good = "the grid and the time steps are fine enough"
     bad = "the grid and the time steps are too coarse; take more elements and steps"
     limits = CLOSE_REBOUND, good, bad
-    return _judged("error of psi_2", psi_out, *limits), _judged("error of energy", energy, *limits)
+    return judged("error of psi_2", psi_out, *limits), judged("error of energy", energy, *limits)
+
+
+OF_BODIES: tuple[Assumption, ...] = (
+    _slow_contact,
+    _shell,
+    waves,
+    bending,
+    small_on_plate,
+    deflection,
+    rim,
+    adhesion,
+    damping,
+    together,
+    _solid,
+)
+OF_THEORY: tuple[Assumption, ...] = (*OF_BODIES, _spin, _rebound)

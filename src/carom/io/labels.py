@@ -23,17 +23,19 @@ if TYPE_CHECKING:
 CONVENTIONS = "CF-1.11"
 AXES = {"x": {"axis": "X"}, "y": {"axis": "Y"}, "z": {"axis": "Z", "positive": "down"}}
 MARKS = {True: "ok   ", False: "FAILS", None: "?    "}  # of an assumption
+VERDICTS = {True: "holds", False: "fails", None: "not judged"}  # of all of them
 
 
 @with_old_fields
 class Finding(NamedTuple):
-    """A number that tells whether the theory holds: its name, value, limit and a plain verdict."""
+    """A number that tells if the theory holds: name, value, limit, verdict, what is missing."""
 
     name: str
     value: float
     limit: float
     holds: bool | None  # None: cannot be judged
     verdict: str
+    missing: str = ""  # the argument that would let it be judged, and whose
 
     @property
     def label(self) -> str:
@@ -45,24 +47,36 @@ class Finding(NamedTuple):
 class Validity(Printed):
     """All `findings` on one impact: whether the assumptions of the theory hold; printed, a table.
 
+    What a finding lacks to be judged is in its `missing` and its `verdict`, which tells where to
+    put it.
+
     Examples
     --------
     >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> carom.impact(pair, speed=0.002, angle="30 deg").validity.holds
+    >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
+    >>> carom.impact(pair, speed=0.1, angle="30 deg").validity.holds
     True
+    >>> carom.impact(pair, speed=5.0, angle="30 deg").validity.verdict
+    'fails'
     """
 
     findings: tuple[Finding, ...]
 
     @property
-    def holds(self) -> bool:
-        """Whether no finding is beyond its limit."""
-        return all(finding.holds is not False for finding in self.findings)
+    def holds(self) -> bool | None:
+        """True if all assumptions hold, False if one fails, None if one of them is not judged."""
+        holds = {finding.holds for finding in self.findings}
+        return False if False in holds else (None if None in holds else True)
+
+    @property
+    def verdict(self) -> str:
+        """What `holds` says in words, as holds, fails or not judged."""
+        return VERDICTS[self.holds]
 
     def __str__(self) -> str:
-        return "\n".join(f"{MARKS[f.holds]} {f.label}: {f.verdict}" for f in self.findings)
+        lines = [f"{MARKS[f.holds]} {f.label}: {f.verdict}" for f in self.findings]
+        return "\n".join([*lines, f"verdict: {self.verdict}"])
 
 
 def flags(meanings: Sequence[str], first: int = 0) -> dict[str, Any]:

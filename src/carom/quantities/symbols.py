@@ -30,6 +30,9 @@ CALLED = {  # in order: of names that one word stands for, the first that there 
     "tensile_strength": "sigma_t",
     "fracture_toughness": "K_c K_Ic toughness",
     "flaw_size": "flaw",
+    "hardness": "H HV",
+    "surface_energy": "gamma",
+    "loss_factor": "eta tan_delta",
 }
 REMARKS = {
     "diameter": "radius, half of it",

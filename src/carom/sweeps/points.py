@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from carom.bodies.cases import RATIO, law_of
 from carom.bodies.kinematics import components
 from carom.bodies.losses import SMALLEST_RESTITUTION, STIFFEST, LossLaw
-from carom.bodies.materials import STRENGTHS, Material, unchecked
+from carom.bodies.materials import STRENGTHS, VALUES, Material, unchecked
 from carom.bodies.pairs import Counterbody, Pair, plate_give
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.dimensionless.elastic.phases import Status
@@ -26,7 +26,7 @@ from carom.impacts.peaks import BODIES, MEASURES, StruckBody, growth, struck_bod
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import NEEDED_STRENGTHS
 from carom.quantities.statuses import WordedStatus
-from carom.sweeps.inputs import ELASTIC, leaf
+from carom.sweeps.inputs import leaf
 
 
 class Wanted(NamedTuple):
@@ -284,7 +284,6 @@ def _sphere(columns: Columns, body: str) -> Sphere:
 
 
 def _material(columns: Columns, body: str) -> Material:
-    names = (*ELASTIC, *STRENGTHS)
     return unchecked(
-        Material, name=None, **{name: columns.get(f"{body}.material.{name}") for name in names}
+        Material, name=None, **{name: columns.get(f"{body}.material.{name}") for name in VALUES}
     )

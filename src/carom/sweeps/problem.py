@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from carom.bodies import cases
 from carom.bodies.cases import FROM_STRENGTH
 from carom.bodies.losses import NO_YIELD_VELOCITY
-from carom.bodies.materials import STRENGTHS
+from carom.bodies.materials import JUDGED_BY, STRENGTHS
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.io.labels import attributes, flags
 from carom.quantities.refusals import checked_type, hint, one_of, refusal, refuse
@@ -117,7 +117,7 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
     yields = "yield_velocity" in losses and "yield_velocity" not in (*names, *fixed)
     if yields:
         strengths = tuple(dict.fromkeys((YIELD, *strengths)))
-    unneeded = set(STRENGTHS) - set(strengths)
+    unneeded = {*STRENGTHS, *JUDGED_BY} - set(strengths)
     fixed = {name: value for name, value in fixed.items() if leaf(name) not in unneeded}
     if fixed.get("spin2") == 0.0:  # every body may be without
         del fixed["spin2"]

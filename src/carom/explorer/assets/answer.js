@@ -156,7 +156,7 @@ Carom.answer = (() => {
     const small = ratio <= SMALL_CONTACT;
     const verdict = small ? "the contact is small compared with the bodies" : `the contact is too large for Hertz's theory, which needs ${SMALL_CONTACT} at most`;
     const text = `a_max/R* = ${Carom.quantities.plain(ratio, 3)}: ${verdict}`;
-    const rest = "whether a body yields, waves matter or unlike materials couple: the installed program judges that";
+    const rest = "whether a body yields, sticks or loses energy, waves matter or unlike materials couple: the installed program judges that";
     return [{ mark: small ? "ok" : "FAILS", text }, { mark: "?", text: rest }];
   }
 

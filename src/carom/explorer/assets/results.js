@@ -4,7 +4,7 @@ window.Carom = window.Carom || {};
 Carom.results = (() => {
   const MARKS = { // sign, class, what a reader of the screen says; in the order in which they are shown
     FAILS: ["✗ FAILS", "fails", "does not hold"],
-    "?": ["?", "unknown", "not known"],
+    "?": ["?", "unknown", "not judged"],
     ok: ["✓", "ok", "holds"],
   };
   const SHORTLY = { FAILS: "fails", "?": "is not judged" };
