@@ -114,7 +114,7 @@ OPEN = [  # the theory is good, or nobody knows; what a verdict would need is no
 
 PLATES = [  # ball, what it strikes, speed, thickness in mm, e: Zener (1941)
     (BEARING, "10 mm", BEARING, 0.5, 3.0, 0.534),
-    (BEARING, "10 mm", FLOAT, 1.0, 3.0, 0.178),
+    (BEARING, "10 mm", FLOAT, 1.0, 3.0, 0.183),
 ]
 
 
