@@ -21,6 +21,7 @@ WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundr
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
 STUDIED, LEAST_STUDIED = (0.3, 5.0), 0.5  # chi, and e, for which solids of one e were compared
 FAST, YIELDED = 10.0, 0.05  # V_1/V_y up to which psi_2 is as close as this to rings of traction
+METAL_FAST, METAL_YIELDED = 300.0, 0.07  # the same for metals
 FULL = "the full contact in three dimensions"
 
 
@@ -80,6 +81,8 @@ def _judge_spin(hit: ImpactResult, loses: bool) -> Finding:
 
 def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding:
     """Return the finding on losses: which solid is assumed, and how much that may be in psi_2."""
+    if losses.loss == Loss.METAL:
+        return _judge_metal(losses)
     if losses.loss != Loss.PLASTIC:
         solid = "as viscous" if losses.loss == Loss.VISCOUS else "to relax"
         others = _others(losses.loss, restitution, chi)
@@ -90,7 +93,18 @@ def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding
     studied = ratio <= FAST * (1.0 + 1e-9)
     error = f"psi_2 is {off}" if studied else f"the error was not studied above {FAST:g}"
     words = f"the yielded contact is modelled by springs that obey Coulomb's law; {error}"
-    return Finding("V_1/V_y", ratio, FAST, None, words)
+    soft = "its pressure stays at that of first yield; where it rises, as in Metal, e is higher"
+    return Finding("V_1/V_y", ratio, FAST, None, f"{words}; {soft} by up to 0.25")
+
+
+def _judge_metal(losses: LossNumbers) -> Finding:
+    """Return the finding on a metal: how far its laws differ, and what springs may do to psi_2."""
+    ratio = losses.parameter**-2.5
+    laws = "e of other laws of perfectly plastic metals is lower by up to 0.12 or higher by 0.07"
+    error = f"psi_2 is off by up to {METAL_YIELDED:g} as springs, not points, obey Coulomb's law"
+    if ratio > METAL_FAST * (1.0 + 1e-9):
+        error = f"the error of psi_2 was not studied above {METAL_FAST:g}"
+    return Finding("V_1/V_y", ratio, METAL_FAST, None, f"{laws}; {error}")
 
 
 def _others(loss: int, restitution: float, chi: float) -> str:

@@ -125,7 +125,7 @@ OF_SOLVER = {
     Status.UNRESOLVED: PointStatus.UNRESOLVED,
 }
 FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
-POSITIVE = ("radius", "gyration_radius", "young", "density", "yield_velocity")
+POSITIVE = ("radius", "gyration_radius", "young", "density", "yield_velocity", "flow_stress")
 NOT_NEGATIVE = ("friction", "inner_radius", "loss_time", "relaxation_time")
 IN_RANGE: dict[str, Callable[[Any], Any]] = {
     **dict.fromkeys(POSITIVE, lambda values: values > 0.0),
