@@ -88,11 +88,11 @@ def bear(y: float, strain: float, now: Array, new: Array, springs: Array, count:
     if flat > 0.0:
         rise = (steep - 1.5 * was * wider) / (1.5 * flat)
     for j in range(count):
-        w = square - springs[of.S, j]
-        _, slope = capped(was, w)
-        rate = slope * wider + 4.0 / np.pi * np.sqrt(max(w - was * was, 0.0)) * rise
+        within = np.sqrt(max(flat - springs[of.S, j], 0.0))
+        rate = (1.0 - springs[of.SOFTER, j]) * wider + 4.0 / np.pi * within * rise
         springs[of.RATE, j], springs[of.LIMIT, j] = rate * now[at.SPEED], springs[of.NEXT, j]
-        springs[of.NEXT, j], _ = capped(top, new[at.EDGE] ** 2 - springs[of.S, j])
+        springs[of.NEXT, j], slope = capped(top, new[at.EDGE] ** 2 - springs[of.S, j])
+        springs[of.SOFTER, j] = 1.0 - slope
 
 
 @kernel
