@@ -20,33 +20,45 @@ from carom.dimensionless.lossy.springs.thornton import capped
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 
-YIELD_PRESSURE = 1.6  # C: largest pressure at first yield, in yield strengths
+YIELD_PRESSURE = 1.6  # C: largest pressure at first yield, over Y (Johnson 1985, section 6.1)
 FLATTENS = 1.9  # w from which the edge is not Hertz's
 ROUNDING = 1e-12
 
 
 @kernel
+def widened(w: float, strain: float) -> tuple[float, float]:
+    """Return A, and its rate with w."""
+    if w <= FLATTENS:
+        return w, 1.0
+    power = 0.14 * np.exp(23.0 * strain)
+    grown = (w / FLATTENS) ** power
+    return w * grown, (1.0 + power) * grown
+
+
+@kernel
+def hardness(area: float, wider: float, strain: float) -> tuple[float, float]:
+    """Return 4 H/C, and its rate with w; beyond a = R both stay."""
+    angle = min(0.5 * np.pi**2 * YIELD_PRESSURE * strain * np.sqrt(area), np.pi)
+    hard = 2.84 - 0.92 * (1.0 - np.cos(angle))
+    rate = -0.46 * np.sin(angle) * angle * wider / area
+    return 4.0 / YIELD_PRESSURE * hard, 4.0 / YIELD_PRESSURE * rate
+
+
+@kernel
 def pressed(y: float, strain: float, depth: float) -> tuple[float, float, float, float]:
-    """Return the load and the squared edge at a depth while loading, and both per depth."""
+    """Return the load and the squared edge at a depth while loading, and both rates with depth."""
     w = depth / (y * y)
-    hertz, steep = w**1.5, 1.5 * np.sqrt(w)
-    if w <= 1.0:
-        return y**3 * hertz, y * y * w, y * steep, 1.0
-    grown, power = 1.0, 0.0
-    if w > FLATTENS:
-        power = 0.14 * np.exp(23.0 * strain)
-        grown = (w / FLATTENS) ** power
-    area, wider = w * grown, (1.0 + power) * grown
-    slope = np.pi * 0.5 * np.pi * YIELD_PRESSURE * strain
-    angle = min(slope * np.sqrt(area), np.pi)
-    hard = 4.0 / YIELD_PRESSURE * (2.84 - 0.92 * (1.0 - np.cos(angle)))
-    softer = 4.0 / YIELD_PRESSURE * 0.46 * np.sin(angle) * angle * wider / area
-    elastic, left = np.exp(-0.25 * w ** (5.0 / 12.0)), np.exp(-(w ** (5.0 / 9.0)) / 25.0)
-    load = elastic * hertz + hard * (1.0 - left) * w
-    if load >= hertz:
-        return y**3 * hertz, y * y * area, y * steep, wider
-    steep = elastic * (steep - 5.0 / 48.0 * w ** (11.0 / 12.0))
-    steep += (hard - softer * w) * (1.0 - left) + hard * left * w ** (5.0 / 9.0) / 45.0
+    area, wider = widened(w, strain)
+    load, steep = w**1.5, 1.5 * np.sqrt(w)
+    if w > 1.0:
+        hard, rate = hardness(area, wider, strain)
+        power, left = w ** (5.0 / 9.0) / 25.0, np.exp(-0.25 * w ** (5.0 / 12.0))
+        plastic = -np.expm1(-power)
+        yielded = left * load + hard * plastic * w
+        if yielded < load:
+            steep = left * (steep - 5.0 / 48.0 * w ** (11.0 / 12.0)) + rate * plastic * w
+            steep += hard * (plastic + 5.0 / 9.0 * power * np.exp(-power))
+            load = yielded
     return y**3 * load, y * y * area, y * steep, wider
 
 

@@ -50,8 +50,6 @@ def bear(y: float, now: Array, new: Array, shrunk: float, springs: Array, count:
         w = new[at.DEPTH] - springs[of.S, j]
         if shrunk > 0.0:
             springs[of.NEXT, j] = (new[at.EDGE] ** 2 - springs[of.S, j]) * shrunk
-        elif w <= y * y:
-            springs[of.NEXT, j] = w
         else:
             springs[of.NEXT, j], slope = capped(y, w)
             springs[of.SOFTER, j] = 1.0 - slope
