@@ -224,8 +224,8 @@ class Metal(LossLaw):
     Notes
     -----
     Jackson & Green (2005), J. Tribol. 127:343-354, for load and radius, with H of Jackson, Green &
-    Marghitu (2010), Nonlinear Dyn. 60:217-229; in Ghaednia et al. (2019), J. Tribol. 141:031402,
-    they are (23), (24), (27)-(29).
+    Marghitu (2010), Nonlinear Dyn. 60:217-229. They are (23), (24), (27)-(29) of Ghaednia, Brake,
+    Berryhill & Jackson (2019), J. Tribol., as a public program of this model quotes them.
 
     Examples
     --------
