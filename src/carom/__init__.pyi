@@ -12,6 +12,7 @@ from .bodies.cases import read as read
 from .bodies.losses import (
     ElasticPlastic as ElasticPlastic,
     KelvinVoigt as KelvinVoigt,
+    Metal as Metal,
     StandardLinearSolid as StandardLinearSolid,
     ZenerPlate as ZenerPlate,
 )

@@ -22,9 +22,9 @@ from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import flat, stacked
 from carom.dimensionless.fields.subsurface import stresses
 from carom.dimensionless.load_paths import paths
-from carom.dimensionless.lossy.springs import motion as at
+from carom.dimensionless.lossy.springs import metal, motion as at
 from carom.dimensionless.lossy.springs.springs import NEXT, SPRING_COLUMNS, S, step_of, stretched
-from carom.dimensionless.lossy.springs.thornton import bear
+from carom.dimensionless.lossy.springs.thornton import bear, capped
 from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.dimensionless.numerics import hertz
 from carom.halfspace.compliance import Materials
@@ -270,6 +270,24 @@ def test_11_losses():
     bear(y, motion, motion, 0.0, springs, 2001)
     load = 1.5 * np.trapezoid(springs[NEXT], np.sqrt(springs[S]))
     assert load == pytest.approx(y**3 + 1.5 * y * (d - y * y), abs=1e-6)  # (11.15)
+
+
+def test_11_metals_whose_pressure_rises():
+    """The energy of springs under Hertz's, a cut and a uniform pressure; fully plastic contacts."""
+    b, load = 0.7, 0.2
+    c = metal.level(load, b)
+    assert 1.5 * c * b * b - 0.5 * c**3 == pytest.approx(load, rel=1e-14)  # (11.17)
+    below = quad(lambda x: capped(c, b * b - x * x)[0], 0, b, points=[sqrt(b * b - c * c)])[0]
+    assert 1.5 * below == pytest.approx(load, rel=1e-9)
+    hertz = 15 / 8 * quad(lambda x: (load / b**3 * (b * b - x * x)) ** 2, 0, b)[0]
+    assert hertz == pytest.approx(load * load / b)  # (11.18), (11.13)
+    flat = 15 / 8 * quad(lambda x: (8 * load / (3 * pi * b * b)) ** 2 * (b * b - x * x), 0, b)[0]
+    assert flat / hertz == pytest.approx(80 / (9 * pi**2))
+    for hard, share, printed in ((2.84, flat / hertz, 2.09), (3.0, 1.0, 2.28)):
+        g = hard / 1.6
+        depth = brentq(lambda d, g=g: 2.5 * quad(lambda u: 3 * g * u, 0, d)[0] - 1, 0, 9)
+        e = sqrt(share * (3 * g * depth) ** 2 / sqrt(2 * depth))  # (11.19)
+        assert e == pytest.approx(printed, abs=5e-3)
 
 
 def test_11_slip_of_a_solid_that_relaxes():

@@ -22,6 +22,8 @@ LAWS = {
     "--loss-time 2us": carom.KelvinVoigt(loss_time="2 us"),
     "--yield-velocity 100mm/s": carom.ElasticPlastic(yield_velocity=0.1),
     "--yield-velocity material": carom.ElasticPlastic(),
+    "--flow-stress material": carom.Metal(),
+    "--flow-stress 300MPa": carom.Metal(flow_stress=3e8),
     "--relaxation-time 20us --modulus-ratio 1.5": carom.StandardLinearSolid(1.5, "20 us"),
 }
 CASE = checks.CASE.replace("[first]", 'loss_time = "2 us"\n[first]')
@@ -107,6 +109,8 @@ def test_files_of_an_impact_with_losses_are_what_it_is_and_can_be_drawn(run, pai
         (["--loss-time", "1 s"], ("loss_time", "not solved")),
         (["--yield-velocity", "steel"], ("yield_velocity: 'steel'", "'material'", "0.1 m/s")),
         (["--yield-velocity", "0 m/s"], ("yield_velocity: 0.0", "positive")),
+        (["--flow-stress", "steel"], ("flow_stress: 'steel'", "'material'", "1 GPa")),
+        (["--flow-stress", "2 m/s"], ("flow_stress: '2 m/s'", "not a value in Pa")),
     ],
 )
 def test_refuses_losses_in_one_line_and_leaves_nothing(refusal, flags, words):
@@ -130,7 +134,7 @@ def test_commands_about_elastic_impacts_refuse_a_case_with_losses(refusal):
 VALUES = {"friction": "0.3", "speed": "1 m/s", "angle": "20 deg", "normal_speed": "0.9 m/s"}
 VALUES |= {"tangential_speed": "0.3 m/s", "spin": "100 rpm", "spin2": "50 rpm"}
 VALUES |= {"restitution": "0.8", "loss_time": "3 us", "yield_velocity": "0.2 m/s"}
-VALUES |= {"relaxation_time": "20 us", "modulus_ratio": "1.5"}
+VALUES |= {"relaxation_time": "20 us", "modulus_ratio": "1.5", "flow_stress": "400 MPa"}
 WITH = {  # what a key goes with; by default friction, speed, angle
     "normal_speed": ("friction", "tangential_speed"),
     "tangential_speed": ("friction", "normal_speed"),

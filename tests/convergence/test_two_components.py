@@ -18,6 +18,7 @@ SOLIDS = {
     "elastic": ELASTIC,
     "plate": Solid(int(Loss.PLATE), 0.3),
     "yielding": Solid(int(Loss.PLASTIC), 0.4),
+    "metal": Solid(int(Loss.METAL), 0.4, 0.0, 0.004),
     "relaxing": Solid(int(Loss.RELAXING), 0.3, 1.0),
 }
 OUT = [RESTITUTION, PSI_OUT, march.PSI_ACROSS]

@@ -106,6 +106,7 @@ def bodies_and_losses(calls):
     calls.add("KelvinVoigt", carom.KelvinVoigt, restitution=0.9)
     calls.add("KelvinVoigt, time", carom.KelvinVoigt, loss_time=1e-6)
     calls.add("ElasticPlastic", carom.ElasticPlastic, yield_velocity=0.1)
+    calls.add("Metal", carom.Metal, flow_stress=4e8)
     solid = {"modulus_ratio": 1.5, "relaxation_time": 1e-5}
     calls.add("StandardLinearSolid", carom.StandardLinearSolid, **solid)
     basis = {"speed": 2.0, "angle": [0.1, 0.5], "contact_beta": 0.3, "spin": 1.0}

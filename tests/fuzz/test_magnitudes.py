@@ -76,6 +76,7 @@ DIMENSIONS = {  # powers of length, time and mass
     **dict.fromkeys(("loss_time", "relaxation_time", "duration"), (0, 1, 0)),
     **dict.fromkeys(("first.radius", "max_penetration", "max_radius"), (1, 0, 0)),
     **dict.fromkeys(("first.material.young", "second.material.young", "max_pressure"), (-1, -2, 1)),
+    "flow_stress": (-1, -2, 1),
     "first.material.density": (-3, 0, 1),
     "max_force": (1, -2, 1),
     **dict.fromkeys(("lost_energy", "shear_lost_energy"), (2, -2, 1)),
@@ -85,6 +86,7 @@ LOSSES = {
     "restitution": {"restitution": 0.8},
     "loss_time": {"loss_time": 1e-6},
     "yield_velocity": {"yield_velocity": 0.1},
+    "flow_stress": {"flow_stress": 4e8},
     "relaxation_time": {"relaxation_time": 1e-5, "modulus_ratio": 1.5},
 }
 

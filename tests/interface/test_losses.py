@@ -146,6 +146,8 @@ def test_plastic_law_refuses(value: object) -> None:
 
 def test_plastic_law_wants_a_yield_strength() -> None:
     refused("yield_velocity: missing", hit, carom.ElasticPlastic(), pair=GLASS)
+    refused("flow_stress: missing", hit, carom.Metal(), pair=GLASS)
+    refused(r"flow_stress: 20000000000.0 cannot be used; a metal bears", hit, carom.Metal("20 GPa"))
     assert hit(carom.ElasticPlastic("0.5 m/s"), pair=GLASS).normal_restitution < 1.0
 
 
@@ -219,6 +221,13 @@ def test_validity_says_what_is_assumed_of_losses() -> None:
         assert by_name["V_1/V_y"].value == pytest.approx(ratio)
         assert words in by_name["V_1/V_y"].verdict
         assert by_name["V_1/V_y"].holds is None
+    slow = yield_velocity(STEEL)
+    for ratio, words in ((5.0, "off by up to 0.07"), (301.0, "not studied above 300")):
+        by_name = {f.name: f for f in hit(carom.Metal(), ratio * slow).validity.findings}
+        assert by_name["V_1/V_y"].value == pytest.approx(ratio)
+        assert words in by_name["V_1/V_y"].verdict
+        assert "lower by up to 0.12" in by_name["V_1/V_y"].verdict
+        assert by_name["V_1/V_y"].holds is None
     assert "e" not in {f.name for f in hit(None).validity.findings}
 
 
@@ -244,6 +253,7 @@ LOSSES = {
     "Kelvin-Voigt": carom.KelvinVoigt(restitution=0.8),
     "loss time": carom.KelvinVoigt(loss_time="2 us"),
     "yielding": carom.ElasticPlastic(yield_velocity="0.1 m/s"),
+    "metal": carom.Metal("300 MPa"),
     "relaxing": carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="20 us"),
 }
 NOT_TITLES = ("elastic, normal", "elastic, tangential")  # energies that are stored

@@ -85,8 +85,9 @@ def impacts(rng):
 
 
 def marched(rng):
-    for loss, low in ((Loss.PLASTIC, 0.2), (Loss.RELAXING, 0.05)):
-        parameter, extra = rng.uniform(low, 1.0, 6), rng.uniform(0.1, 4.0, 6)
+    for loss, low in ((Loss.PLASTIC, 0.2), (Loss.RELAXING, 0.05), (Loss.METAL, 0.2)):
+        most = 0.01 if loss is Loss.METAL else 4.0
+        parameter, extra = rng.uniform(low, 1.0, 6), rng.uniform(0.025 * most, most, 6)
         psi, chi = rng.uniform(-6.0, 6.0, 6), rng.uniform(0.3, 2.5, 6)
         lossy_rebounds(psi, chi, LossNumbers(loss, parameter, extra), 1)
         solution = solve_lossy(1.3, 1.44, LossNumbers(loss, parameter[0], extra[0]))

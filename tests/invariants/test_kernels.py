@@ -24,7 +24,7 @@ from carom.dimensionless.strength import cracking
 IMPACTS = [(0.5, 1.44), (1.5, 1.44), (3.5, 1.44), (0.3, 1.75), (0.5, 4.0), (0.2, 0.3), (0.5, 40.0)]
 VISCOUS = [(0.4, 1.44, 0.1), (3.5, 1.44, 0.4), (-6.0, 1.0, 0.2), (2.0, 4.5, 0.2115)]
 MARCHED = [(1.0, 1.7, (Loss.PLASTIC, 0.3)), (-2.5, 0.8, (Loss.PLASTIC, 0.8))]
-MARCHED += [(1.3, 1.4, (Loss.RELAXING, 0.5, 2.0))]
+MARCHED += [(1.3, 1.4, (Loss.RELAXING, 0.5, 2.0)), (1.0, 1.7, (Loss.METAL, 0.3, 0.0, 0.004))]
 SPRINGS = 24  # of marched impacts, few as Python is slow
 TWO = carom.Pair(BALL, carom.Sphere(radius="3 mm", material="steel"), friction=0.2)
 LAWS = [

@@ -35,10 +35,12 @@ MANY = {
     "hardly viscous": LossNumbers(Loss.VISCOUS, 0.05),
     "yields late": LossNumbers(Loss.PLASTIC, 0.8),
     "yields early": LossNumbers(Loss.PLASTIC, 0.4),
+    "metal": LossNumbers(Loss.METAL, 0.4, 0.005),
     "relaxes fast": LossNumbers(Loss.RELAXING, 0.1, 2.0),
     "relaxes slowly": LossNumbers(Loss.RELAXING, 3.0, 0.7),
 }
-CLOSE = {Loss.VISCOUS: PROMISED, Loss.PLASTIC: 1e-5, Loss.RELAXING: 1e-6}
+CLOSE = {Loss.VISCOUS: PROMISED, Loss.PLASTIC: 1e-5, Loss.METAL: 1e-5, Loss.RELAXING: 1e-6}
+EXTRA = {law: 0.005 if law is Loss.METAL else 1.0 for law in LAWS}
 
 
 def impacts(seed: int, count: int) -> tuple[Array, Array, Array]:
@@ -258,7 +260,7 @@ def test_ledgers_where_rings_end(psi: float, chi: float, e: float) -> None:
 def test_whatever_is_faster_slides(law: Loss, psi: float) -> None:
     """f = mu p all the time, which takes psi_1 - psi_2 = 2 chi (1 + e), and friction the energy."""
     for chi in (0.3, 1000.0):
-        s = solve_lossy(psi, chi, LossNumbers(law, 0.3, 1.0))
+        s = solve_lossy(psi, chi, LossNumbers(law, 0.3, EXTRA[law]))
         h, mirror = s.history(2001), np.sign(psi)
         sliding = 2.0 / 3.0 * h.normal_force
         assert [(phase.kind, phase.sign) for phase in s.phases] == [("gross slip", mirror)]
@@ -369,7 +371,8 @@ def test_bad_input_is_told_and_takes_no_time() -> None:
     for status, cases in [*wrong.items(), (None, extreme)]:
         for (psi, chi, parameter), law in product(cases, LAWS):
             begun = time.process_time()
-            rebounds = lossy_rebounds(*np.array([[psi], [chi]]), LossNumbers(law, parameter, 1.0))
+            losses = LossNumbers(law, parameter, EXTRA[law])
+            rebounds = lossy_rebounds(*np.array([[psi], [chi]]), losses)
             assert time.process_time() - begun < 10.0
             assert status is None or rebounds.status[0] == status
             rest = np.array([column[0] for column in rebounds[:-1]])
@@ -380,7 +383,7 @@ def test_bad_input_is_told_and_takes_no_time() -> None:
 def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
     psi = np.append(np.linspace(0.01, 8.0, 9), [20.0, 100.0, 1000.0])
     for law in LAWS:
-        rebounds = lossy_rebounds(psi, np.full(12, chi), LossNumbers(law, 0.2, 1.0))
+        rebounds = lossy_rebounds(psi, np.full(12, chi), LossNumbers(law, 0.2, EXTRA[law]))
         assert np.all(rebounds.status == Status.SOLVED)
         assert np.all(np.abs(rebounds.psi_out) < psi)
 
@@ -389,13 +392,14 @@ def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
 def test_friction_takes_energy_however_slow_or_fast_the_slip(law: Loss) -> None:
     """psi_1 from 1e-30 to 1e6: what shear leaves of the tangential energy that is lost."""
     rng = np.random.default_rng(44)
-    count = {Loss.VISCOUS: 300, Loss.PLASTIC: 90, Loss.RELAXING: 30, Loss.PLATE: 30}[law]
+    count = {Loss.VISCOUS: 300, Loss.PLASTIC: 90}.get(law, 30)
     psi = 10.0 ** rng.uniform(-30.0, 6.0, count)
     psi[::3] = 10.0 ** rng.uniform(-5.0, -3.0, psi[::3].size)
     chi = rng.choice([0.3, 0.5, 1.44, 4.0, 7.0], count)
     parameter, extra = 10.0 ** rng.uniform(-3.0, 1.0, count), np.zeros(count)
-    if law is Loss.PLASTIC:
+    if law in (Loss.PLASTIC, Loss.METAL):
         parameter = 1.0 - 10.0 ** rng.uniform(-4.9, 0.0, count)
+        extra += EXTRA[law]
     if law is Loss.PLATE:
         parameter = rng.uniform(1e-3, 2.0, count)
     if law is Loss.RELAXING:
@@ -414,7 +418,8 @@ def test_slow_slip_is_linear(law: Loss) -> None:
     psi = np.array([1e-100, 1e-30, 1e-9, 1e-7])
     for chi in (0.3, 1.44, 5.0):
         parameter = 0.4 if law is Loss.PLASTIC else 0.3
-        rebounds = lossy_rebounds(psi, np.full(4, chi), LossNumbers(law, parameter, 0.5))
+        losses = LossNumbers(law, parameter, 0.5 * EXTRA[law])
+        rebounds = lossy_rebounds(psi, np.full(4, chi), losses)
         assert rebounds.psi_out / psi == pytest.approx(rebounds.psi_out[-1] / psi[-1], abs=2e-7)
         shares = rebounds.shear_lost / psi**2
         assert shares == pytest.approx(shares[-1], abs=3e-4)  # marched ones: energies to 1e-4

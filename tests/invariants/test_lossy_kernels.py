@@ -16,6 +16,7 @@ IMPACTS = (
     *((0.4, 1.44, (Loss.VISCOUS, 0.1, 0.0)), (3.5, 1.44, (Loss.VISCOUS, 0.4, 0.0))),
     *((-6.0, 1.0, (Loss.VISCOUS, 0.2, 0.0)), (1.0, 1.7, (Loss.PLASTIC, 0.3, 0.0))),
     *((-2.5, 0.8, (Loss.PLASTIC, 0.8, 0.0)), (1.3, 1.4, (Loss.RELAXING, 0.5, 2.0))),
+    (1.0, 1.7, (Loss.METAL, 0.3, 0.004)),
 )
 
 

@@ -1,4 +1,4 @@
-"""What holds for impacts marched over springs: yielding spheres, and standard linear solids."""
+"""What holds for impacts marched over springs: spheres that yield, and standard linear solids."""
 
 import numpy as np
 import pytest
@@ -57,7 +57,7 @@ def test_ledgers_close_along_the_history(law, psi):
     assert s.shear_lost == pytest.approx(h.shear_lost[-1], abs=scale)
     lost = h.dissipated[-1] + h.shear_lost[-1]
     assert abs(psi**2 - s.psi_out**2 - 2.0 * lost) < scale
-    if law.loss is Loss.PLASTIC:
+    if law.loss is not Loss.RELAXING:
         assert s.shear_lost == 0.0
 
 
@@ -83,7 +83,7 @@ def test_phases_are_told(law):
     """Stick from the touch below psi_1 = 1, slip to the end beyond what slides throughout."""
     kinds = {psi: [p.kind for p in solve_lossy(psi, 1.44, law).phases] for psi in (0.5, 9.0)}
     assert kinds[0.5][0] == "stick"
-    assert kinds[0.5][-1] == "gross slip"
+    assert kinds[0.5][-1] == "gross slip" or law.loss is Loss.METAL  # too short to be a phase
     assert set(kinds[9.0]) == {"gross slip"} or law.loss is Loss.PLASTIC
     assert kinds[9.0][0] == kinds[9.0][-1] == "gross slip"
 
@@ -135,7 +135,7 @@ def test_fields_obey_coulombs_law_and_bear_the_load(law):
         assert np.all(pressure >= 0.0)
 
 
-@pytest.mark.parametrize(("psi", "law"), list(zip((0.4, 2.0, 0.4, 2.0), MARCHED, strict=True)))
+@pytest.mark.parametrize(("psi", "law"), list(zip((0.4, 2.0, 1.0, 0.4, 2.0), MARCHED, strict=True)))
 def test_work_of_friction_is_what_the_ledger_says(law, psi):
     """Summed over the contact, from slip and traction; the ledger is that of energies."""
     s = solve_lossy(psi, 1.44, law)
@@ -168,8 +168,9 @@ def test_figures_and_wear_of_marched_impacts():
     assert np.all(np.abs(along.memory_q) <= along.memory_limit + rounding)
 
 
-def test_the_stress_below_a_yielded_contact_is_refused(pair):
-    hit = carom.impact(pair, normal_speed=1.0, losses=carom.ElasticPlastic("0.1 m/s"))
+@pytest.mark.parametrize("law", [carom.ElasticPlastic("0.1 m/s"), carom.Metal()], ids=str)
+def test_the_stress_below_a_yielded_contact_is_refused(pair, law):
+    hit = carom.impact(pair, normal_speed=1.0, losses=law)
     assert float(hit.fields(0.5 * hit.duration).pressure.max()) > 0.0
     for call in (lambda: hit.stress(0.5 * hit.duration), hit.peaks):
         with pytest.raises(carom.InputError, match="stress a yielded contact leaves below it"):

@@ -42,11 +42,13 @@ MOTION: dict[str, Callable[[str, Any], float]] = {
     "spin": finite,
     "spin2": finite,
 }
-LOSSES = ("restitution", "loss_time", "yield_velocity", "relaxation_time")  # one at most
+# What tells the loss, one at most.
+LOSSES = ("restitution", "loss_time", "yield_velocity", "flow_stress", "relaxation_time")
 RATIO = "modulus_ratio"  # goes with a relaxation time
 ONE_LOSS = "each of them sets the loss of energy"
 TWICE = "it is given twice in the material; leave one of them out"
-FROM_STRENGTH = "material"  # the yield velocity that the yield strengths give
+FROM_STRENGTH = "material"  # what the yield strengths give
+OF_STRENGTH = {"yield_velocity": "a speed, e.g. '0.1 m/s'", "flow_stress": "a stress, e.g. '1 GPa'"}
 SIZES: dict[str, Callable[[str, Any], float]] = {
     "radius": positive,
     "gyration_radius": positive,
@@ -185,6 +187,8 @@ def law_of(name: str, value: Any, ratio: Any = 1.0) -> "LossLaw":
         return losses.StandardLinearSolid(ratio, value)
     if name == "yield_velocity":
         return losses.ElasticPlastic(value)
+    if name == "flow_stress":
+        return losses.Metal(value)
     return losses.KelvinVoigt(**{name: value})
 
 
@@ -200,10 +204,10 @@ def read_loss(name: str, value: Any) -> float | None:
     if name == RATIO:
         law_of("relaxation_time", 0.0, value)
         return number(RATIO, value)
-    if name == "yield_velocity" and isinstance(value, str) and value.strip().isalpha():
+    if name in OF_STRENGTH and isinstance(value, str) and value.strip().isalpha():
         if value.strip() == FROM_STRENGTH:
             return None
-        allowed = f"give a speed, e.g. '0.1 m/s', or '{FROM_STRENGTH}' to use the yield strengths"
+        allowed = f"give {OF_STRENGTH[name]}, or '{FROM_STRENGTH}' to use the yield strengths"
         raise refusal(name, value, allowed)
     read = number(name, value)
     law_of(name, read)

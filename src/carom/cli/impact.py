@@ -81,6 +81,8 @@ OPTIONS = {
     "e.g. 1.5; needs --relaxation-time.",
     "yield_velocity": "Normal velocity above which a body yields, e.g. '0.1 m/s', or 'material' "
     "to compute it from the yield strengths of the materials.",
+    "flow_stress": "Yield strength of a metal that is struck beyond its yield, e.g. '1 GPa', or "
+    "'material' to take that of the materials; the pressure rises as it yields.",
     "method": "'exact' solves the theory; 'halfspace' solves the full contact in three dimensions "
     "by boundary elements, in two seconds, or fifteen for unlike materials.",
     "elements": whole_option(
@@ -124,6 +126,7 @@ def impact_command(
     relaxation_time: Text = None,
     modulus_ratio: Text = None,
     yield_velocity: Text = None,
+    flow_stress: Text = None,
     method: str = "exact",
     elements: Text = None,
     steps: Text = None,

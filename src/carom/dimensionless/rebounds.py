@@ -16,7 +16,7 @@ from carom.dimensionless.elastic.phases import Status, new_work, run_phases
 from carom.dimensionless.elastic.record import KIND, KIND_SIGN, Record, new_record
 from carom.dimensionless.lossy import law, layout
 from carom.dimensionless.lossy.law import Loss, LossNumbers, LossyRebounds, ScaleFreeLaw
-from carom.dimensionless.lossy.springs import march
+from carom.dimensionless.lossy.springs import march, metal
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic, record, work
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Matrix, Vector
@@ -128,6 +128,8 @@ def is_elastic(loss: int, parameter: Array, extra: Array) -> NDArray[np.bool_]:
         )
     if loss == Loss.PLASTIC:
         return np.asarray(parameter > 1.0 - NEARLY_YIELDING)
+    if loss == Loss.METAL:
+        return np.asarray(parameter * parameter * metal.FLATTENS >= 1.0)
     alpha = parameter * extra if loss == Loss.RELAXING else parameter
     return np.asarray((alpha >= 0.0) & (alpha < NEARLY_ELASTIC))
 

@@ -202,7 +202,8 @@ class Impact(ImpactResult, InContact):
         return peaks_dataset(self.pair, bodies, {"inputs": self.inputs()})
 
     def _refuse_stress(self) -> None:
-        if isinstance(self.solution, LossySolution) and self.solution._losses.loss == Loss.PLASTIC:
+        yields = (Loss.PLASTIC, Loss.METAL)
+        if isinstance(self.solution, LossySolution) and self.solution._losses.loss in yields:
             unknown = "what stress a yielded contact leaves below it is not known"
             cure = "take KelvinVoigt, or leave losses out"
             raise refusal("losses", self.losses, f"{unknown}; {cure}")

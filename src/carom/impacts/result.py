@@ -165,7 +165,7 @@ class ImpactResult(Outcome, Result):
             and the corner frequencies in Hz, NaN where there is none, with a `comment` among the
             attributes that says why: without a tangential force, or where the normal spectrum falls
             without a minimum up to 6 over `duration`, as with a viscous e below 0.47. Errors are
-            below 1e-9 of the impulse of |F|; for `ElasticPlastic`, `StandardLinearSolid` and
+            below 1e-9 of the impulse of |F|; for metals, `StandardLinearSolid` and
             boundary elements they are those of the history, 1e-5 to 1e-3.
 
         Raises

@@ -79,7 +79,7 @@ def impact(
         Spin about the line of impact of the first body, less that of the second, in rad/s;
         positive is clockwise seen from the first body. The theory neglects it, and `validity` says
         how much it may change psi_2; boundary elements solve for it.
-    losses : KelvinVoigt, StandardLinearSolid or ElasticPlastic, optional
+    losses : KelvinVoigt, StandardLinearSolid, Metal or ElasticPlastic, optional
         How the impact loses energy besides friction; by default the bodies are elastic.
     method : "exact", "halfspace" or BoundaryElements
         "exact" solves the theory, in which slip is parallel to x and unlike materials do not

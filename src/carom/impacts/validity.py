@@ -33,6 +33,7 @@ FAST, YIELDED = 10.0, 0.05  # V_1/V_y up to which psi_2 is as close as this to r
 STIFF_SHELL, SOFT_SHELL = 0.01, 0.1  # dent of a shell over Hertz's depth: as a ball, as none
 SOLID_BALL = 0.4 * (1.0 + 1e-9)  # K^2/R^2
 NO_SOLID_BALL = "a ball with this radius of gyration is not solid"
+METAL_FAST, METAL_YIELDED = 300.0, 0.07  # the same for metals
 FULL = "the full contact in three dimensions"
 Assumption = Callable[[ImpactResult], Finding | None]
 
@@ -121,6 +122,8 @@ def judge_losses(
     losses: LossNumbers, restitution: float, chi: float, *, oblique: bool = True
 ) -> Finding:
     """Return the finding on losses: which solid is assumed, and how much that may be in psi_2."""
+    if losses.loss == Loss.METAL:
+        return _judge_metal(losses)
     if losses.loss != Loss.PLASTIC:
         if not oblique:
             words = "struck head-on, where what the solid loses in shear does not matter"
@@ -134,7 +137,18 @@ def judge_losses(
     studied = ratio <= FAST * (1.0 + 1e-9)
     error = f"psi_2 is {off}" if studied else f"the error was not studied above {FAST:g}"
     words = f"the yielded contact is modelled by springs that obey Coulomb's law; {error}"
-    return Finding("V_1/V_y", ratio, FAST, None, words)
+    soft = "its pressure stays at that of first yield; where it rises, as in Metal, e is higher"
+    return Finding("V_1/V_y", ratio, FAST, None, f"{words}; {soft} by up to 0.25")
+
+
+def _judge_metal(losses: LossNumbers) -> Finding:
+    """Return the finding on a metal: how far its laws differ, and what springs may do to psi_2."""
+    ratio = losses.parameter**-2.5
+    laws = "e of other laws of perfectly plastic metals is lower by up to 0.12 or higher by 0.07"
+    error = f"psi_2 is off by up to {METAL_YIELDED:g} as springs, not points, obey Coulomb's law"
+    if ratio > METAL_FAST * (1.0 + 1e-9):
+        error = f"the error of psi_2 was not studied above {METAL_FAST:g}"
+    return Finding("V_1/V_y", ratio, METAL_FAST, None, f"{laws}; {error}")
 
 
 def _others(loss: int, restitution: float, chi: float) -> str:

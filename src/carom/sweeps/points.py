@@ -127,7 +127,15 @@ OF_SOLVER = {
     Status.PLATE_GIVES_WAY: PointStatus.PLATE_GIVES_WAY,
 }
 FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
-POSITIVE = ("radius", "gyration_radius", "thickness", "young", "density", "yield_velocity")
+POSITIVE = (
+    "radius",
+    "gyration_radius",
+    "thickness",
+    "young",
+    "density",
+    "yield_velocity",
+    "flow_stress",
+)
 NOT_NEGATIVE = ("friction", "inner_radius", "loss_time", "relaxation_time")
 IN_RANGE: dict[str, Callable[[Any], Any]] = {
     **dict.fromkeys(POSITIVE, lambda values: values > 0.0),

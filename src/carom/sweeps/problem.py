@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.bodies import cases
-from carom.bodies.cases import FROM_STRENGTH
-from carom.bodies.losses import NO_YIELD_VELOCITY
+from carom.bodies.cases import FROM_STRENGTH, OF_STRENGTH as LAWS_OF_STRENGTH
+from carom.bodies.losses import NO_STRENGTH
 from carom.bodies.materials import JUDGED_BY, STRENGTHS
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.io.labels import attributes, flags
@@ -50,7 +50,7 @@ class Common:
     kinds: tuple[str, ...]  # of the second body
     inherits: bool  # whether the second body is made of what the first is
     loss: str | None  # the input that tells the losses of the normal motion
-    yields: bool  # whether the yield velocity is that of the yield strengths
+    yields: bool  # whether the yield strengths give the loss
     strengths: tuple[str, ...]  # on which the outputs depend
 
     def columns(self, inputs: Mapping[str, Any], kind: str) -> dict[str, Any]:
@@ -114,8 +114,9 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
         kinds = tuple(choice.label for choice in design._choices["second.kind"])
     inherits = second.get("material") is None and "second.material" not in names
     fixed = {name: value for name, value in _numbers(case) if not _replaced(name, names)}
-    yields = "yield_velocity" in losses and "yield_velocity" not in (*names, *fixed)
-    if yields:
+    yielding = set(losses) & set(LAWS_OF_STRENGTH)
+    yields = bool(yielding - {*names, *fixed})
+    if yields or "flow_stress" in yielding:  # which body yields is told by the strengths
         strengths = tuple(dict.fromkeys((YIELD, *strengths)))
     unneeded = {*STRENGTHS, *JUDGED_BY} - set(strengths)
     fixed = {name: value for name, value in fixed.items() if leaf(name) not in unneeded}
@@ -189,7 +190,7 @@ def _refuse_missing(whole: Common) -> None:
         missing = [name for name in needed if name not in columns]
         refuse(
             *(f"{name}: missing; give it in the case or in the design" for name in missing),
-            whole.yields and YIELD not in map(leaf, columns) and NO_YIELD_VELOCITY,
+            whole.yields and YIELD not in map(leaf, columns) and NO_STRENGTH.format(whole.loss),
         )
 
 
@@ -205,7 +206,7 @@ OUTPUTS = (
 )
 OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")
 # By what tells the losses: blocks are smaller by so much, as impacts cost more, and take seconds.
-COSTLIER = {None: 1, "yield_velocity": 50, "relaxation_time": 100}
+COSTLIER = {None: 1, "yield_velocity": 50, "flow_stress": 100, "relaxation_time": 100}
 VISCOUS_COST = 16
 STRESS_COST = 500  # where the largest stresses are wanted
 
@@ -285,7 +286,7 @@ class SweepProblem:
         at_rest = {name: value for name, value in AT_REST.items() if name not in names}
         numbers = jsonable({**at_rest, **self._common.fixed})
         if self._common.yields:
-            numbers["yield_velocity"] = FROM_STRENGTH
+            numbers[str(self._common.loss)] = FROM_STRENGTH
         numbers |= self._strengths()
         return {
             "case": dict(sorted(numbers.items())),

@@ -180,7 +180,7 @@ def wear_of_many(
         Coefficient of wear k in m^2/N of one body, as in `Impact.wear`.
     area : float or str, optional
         Area in m^2 over which the impacts are spread evenly; without it they all hit one spot.
-    losses : KelvinVoigt, StandardLinearSolid or ElasticPlastic, optional
+    losses : KelvinVoigt, StandardLinearSolid, Metal or ElasticPlastic, optional
         How the impacts lose energy besides friction.
     n : int
         Number of distances from the centre of the spot, from 2 to 100,000.

@@ -24,6 +24,7 @@ class Loss(IntEnum):
     PLASTIC = 2  # b at yield, (V_y/V_1)^(2/5)
     RELAXING = 3  # the relaxation time in units of d_max/V_1, and the extra modulus E_0/E - 1
     PLATE = 4  # lambda, how far a plate gives way (Zener 1941); 0 is an elastic impact
+    METAL = 5  # b at yield, as for PLASTIC, and the yield strength over the plane modulus
 
 
 class LossNumbers(NamedTuple):
@@ -72,7 +73,7 @@ def checked_law(losses: Law) -> Law:
 def named(numbers: Array, loss: int, status: Any) -> LossyRebounds:
     """Return what impacts come to, from their numbers along a last axis.
 
-    The pressure is Hertz's at the largest force, of a yielded sphere on its true radius.
+    The pressure is that at the largest force.
     """
     force, radius = numbers[..., layout.STRONGEST], numbers[..., layout.WIDEST]
     return LossyRebounds(
@@ -82,10 +83,20 @@ def named(numbers: Array, loss: int, status: Any) -> LossyRebounds:
         max_penetration=numbers[..., layout.DEEPEST],
         max_force=force,
         max_radius=radius,
-        max_pressure=force / radius**2 if loss == Loss.PLASTIC else np.cbrt(force),
+        max_pressure=_largest_pressure(loss, force, radius),
         shear_lost=numbers[..., layout.SHEAR_LOST],
         status=status,
     )
+
+
+def _largest_pressure(loss: int, force: Array, radius: Array) -> Array:
+    """Return Hertz's, of a yielded sphere on its true radius, of a metal cut where it yields."""
+    if loss == Loss.PLASTIC:
+        return np.asarray(force / radius**2)
+    if loss == Loss.METAL:
+        share = np.minimum(force / radius**3, 1.0)
+        return np.asarray(2.0 * radius * np.sin(np.arcsin(share) / 3.0))
+    return np.asarray(np.cbrt(force))
 
 
 @kernel

@@ -5,10 +5,10 @@
 
 vectors of two components where the inertia has a direction across, f that of springs in shear,
 whose Coulomb limit is what they bear in compression. The solid says what that is and what load it
-makes: hertz, thornton and relaxing; a new one is a file beside them, its place in SOLIDS, and a
-line in `press`, in `stored` and, if it changes where the bodies turn, in `turn`. Springs are laid
-at the edge as it grows, every second step. Of second order in the number of springs; what comes of
-two numbers of springs is extrapolated.
+makes: hertz, thornton, metal and relaxing; a new one is a file beside them, its place in SOLIDS,
+and a line in `press`, in `stored` and, if it changes where the bodies turn, in `turn`. Springs are
+laid at the edge as it grows, every second step. Of second order in the number of springs; what
+comes of two numbers of springs is extrapolated.
 """
 
 from typing import NamedTuple
@@ -18,12 +18,19 @@ import numpy as np
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.law import LARGEST_PSI, Loss, keep_energy, why_not
-from carom.dimensionless.lossy.springs import hertz, motion as at, relaxing, springs as of, thornton
+from carom.dimensionless.lossy.springs import (
+    hertz,
+    metal,
+    motion as at,
+    relaxing,
+    springs as of,
+    thornton,
+)
 from carom.dimensionless.lossy.springs.motion import Inertia, Solid
 from carom.dimensionless.numerics.arrays import Array, Codes, Cube, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
-SOLIDS = {Loss.PLATE: hertz, Loss.PLASTIC: thornton, Loss.RELAXING: relaxing}
+SOLIDS = {Loss.PLATE: hertz, Loss.PLASTIC: thornton, Loss.RELAXING: relaxing, Loss.METAL: metal}
 
 MOST_SPRINGS = 500
 SPARE_SPRINGS = 40
@@ -144,6 +151,9 @@ def press(solid: Solid, now: Array, new: Array, turned: Array, springs: Array, l
         return int(thornton.press(solid.parameter, now, new, turned, springs, laid))
     if solid.loss == Loss.RELAXING.value:
         return int(relaxing.press(solid.extra, solid.parameter, now, new, springs, laid))
+    if solid.loss == Loss.METAL.value:
+        y, strain = solid.parameter, solid.strain
+        return int(metal.press(y, strain, now, new, turned, springs, laid))
     if solid.loss == Loss.PLATE.value:
         return int(hertz.press(solid.parameter, now, new, springs, laid))
     return UNKNOWN
@@ -154,6 +164,8 @@ def turn(solid: Solid, now: Array, springs: Array, touching: int, state: Array) 
     """Change what changes where the bodies turn."""
     if solid.loss == Loss.PLASTIC.value:
         thornton.turn(now, springs, touching, state)
+    elif solid.loss == Loss.METAL.value:
+        metal.turn(now, springs, touching)
     elif solid.loss == Loss.PLATE.value:
         hertz.turn(solid.parameter, now)
 
@@ -163,6 +175,8 @@ def stored(solid: Solid, now: Array, springs: Array, touching: int) -> float:
     """Return the energy in compression, of m_n V_1^2/2."""
     if solid.loss == Loss.RELAXING.value:
         return float(relaxing.stored(solid.extra, now[at.EDGE], springs, touching))
+    if solid.loss == Loss.METAL.value:
+        return float(metal.stored(now[at.EDGE], springs, touching))
     if solid.loss == Loss.PLATE.value:
         return float(hertz.stored(now[at.DEPTH]))
     if solid.loss == Loss.PLASTIC.value:
@@ -335,7 +349,7 @@ def fill(
     """Write what every impact comes to, and its status."""
     for i in range(psi_1.size):
         inertia = Inertia(chi[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        solid = Solid(loss, parameter[i], extra[i] if loss == Loss.RELAXING.value else 0.0)
+        solid = at.made_of(loss, parameter[i], extra[i])
         status[i], _ = run(psi_1[i], inertia, solid, work, numbers[i])
 
 

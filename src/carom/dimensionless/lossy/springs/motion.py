@@ -46,10 +46,19 @@ class Solid(NamedTuple):
 
     loss: int
     parameter: float
-    extra: float = 0.0
+    extra: float = 0.0  # by which springs relax, in shear as in compression
+    strain: float = 0.0  # of a metal at yield
 
 
-ELASTIC = Solid(Loss.PLATE.value, 0.0, 0.0)
+ELASTIC = Solid(Loss.PLATE.value, 0.0)
+
+
+@kernel
+def made_of(loss: int, parameter: float, extra: float) -> Solid:
+    """Return a solid from its loss and both numbers; of most kinds the second means nothing."""
+    if loss == Loss.METAL.value:
+        return Solid(loss, parameter, 0.0, extra)
+    return Solid(loss, parameter, extra if loss == Loss.RELAXING.value else 0.0, 0.0)
 
 
 @kernel

@@ -28,17 +28,7 @@ def press(g: float, theta: float, now: Array, new: Array, springs: Array, laid: 
         bear(g, theta, now, new, springs, laid)
         return laid
     bear(g, theta, now, new, springs, laid + 1)
-    count = 0
-    while count < laid and springs[of.NEXT, count] > 0.0:
-        count += 1
-    if count > 0:
-        inner, outer = count - 1, count
-        part = springs[of.NEXT, inner] / (springs[of.NEXT, inner] - springs[of.NEXT, outer])
-        new[EDGE] = np.sqrt(
-            springs[of.S, inner] + part * (springs[of.S, outer] - springs[of.S, inner])
-        )
-        new[LOAD] = 1.5 * of.integral(springs, of.NEXT, count, new[EDGE])
-    return count
+    return int(of.recede(springs, laid, new))
 
 
 @kernel

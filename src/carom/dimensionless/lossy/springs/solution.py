@@ -17,10 +17,10 @@ from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import TERMS, Profile, stacked
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import LARGEST_PSI, Loss, LossNumbers
+from carom.dimensionless.lossy.law import LARGEST_PSI, LossNumbers
 from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_of
 from carom.dimensionless.lossy.springs import march
-from carom.dimensionless.lossy.springs.motion import Inertia, Solid
+from carom.dimensionless.lossy.springs.motion import Inertia, Solid, made_of
 from carom.dimensionless.lossy.springs.springs import X
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import ContactState, Phase
@@ -213,9 +213,8 @@ class MarchedSolution(LossySolution):
 
 
 def solid_of(losses: LossNumbers) -> Solid:
-    """Return what the contact is of; a yielding sphere is elastic in shear."""
-    extra = losses.extra if losses.loss == Loss.RELAXING else 0.0
-    return Solid(int(losses.loss), float(losses.parameter), float(extra))
+    """Return what the contact is of."""
+    return made_of(int(losses.loss), float(losses.parameter), float(losses.extra))
 
 
 def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSolution:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.dimensionless.lossy.springs.motion import EDGE, LOAD
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -86,6 +87,20 @@ def integral(springs: Array, row: int, count: int, edge: float) -> float:
     for j in range(whole, count):
         total += springs[WEIGHT, j] * springs[row, j]
     return float((total + one) + (two + three))
+
+
+@kernel
+def recede(springs: Array, laid: int, new: Array) -> int:
+    """Fill in the edge, where springs bear nothing, and the load; return how many touch."""
+    count = 0
+    while count < laid and springs[NEXT, count] > 0.0:
+        count += 1
+    if count > 0:
+        inner, outer = count - 1, count
+        part = springs[NEXT, inner] / (springs[NEXT, inner] - springs[NEXT, outer])
+        new[EDGE] = np.sqrt(springs[S, inner] + part * (springs[S, outer] - springs[S, inner]))
+        new[LOAD] = 1.5 * integral(springs, NEXT, count, new[EDGE])
+    return count
 
 
 @kernel

@@ -50,12 +50,18 @@ def bear(y: float, now: Array, new: Array, shrunk: float, springs: Array, count:
         w = new[at.DEPTH] - springs[of.S, j]
         if shrunk > 0.0:
             springs[of.NEXT, j] = (new[at.EDGE] ** 2 - springs[of.S, j]) * shrunk
-        elif w <= y * y:
-            springs[of.NEXT, j] = w
         else:
-            slope = np.arcsin(y / np.sqrt(w)) * 2.0 / np.pi
-            springs[of.NEXT, j] = 2.0 / np.pi * y * np.sqrt(w - y * y) + w * slope
+            springs[of.NEXT, j], slope = capped(y, w)
             springs[of.SOFTER, j] = 1.0 - slope
+
+
+@kernel
+def capped(y: float, w: float) -> tuple[float, float]:
+    """Return Abel's transform of Hertz's pressure, cut at that of the radius y, and its slope."""
+    if w <= y * y:
+        return w, 1.0
+    slope = np.arcsin(y / np.sqrt(w)) * 2.0 / np.pi
+    return 2.0 / np.pi * y * np.sqrt(w - y * y) + w * slope, slope
 
 
 @kernel
