@@ -330,7 +330,7 @@ class ZenerPlate(LossLaw):
         d'' = -(5/4) (d^(3/2) + (3/2) lambda sqrt(d) d'), lambda_Z = (5/4)^(2/5) lambda
 
     The bodies lose nothing; waves in the plate carry energy away, and e is close to
-    exp(-1.719 lambda_Z) while that is near 1. For a plate of which the thickness is known use
+    exp(-1.730 lambda_Z) while that is near 1. For a plate of which the thickness is known use
     `HalfSpace(material, thickness=...)`: its lambda grows as V_1^(1/5).
 
     Parameters

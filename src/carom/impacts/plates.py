@@ -14,6 +14,7 @@ from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal, refuse
 
 LONG_WAVE = 6.0  # thicknesses in a bending wave of twice the contact time, for thin plates
+SHEARING = 6.8  # over the square of that ratio: what shorter waves add to 1 - e (theory, page 11)
 ECHO = 2.0  # thicknesses that a compressional wave runs until its echo is back
 SMALL_CONTACT = 0.1  # a_max/h: what the other face and the moment of friction change
 SMALL_DEFLECTION = 0.2  # of h, up to which a plate bends without stretching
@@ -26,12 +27,15 @@ def bending(hit: ImpactResult) -> Finding | None:
     plate, thickness = cast(HalfSpace, hit.pair.second), hit.pair.thickness
     name, ratio = "bending wave/h", 2.0 * _half_wave(plate, hit.duration) / thickness
     if hit.duration < ECHO * thickness / compressional_speed(plate.material):
-        thick = "the contact ends before an echo is back: the wall is thick; leave thickness out"
+        thick = "no echo is back when the contact ends: the wall is thick; leave thickness out"
         return Finding(name, ratio, LONG_WAVE, False, thick)
     if ratio < LONG_WAVE:
         between = "not judged: the plate is neither thin nor a thick wall; 1 - e is an estimate"
         return Finding(name, ratio, LONG_WAVE, None, between)
-    return Finding(name, ratio, LONG_WAVE, True, "the plate is thin enough to bend as a whole")
+    more = (
+        f"1 - e is larger by some {100.0 * SHEARING / ratio**2:.0f} % of itself, as it also shears"
+    )
+    return Finding(name, ratio, LONG_WAVE, True, f"the plate is thin enough to bend; {more}")
 
 
 def small_on_plate(hit: ImpactResult) -> Finding | None:
