@@ -19,7 +19,7 @@ from carom.dimensionless.lossy.law import Loss, LossNumbers, LossyRebounds, Scal
 from carom.dimensionless.lossy.springs import march, metal
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic, record, work
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Matrix, Vector
+from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 from carom.quantities.arrays import along_the_same, pure_numbers, together
@@ -70,6 +70,7 @@ def code_of_phases(record: Record) -> int:
 def fill(
     psi_1: Vector,
     chi: Vector,
+    give: Vector,
     work: Work,
     record: Record,
     psi_2: Vector,
@@ -79,42 +80,25 @@ def fill(
     """Write psi_2, the status and the sequence of phases of every impact."""
     for i in range(psi_1.size):
         record.counts[:] = 0
-        psi_2[i], status[i] = outgoing(psi_1[i], chi[i], 0.0, work, record)
+        psi_2[i], status[i] = outgoing(psi_1[i], chi[i], give[i], work, record)
         sequence[i] = code_of_phases(record)
 
 
-@entry_point()
-def fill_plates(
-    psi_1: Vector,
-    chi: Vector,
-    give: Vector,
-    work: Work,
-    record: Record,
-    numbers: Matrix,
-    status: Codes,
-) -> None:
-    """Write what every impact on a plate comes to, and its status."""
-    for i in range(psi_1.size):
-        record.counts[:] = 0
-        out = numbers[i]
-        out[:] = 0.0
-        out[layout.PSI_OUT], status[i] = outgoing(psi_1[i], chi[i], give[i], work, record)
-        e, duration, deepest = plates.normal_motion(give[i], STEP_TOLERANCE, work)
-        out[layout.RESTITUTION], out[layout.LOST], out[layout.TIME] = e, 1.0 - e * e, duration
-        out[layout.DEEPEST], out[layout.WIDEST] = deepest, np.sqrt(deepest)
-        out[layout.STRONGEST] = deepest * np.sqrt(deepest)
-
-
 def solved(
-    psi_1: Array, chi: Array, threads: int | None = None
+    psi_1: Array, chi: Array, threads: int | None = None, give: Array | float = 0.0
 ) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
-    """Return psi_2, `Status` and a number for the sequence of phases of impacts, in threads."""
+    """Return psi_2, `Status` and a number for the sequence of phases of impacts, in threads.
+
+    `give` is lambda of a plate.
+    """
+    gives = np.broadcast_to(np.asarray(give, dtype=np.float64), psi_1.shape).copy()
     psi_2, status = np.empty(psi_1.size), np.empty(psi_1.size, dtype=np.int8)
     sequence = np.empty(psi_1.size, dtype=np.int64)
 
     def block(part: slice) -> None:
         results = psi_2[part], status[part], sequence[part]
-        fill(psi_1[part], chi[part], new_work(), new_record(False), *results)
+        arguments = psi_1[part], chi[part], gives[part]
+        fill(*arguments, new_work(), new_record(False), *results)
 
     in_blocks(block, psi_1.size, BLOCK, SMALLEST_BLOCK, threads)
     return psi_2, status, sequence
@@ -159,7 +143,10 @@ def lossy_rebounds(
         psis, chis, parameters, extras = (column[part] for column in columns)
         out = rows[part], codes[part]
         if losses.loss == Loss.PLATE:
-            fill_plates(psis, chis, parameters, new_work(), new_record(False), *out)
+            psi_2, codes[part], _ = solved(psis, chis, 1, parameters)
+            gives = np.where(codes[part] == Status.SOLVED, parameters, 0.0)
+            plates.fill_motion(gives, STEP_TOLERANCE, new_work(), rows[part])
+            rows[part, layout.PSI_OUT], rows[part, layout.SHEAR_LOST] = psi_2, 0.0
         elif losses.loss == Loss.VISCOUS:
             arrays = tolerance, work.new_work(), record.new_record(False)
             viscoelastic.fill(psis, chis, parameters, *arrays, *out)

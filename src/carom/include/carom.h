@@ -34,12 +34,18 @@ enum carom_status {
     CAROM_PSI_NOT_FINITE = 1,
     CAROM_CHI_NOT_POSITIVE = 2,
     CAROM_TOO_MANY_PHASES = 3,
-    CAROM_UNRESOLVED = 4
+    CAROM_UNRESOLVED = 4,
+    CAROM_PLATE_GIVES_WAY = 5
 };
 
 /* psi_2 of n impacts without losses; NaN where the status is not 0. */
 CAROM_API int carom_rebound(
     size_t n, const double *psi, const double *chi, double *psi_out, int8_t *status);
+
+/* The same on plates that give way by lambda = m_n V_1/(8 sqrt(D rho h) d_max), from 0 to 2. */
+CAROM_API int carom_rebound_on_plate(
+    size_t n, const double *psi, const double *chi, const double *lambda,
+    double *psi_out, int8_t *status);
 
 /* psi_2 and normal restitution of n impacts of Kelvin-Voigt solids, viscous in compression and in
  * shear alike; alpha = tau V_1/d_max, with the retardation time tau, the normal speed V_1 and the

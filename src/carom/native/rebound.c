@@ -65,8 +65,9 @@ static int add_scratch(carom_block *block, const carom_array *arrays, size_t cou
     return 0;
 }
 
-CAROM_API int carom_rebound(
-    size_t n, const double *psi, const double *chi, double *psi_out, int8_t *status)
+CAROM_API int carom_rebound_on_plate(
+    size_t n, const double *psi, const double *chi, const double *lambda,
+    double *psi_out, int8_t *status)
 {
     carom_block block = {.count = 0};
     int64_t *sequence = malloc((n ? n : 1) * sizeof *sequence);
@@ -74,6 +75,7 @@ CAROM_API int carom_rebound(
     if (!failed) {
         add_vector(&block, psi, n);
         add_vector(&block, chi, n);
+        add_vector(&block, lambda, n);
         failed = add_scratch(&block, elastic_scratch, sizeof elastic_scratch / sizeof *elastic_scratch);
     }
     if (!failed) {
@@ -84,6 +86,15 @@ CAROM_API int carom_rebound(
     }
     free(block.room);
     free(sequence);
+    return failed ? -1 : 0;
+}
+
+CAROM_API int carom_rebound(
+    size_t n, const double *psi, const double *chi, double *psi_out, int8_t *status)
+{
+    double *thick = calloc(n ? n : 1, sizeof *thick);
+    int failed = thick == NULL || carom_rebound_on_plate(n, psi, chi, thick, psi_out, status);
+    free(thick);
     return failed ? -1 : 0;
 }
 

@@ -77,7 +77,7 @@ def move(s: Series, h: float) -> None:
 @kernel
 def choose_clock(s: Series, mode: int, sign: int, starts: bool) -> int:
     """Return the clock that runs faster at the state in row 0."""
-    if mode == at.STICK or mode == at.SLIDE or starts:
+    if mode == at.STICK or starts:
         return at.START if starts else at.CONTACT
     n = s[0, at.B] * (sign * s[0, at.PSI] - s[0, at.V])
     d = 2.0 * s[0, at.A] if mode == at.FLAT else s[0, at.A] * (s[0, at.V_A] - sign * s[0, at.PSI_A])

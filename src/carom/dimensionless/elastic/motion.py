@@ -41,7 +41,7 @@ SERIES_COLUMNS = 31
 STICK = 0  # the whole contact moves as one
 LAID = 1  # slip ring, its front retreating through memory laid in stick
 FLAT = 2  # slip ring, its front retreating through memory left by slip of the other sign
-SLIDE = 5  # gross slip on a plate, whose normal motion has no closed form
+SLIDE = 5  # gross slip on a plate, of `plates`
 
 # Clocks.
 CONTACT = 0
@@ -106,13 +106,6 @@ def stick_rates(s: Series, chi: float, k: int) -> None:
         b4 += s[j, BB] * s[k - j, BB]
         force += s[j, BB] * s[k - j, PSI]
     write_contact_rates(s, chi, b4, force, k)
-
-
-@kernel
-def slide_rates(s: Series, sign: int, chi: float, k: int) -> None:
-    """Extend the rates of a contact that slips as a whole to order k."""
-    multiply(s, B, B, BB, k)
-    write_contact_rates(s, chi, product(s, BB, BB, k), sign * product(s, BB, V, k), k)
 
 
 @kernel
@@ -200,15 +193,13 @@ def expand(s: Series, mode: int, clock: int, sign: int, chi: float, give: float)
     for k in range(ORDER):
         if mode == STICK:
             stick_rates(s, chi, k)
-        elif mode == SLIDE:
-            slide_rates(s, sign, chi, k)
-        else:
-            ring_rates(s, mode, sign, chi, k)
-        if give > 0.0:
-            give_way(s, mode, give, k)
-        if mode in (STICK, SLIDE):
+            if give > 0.0:
+                give_way(s, mode, give, k)
             advance(s, B, B_RATE, False, k)
             continue
+        ring_rates(s, mode, sign, chi, k)
+        if give > 0.0:
+            give_way(s, mode, give, k)
         if clock == FRONT:
             quotient(s, D, N, k)
             advance(s, B, B_RATE, True, k)

@@ -8,7 +8,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from carom.dimensionless.elastic import integration, memory, motion as at
+from carom.dimensionless.elastic import integration, memory, motion as at, plates
 from carom.dimensionless.elastic.integration import Run, Work
 from carom.dimensionless.elastic.motion import ORDER
 from carom.dimensionless.elastic.record import (
@@ -91,7 +91,6 @@ LARGEST_CHI = 1e5
 LARGEST_GIVE = 2.0  # lambda, beyond which weight and deflection decide: e is 0.013 there
 # A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
 TINY_RADIUS = 1e-6
-NO_BORDER = -1.0  # a front at the centre stays away from
 
 
 @kernel
@@ -162,7 +161,12 @@ def gross_slip(run: Run, sign: int) -> tuple[int, int]:
     s[0, at.A] = 0.0
     note_stretch(record, work.stack, 0)
     if run.give > 0.0:
-        return slide(run, sign)
+        event = plates.slide(run, sign)
+        if event == integration.SLIP_STOPS:
+            depth = memory.push_flat(work.stack, 0, s, sign, record.counts[0])
+            return Cause.SLIP_STOPS.value, depth
+        apart = event == integration.RING_CLOSES
+        return Cause.SEPARATION.value if apart else Cause.UNRESOLVED.value, 0
     note_node(record, GROSS, at.CONTACT, sign, 0.0, s)
     excess = sign * s[0, at.PSI] - s[0, at.V]
     fall = 2.0 * chi - 1.0  # of the excess, per fall in speed
@@ -176,21 +180,6 @@ def gross_slip(run: Run, sign: int) -> tuple[int, int]:
     s[0, at.PSI] = sign * s[0, at.V]
     s[0, at.Q] = sign * (2.0 / 3.0) * s[0, at.B] ** 3
     return Cause.SLIP_STOPS.value, memory.push_flat(work.stack, 0, s, sign, record.counts[0])
-
-
-@kernel
-def slide(run: Run, sign: int) -> tuple[int, int]:
-    """Run gross slip on a plate; return why it ends, and the depth."""
-    s = run.work.series
-    s[:, at.A : at.STATE_SIZE] = 0.0
-    event = integration.run_stretch(run, at.SLIDE, sign, NO_BORDER, False)
-    if event == integration.SLIP_STOPS:
-        depth = memory.push_flat(run.work.stack, 0, s, sign, run.record.counts[0])
-        return Cause.SLIP_STOPS.value, depth
-    if event == integration.RING_CLOSES:
-        s[0, at.B] = 0.0
-        return Cause.SEPARATION.value, 0
-    return Cause.UNRESOLVED.value, 0
 
 
 @entry_point()

@@ -11,7 +11,11 @@ import numpy as np
 from carom.dimensionless.elastic import motion as at
 from carom.dimensionless.elastic.integration import (
     MAX_STEPS,
+    NOTHING,
     RING_CLOSES,
+    SLIP_STOPS,
+    UNRESOLVED,
+    Run,
     Work,
     evaluate,
     first_closing,
@@ -19,24 +23,66 @@ from carom.dimensionless.elastic.integration import (
     reach,
     write_gap,
 )
-from carom.dimensionless.numerics.kernels import entry_point
+from carom.dimensionless.elastic.motion import Series
+from carom.dimensionless.elastic.record import is_full, note_node
+from carom.dimensionless.lossy import layout
+from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 
-@entry_point()
+@kernel
+def expand(s: Series, sign: int, chi: float, give: float) -> None:
+    """Expand the state in row 0 into Taylor series where the whole contact slips.
+
+    Apart from `motion.expand`, which would lose its speed by another place that calls it.
+    """
+    for k in range(at.ORDER):
+        s[k, at.BB] = at.product(s, at.B, at.B, k)
+        s[k, at.N] = s[k, at.BB] + 1.5 * give * s[k, at.V]
+        s[k + 1, at.B] = s[k, at.V] / (k + 1)
+        s[k + 1, at.PSI] = -7.5 * chi * at.product(s, at.B, at.Q, k) / (k + 1)
+        s[k + 1, at.Q] = 2.0 * sign * at.product(s, at.BB, at.V, k) / (k + 1)
+        s[k + 1, at.V] = -2.5 * at.product(s, at.BB, at.N, k) / (k + 1)
+
+
+@kernel
+def slide(run: Run, sign: int) -> int:
+    """Run gross slip to its end, or to that of the contact; return which of both it is."""
+    s, gap = run.work.series, run.work.gap
+    s[:, at.A : at.STATE_SIZE] = 0.0
+    for _ in range(MAX_STEPS):
+        if is_full(run.record):
+            break
+        expand(s, sign, run.chi, run.give)
+        event, h = NOTHING, reach(s, at.STICK, run.tolerance)
+        for each in (SLIP_STOPS, RING_CLOSES):
+            write_gap(s, at.SLIDE, sign, 0.0, each, gap)
+            closing = first_closing(gap, h)
+            if closing <= h:
+                event, h = each, closing
+        note_node(run.record, at.SLIDE, at.CONTACT, sign, h, s)
+        move(s, h)
+        if event == RING_CLOSES:
+            s[0, at.B] = 0.0
+        if event != NOTHING:
+            return event
+    return UNRESOLVED
+
+
+@kernel
 def normal_motion(give: float, tolerance: float, work: Work) -> tuple[float, float, float]:
     """Return the restitution, the duration and the largest penetration of an impact on a plate."""
     s, gap, duration, widest = work.series, work.gap, 0.0, 0.0
     s[:] = 0.0
     s[0, at.V] = 1.0
     for _ in range(MAX_STEPS):
-        at.expand(s, at.SLIDE, at.CONTACT, 0, 1.0, give)
+        expand(s, 0, 0.0, give)
         h = reach(s, at.STICK, tolerance)
         write_gap(s, at.SLIDE, 0, 0.0, RING_CLOSES, gap)
         closing = first_closing(gap, h)
         ends, h = closing <= h, min(closing, h)
         if s[0, at.V] > 0.0:
-            for k in range(at.ORDER + 1):
-                gap[k] = s[k, at.V]
+            write_gap(s, at.STICK, 0, 0.0, 0, gap)  # psi is zero: the speed alone
             turning = first_closing(gap, h)
             if turning <= h:
                 widest = evaluate(s[:, at.B], turning)
@@ -48,12 +94,23 @@ def normal_motion(give: float, tolerance: float, work: Work) -> tuple[float, flo
     return np.nan, np.nan, np.nan
 
 
-def centre_speed(give: float, penetration: np.ndarray, speed: np.ndarray) -> np.ndarray:
+@entry_point()
+def fill_motion(give: Vector, tolerance: float, work: Work, numbers: Matrix) -> None:
+    """Write what the normal motion of every impact comes to."""
+    for i in range(give.size):
+        out = numbers[i]
+        e, duration, deepest = normal_motion(give[i], tolerance, work)
+        out[layout.RESTITUTION], out[layout.LOST], out[layout.TIME] = e, 1.0 - e * e, duration
+        out[layout.DEEPEST], out[layout.WIDEST] = deepest, np.sqrt(deepest)
+        out[layout.STRONGEST] = deepest * np.sqrt(deepest)
+
+
+def centre_speed(give: float, penetration: Array, speed: Array) -> Array:
     """Return w, the speed of the sphere's centre in units of V_1."""
     return np.asarray(speed + 1.25 * give * penetration**1.5)
 
 
-def lost(give: float, penetration: np.ndarray, centre: np.ndarray) -> np.ndarray:
+def lost(give: float, penetration: Array, centre: Array) -> Array:
     """Return the energy that waves in the plate have carried away, of m_n V_1^2/2."""
     if give == 0.0:
         return np.zeros(np.shape(penetration))
