@@ -25,6 +25,7 @@ DOUBLES, CODES = (np.ctypeslib.ndpointer(kind, flags="C") for kind in (np.float6
 def functions():
     library = ctypes.CDLL(carom.get_library())
     library.carom_rebound.argtypes = [ctypes.c_size_t, DOUBLES, DOUBLES, DOUBLES, CODES]
+    library.carom_rebound_on_plate.argtypes = [ctypes.c_size_t, *[DOUBLES] * 4, CODES]
     library.carom_rebound_viscous.argtypes = [ctypes.c_size_t, *[DOUBLES] * 5, CODES]
     library.carom_status_message.restype = ctypes.c_char_p
     return library
@@ -49,6 +50,23 @@ def test_the_same_bits_as_in_python(functions):
     actual, status = rebound(functions, psi, chi)
     assert actual.tobytes() == expected.tobytes()
     assert np.array_equal(status, codes)
+
+
+def test_plates_are_those_of_python(functions):
+    psi, chi = impacts(3)
+    give, expected = np.linspace(0.0, 2.1, psi.size), np.empty(psi.size)
+    actual, status = np.zeros(psi.size), np.zeros(psi.size, np.int8)
+    assert functions.carom_rebound_on_plate(psi.size, psi, chi, give, actual, status) == 0
+    codes = np.zeros(psi.size, np.int8)
+    for i, each in enumerate(give):
+        plate = carom.ZenerPlate(inelasticity=min(each * 1.25**0.4, 2.18))
+        one = carom.rebound(psi[i], chi[i], losses=plate, return_status=True)
+        expected[i], codes[i] = one
+    solved = (status == 0) & (give < 1.99)
+    assert np.array_equal(status[give < 1.99], codes[give < 1.99])
+    assert np.count_nonzero(solved) > 400
+    assert actual[solved] == pytest.approx(expected[solved], abs=1e-12, rel=1e-12)
+    assert np.all(status[give > 2.0][np.isfinite(psi[give > 2.0])] == 5)
 
 
 def test_the_same_bits_with_losses(functions):

@@ -63,7 +63,13 @@ INNER = {  # what the parts of Carom say to each other
 }
 NEVER_REFUSE = {
     *("catalogue", "Entry", "names", "materials", "ThorntonLaw", "Lammps", "Liggghts", "Yade"),
-    *("Pair.contact_scales", "Pair.psi", "Pair.scales", "results.Solution.phase_at"),
+    *(
+        "Pair.contact_scales",
+        "Pair.plate_give",
+        "Pair.psi",
+        "Pair.scales",
+        "results.Solution.phase_at",
+    ),
     *("results.Solution.slip_angles", "verify.Tuning.best", "results.Fit.cite"),
     *("impacts.curves.borders", "plots.style.new_figure"),
 }

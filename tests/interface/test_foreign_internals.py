@@ -25,6 +25,7 @@ OWN = {  # private to Carom: what its files know of each other's classes, and us
     "dimensionless/lossy/law.py": {"_scale_free"},
     "impacts/exact.py": {"_loss", "_losses", "_source"},
     "impacts/outcome.py": {"_describe"},
+    "impacts/validity.py": {"_loss", "_strength"},
     "impacts/wear.py": {"_slip_borders"},
     "laws/exact.py": {"_hold", "_of", "_rule", "_scale_free", "_table"},
     "laws/header.py": {"_one_chi", "_rule"},

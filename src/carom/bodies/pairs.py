@@ -119,16 +119,6 @@ def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
     return all(abs(a - b) <= SAME_BODIES * abs(b) for a, b in values)
 
 
-def plate_give(pair: "Pair", scales: Scales) -> float:
-    """Return how far a plate gives way, lambda = m_n V_1/(8 sqrt(D rho h) d_max) (Zener 1941).
-
-    It is 0 for a thick wall.
-    """
-    wall = pair.second
-    impedance = wall.impedance if isinstance(wall, HalfSpace) else inf
-    return pair.normal_mass / (impedance * scales.time)
-
-
 def pair_fits(pair: "Pair") -> bool:
     """Return whether floating point holds masses and stiffnesses of two bodies together."""
     with suppress(OverflowError, ZeroDivisionError):
@@ -325,6 +315,29 @@ class Pair(Printed):
             energy=0.5 * self.normal_mass * normal_speed**2,
             tangential_speed=self.friction * normal_speed / self.kappa,
         )
+
+    def plate_give(self, normal_speed: float) -> float:
+        """Return how far a plate gives way, lambda = m_n V_1/(8 sqrt(D rho h) d_max) (Zener 1941).
+
+        Parameters
+        ----------
+        normal_speed : float
+            Normal speed V_1 in m/s, positive.
+
+        Returns
+        -------
+        float
+            lambda; 0 for a thick wall.
+
+        Examples
+        --------
+        >>> plate = carom.HalfSpace(material="steel", thickness="3 mm")
+        >>> round(carom.Pair(ball, plate, friction=0.2).plate_give(0.5), 3)
+        0.345
+        """
+        wall = self.second
+        impedance = wall.impedance if isinstance(wall, HalfSpace) else inf
+        return self.normal_mass / (impedance * self.scales(normal_speed).time)
 
     def psi(self, contact_velocity: float, normal_speed: float) -> float:
         """Return the dimensionless velocity kappa V_x/(mu V_1), infinite without friction.

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, Scales, plate_give
+from carom.bodies.pairs import Pair, Scales
 from carom.contacts.contact import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
@@ -250,7 +250,7 @@ def _solution(
     solution: Solution | LossySolution
     if pair.thickness is not None:
         refuse_thin(pair, scales, losses)
-        solution = solve_with(psi, pair.chi, LossNumbers(Loss.PLATE, plate_give(pair, scales)))
+        solution = solve_with(psi, pair.chi, LossNumbers(Loss.PLATE, pair.plate_give(scales.speed)))
     elif losses is None:
         solution = solve(psi, pair.chi)
     else:

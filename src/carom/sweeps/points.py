@@ -14,7 +14,7 @@ from carom.bodies.cases import RATIO, law_of
 from carom.bodies.kinematics import components
 from carom.bodies.losses import SMALLEST_RESTITUTION, STIFFEST, LossLaw
 from carom.bodies.materials import STRENGTHS, VALUES, Material, unchecked
-from carom.bodies.pairs import Counterbody, Pair, plate_give
+from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
@@ -206,7 +206,7 @@ def solve_block(outcome: Outcome, law: LossLaw | None, status: Codes, threads: i
     solution = cast(BlockSolution, outcome.solution)
     loss, *numbers = (None,) if law is None else law._loss(outcome.pair, outcome.scales)
     if outcome.pair.thickness is not None:
-        loss, *numbers = LossNumbers(Loss.PLATE, plate_give(outcome.pair, outcome.scales))
+        loss, *numbers = LossNumbers(Loss.PLATE, outcome.pair.plate_give(outcome.scales.speed))
     arguments = (outcome.psi_in, outcome.pair.chi, *numbers)
     psi, chi, *parameters = (np.broadcast_to(x, status.shape) for x in arguments)
     run = status == PointStatus.SOLVED
