@@ -196,3 +196,8 @@ def test_all_that_takes_a_pair_is_tried() -> None:
             if callable(value) and group != "carom.results" and not error:
                 taking |= {name} if "pair" in inspect.signature(value).parameters else set()
     assert taking - {"impact", "Bench"} == set(OTHERS)
+
+
+def test_what_to_cite() -> None:
+    assert "@article{zener1941," in carom.impact(PAIR, speed=0.5).cite()
+    assert "zener1941" not in carom.impact(carom.Pair(BALL, BALL, 0.2), speed=0.5).cite()

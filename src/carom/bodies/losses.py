@@ -13,7 +13,7 @@ from carom.bodies.pairs import Pair, Scales
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.springs.metal import YIELD_PRESSURE
 from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
-from carom.io.citations import VISCOUS
+from carom.io.citations import PLATE, VISCOUS
 from carom.quantities.arrays import numbers
 from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
@@ -355,7 +355,7 @@ class ZenerPlate(LossLaw):
     array([0.049481, 4.637839])
     """
 
-    _source: ClassVar[str] = "zener1941"
+    _source: ClassVar[str] = PLATE
     inelasticity: Any
 
     @known_keywords

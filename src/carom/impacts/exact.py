@@ -27,7 +27,7 @@ from carom.impacts.plates import refuse_thin
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import OF_THEORY, judge
 from carom.impacts.wear import wear_of
-from carom.io.citations import IMPACT, bibtex
+from carom.io.citations import IMPACT, PLATE, bibtex
 from carom.io.labels import Finding, Validity
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal
@@ -222,7 +222,8 @@ class Impact(ImpactResult, InContact):
         ['@software{carom,', '@article{barber1979,', '@article{maw1976,']
         """
         source = () if self.losses is None else (self.losses._source,)
-        return bibtex(*IMPACT, *source)
+        plate = () if self.pair.thickness is None else (PLATE,)
+        return bibtex(*IMPACT, *source, *plate)
 
     def _phase_columns(self) -> dict[str, list[float]]:
         return {} if isinstance(self.solution, LossySolution) else super()._phase_columns()

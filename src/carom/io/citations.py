@@ -13,6 +13,7 @@ ELEMENTS = ("carom", "kalker1990", "love1929")
 FITS = (*IMPACT, "newville2014")
 SAMPLES = ("foremanmackey2013",)
 VISCOUS = "kuwabara1987"
+PLATE = "zener1941"
 
 
 def bibtex(*keys: str) -> str:
