@@ -1,0 +1,94 @@
+r"""When the theory ends
+====================
+
+When the theory ends: which assumption holds at which speed, for three balls.
+
+Each row is an assumption of the elastic theory, as `hit.validity` judges it; that of the weight is
+the speed that gravity adds within the contact, at most 0.02 of the speed before. Where all rows
+hold, the restitution is within 0.01 of that of the theory.
+"""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.patches import Patch
+
+import carom
+from carom.plots.style import DOUBLE, VERMILION, new_figure, save_figure, styled
+
+SPEEDS = np.geomspace(1e-4, 100.0, 73)  # m/s
+GRAVITY, LITTLE = 9.81, 0.02
+ROWS = {  # findings of validity by what one would call them
+    "weight": (),
+    "adhesion": ("work of adhesion",),
+    "losses in the material": ("energy lost in the material",),
+    "yield": ("von Mises stress/Y",),
+    "waves in the ball": ("contact time/wave transit",),
+    "waves in the wall": ("energy of waves in the wall",),
+    "bending of the plate": ("bending wave/h", "a_max/h", "deflection/h"),
+}
+COLOURS = {True: "#56B4E9", None: "0.75", False: VERMILION}
+WORDS = {True: "holds", None: "not judged", False: "fails"}
+BENCHES = {
+    "bearing steel, 10 mm, on a thick wall of it": ("bearing-steel", "5 mm", None),
+    "the same on a plate of 10 mm": ("bearing-steel", "5 mm", "10 mm"),
+    "bearing steel, 20 µm, on a thick wall of it": ("bearing-steel", "10 um", None),
+}
+
+
+def verdicts(material, radius, thickness):
+    """Return whether each row holds at each speed; rows that do not apply are left out."""
+    ball = carom.Sphere(radius=radius, material=material)
+    pair = carom.Pair(ball, carom.HalfSpace(material, thickness=thickness), friction=0.15)
+    rows = {name: [] for name in ROWS}
+    for speed in SPEEDS:
+        hit = carom.impact(pair, speed=speed)
+        judged = {finding.name: finding.holds for finding in hit.validity.findings}
+        for name, findings in ROWS.items():
+            values = [judged[each] for each in findings if each in judged]
+            if name == "weight":
+                values = [bool(GRAVITY * hit.duration <= LITTLE * speed)]
+            if values:
+                rows[name].append(False if False in values else None if None in values else True)
+    return {name: row for name, row in rows.items() if row}
+
+
+@styled
+def draw(benches):
+    """Draw a panel for each bench, of bars over the speed."""
+    middle = np.sqrt(SPEEDS[1:] * SPEEDS[:-1])
+    edges = np.concatenate([SPEEDS[:1], middle, SPEEDS[-1:]])
+    figure, axes = new_figure(len(benches), 1, width=DOUBLE, height=150.0, sharex=True)
+    for axis, (title, rows) in zip(axes[:, 0], benches.items(), strict=True):
+        for place, row in enumerate(rows.values()):
+            colours = [COLOURS[holds] for holds in row]
+            axis.barh(place, np.diff(edges), left=edges[:-1], height=0.8, color=colours, lw=0)
+        axis.set_yticks(range(len(rows)), list(rows))
+        axis.invert_yaxis()
+        axis.set(xscale="log", xlim=(SPEEDS[0], SPEEDS[-1]))
+        axis.set_title(title, loc="left")
+    axes[-1, 0].set_xlabel("speed of a head-on impact (m/s)")
+    marks = [Patch(color=COLOURS[each], label=WORDS[each]) for each in WORDS]
+    axes[0, 0].legend(handles=marks, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
+    return figure
+
+
+def holding(rows):
+    """Return the lowest and the highest speed at which all rows hold, NaN if none."""
+    there = SPEEDS[[all(each) for each in zip(*rows.values(), strict=True)]]
+    return (there[0], there[-1]) if there.size else (np.nan, np.nan)
+
+
+def main(folder: str | Path = ".") -> str:
+    """Judge impacts of three balls at many speeds, and draw where each assumption holds."""
+    benches = {title: verdicts(*bench) for title, bench in BENCHES.items()}
+    thick, plate, bead = (holding(rows) for rows in benches.values())
+    assert 0.01 < thick[0] < 0.1 < 0.5 < thick[1] < 2.0
+    assert plate == thick  # the plate fails later than the metal
+    assert np.all(np.isnan(bead) | (np.array(bead) > 0.1))
+    save_figure(draw(benches), Path(folder) / "theory_ends.png")
+    return f"10 mm: the theory holds from {thick[0]:.2g} to {thick[1]:.2g} m/s"
+
+
+if __name__ == "__main__":
+    print(main())
