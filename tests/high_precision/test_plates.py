@@ -100,6 +100,7 @@ def test_states_are_those_of_springs(psi: float, chi: float, give: float) -> Non
     radii = np.linspace(0.0, 0.95 * plate.max_radius, 6)
     slid = springs.contact_at(1.3).slid(radii)
     assert plate.slid(1.3, radii) == pytest.approx(slid, abs=1e-4 * max(1.0, abs(psi)))
+    assert plate.touched(radii) == pytest.approx(springs.touched(radii), abs=1e-4)
     work = springs.friction_work(radii)
     assert plate.friction_work(radii) == pytest.approx(work, abs=2e-3 * max(1.0, abs(psi)))
 

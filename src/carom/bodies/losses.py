@@ -327,7 +327,8 @@ class StandardLinearSolid(LossLaw):
 class ZenerPlate(LossLaw):
     """A wide elastic plate that gives way under the force, by Zener's inelasticity parameter.
 
-        d'' = -(5/4) (d^(3/2) + (3/2) lambda sqrt(d) d'), lambda_Z = (5/4)^(2/5) lambda
+        d'' = -(5/4) (d^(3/2) + (3/2) lambda sqrt(d) d')
+        lambda_Z = (5/4)^(2/5) lambda
 
     The bodies lose nothing; waves in the plate carry energy away, and e is close to
     exp(-1.730 lambda_Z) while that is near 1. For a plate of which the thickness is known use
