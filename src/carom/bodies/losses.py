@@ -328,7 +328,8 @@ class ZenerPlate(LossLaw):
     """A wide elastic plate that gives way under the force, by Zener's inelasticity parameter.
 
         d'' = -(5/4) (d^(3/2) + (3/2) lambda sqrt(d) d')
-        lambda_Z = (5/4)^(2/5) lambda
+        lambda_Z = (5/4)^(2/5) lambda, lambda = m_n V_1/(Z d_max)
+        Z = 8 sqrt(D rho h)
 
     The bodies lose nothing; waves in the plate carry energy away, and e is close to
     exp(-1.730 lambda_Z) while that is near 1. For a plate of which the thickness is known use
@@ -337,8 +338,8 @@ class ZenerPlate(LossLaw):
     Parameters
     ----------
     inelasticity : float
-        lambda_Z = (5/4)^(2/5) m_n V_1/(8 sqrt(D rho h) d_max), from 0 to 2.18, with the stiffness D
-        in bending, the mass rho h per area, and d_max of the impact on a thick wall.
+        lambda_Z, from 0 to 2.18. D is the stiffness of the plate in bending, rho h its mass per
+        area, and d_max the penetration of the impact on a thick wall.
 
     Raises
     ------
