@@ -19,7 +19,7 @@ from carom.dimensionless.lossy.law import Loss, LossNumbers, LossyRebounds, Scal
 from carom.dimensionless.lossy.springs import march, metal
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic, record, work
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Vector
+from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 from carom.quantities.arrays import along_the_same, pure_numbers, together
@@ -84,6 +84,17 @@ def fill(
         sequence[i] = code_of_phases(record)
 
 
+@entry_point()
+def fill_motion(give: Vector, tolerance: float, work: Work, numbers: Matrix) -> None:
+    """Write what the normal motion of every impact comes to."""
+    for i in range(give.size):
+        out = numbers[i]
+        e, duration, deepest = plates.normal_motion(give[i], tolerance, work)
+        out[layout.RESTITUTION], out[layout.LOST], out[layout.TIME] = e, 1.0 - e * e, duration
+        out[layout.DEEPEST], out[layout.WIDEST] = deepest, np.sqrt(deepest)
+        out[layout.STRONGEST] = deepest * np.sqrt(deepest)
+
+
 def solved(
     psi_1: Array, chi: Array, threads: int | None = None, give: Array | float = 0.0
 ) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
@@ -145,7 +156,7 @@ def lossy_rebounds(
         if losses.loss == Loss.PLATE:
             psi_2, codes[part], _ = solved(psis, chis, 1, parameters)
             gives = np.where(codes[part] == Status.SOLVED, parameters, 0.0)
-            plates.fill_motion(gives, STEP_TOLERANCE, new_work(), rows[part])
+            fill_motion(gives, STEP_TOLERANCE, new_work(), rows[part])
             rows[part, layout.PSI_OUT], rows[part, layout.SHEAR_LOST] = psi_2, 0.0
         elif losses.loss == Loss.VISCOUS:
             arrays = tolerance, work.new_work(), record.new_record(False)

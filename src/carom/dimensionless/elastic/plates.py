@@ -25,8 +25,7 @@ from carom.dimensionless.elastic.integration import (
 )
 from carom.dimensionless.elastic.motion import Series
 from carom.dimensionless.elastic.record import is_full, note_node
-from carom.dimensionless.lossy import layout
-from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
+from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 
@@ -69,7 +68,7 @@ def slide(run: Run, sign: int) -> int:
     return UNRESOLVED
 
 
-@kernel
+@entry_point()
 def normal_motion(give: float, tolerance: float, work: Work) -> tuple[float, float, float]:
     """Return the restitution, the duration and the largest penetration of an impact on a plate."""
     s, gap, duration, widest = work.series, work.gap, 0.0, 0.0
@@ -92,17 +91,6 @@ def normal_motion(give: float, tolerance: float, work: Work) -> tuple[float, flo
         if ends:
             return -s[0, at.V], duration, widest * widest
     return np.nan, np.nan, np.nan
-
-
-@entry_point()
-def fill_motion(give: Vector, tolerance: float, work: Work, numbers: Matrix) -> None:
-    """Write what the normal motion of every impact comes to."""
-    for i in range(give.size):
-        out = numbers[i]
-        e, duration, deepest = normal_motion(give[i], tolerance, work)
-        out[layout.RESTITUTION], out[layout.LOST], out[layout.TIME] = e, 1.0 - e * e, duration
-        out[layout.DEEPEST], out[layout.WIDEST] = deepest, np.sqrt(deepest)
-        out[layout.STRONGEST] = deepest * np.sqrt(deepest)
 
 
 def centre_speed(give: float, penetration: Array, speed: Array) -> Array:
