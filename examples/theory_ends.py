@@ -85,7 +85,7 @@ def main(folder: str | Path = ".") -> str:
     thick, plate, bead = (holding(rows) for rows in benches.values())
     assert 0.01 < thick[0] < 0.1 < 0.5 < thick[1] < 2.0
     assert plate == thick  # the plate fails later than the metal
-    assert np.all(np.isnan(bead) | (np.array(bead) > 0.1))
+    assert 0.2 < bead[0] < 0.8 < bead[1] < 2.0  # adhesion below, yield above
     save_figure(draw(benches), Path(folder) / "theory_ends.png")
     return f"10 mm: the theory holds from {thick[0]:.2g} to {thick[1]:.2g} m/s"
 
