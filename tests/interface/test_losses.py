@@ -296,3 +296,12 @@ def test_figures_without_units_know_of_losses(restitution: float) -> None:
     view = View(psi=1.5, chi=1.44, restitution=restitution)
     title = NumbersImpact(view).history(5).attrs["title"]
     assert title == f"oblique impact of {spheres(view.losses is not None)}"
+
+
+@pytest.mark.parametrize("none", [[], [[]], ()], ids=str)
+@pytest.mark.parametrize("law", LOSSES.values(), ids=list(LOSSES))
+def test_no_instants_and_no_radii_have_no_states(law: LossLaw | None, none: Any) -> None:
+    """An empty list is an answer of no rows, whatever computes the impact."""
+    solution = hit(law).solution
+    assert all(len(column) == 0 for column in vars(solution.at(none)).values())
+    assert np.size(solution.touched(none)) == 0

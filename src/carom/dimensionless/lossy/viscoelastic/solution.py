@@ -125,8 +125,10 @@ class ViscoelasticSolution(LossySolution):
 
     def _sampled(self, wanted: Array) -> Array:
         places = self._places_in_time(wanted)
-        columns = [np.polynomial.chebyshev.chebval(x, self._series[n].T) for n, x in places]
-        return np.array(columns).reshape(wanted.size, -1).T
+        sampled = np.empty((self._series.shape[1], wanted.size))
+        for column, (n, x) in enumerate(places):
+            sampled[:, column] = np.polynomial.chebyshev.chebval(x, self._series[n].T)
+        return sampled
 
 
 def _scaled(profile: Profile, scale: float) -> Profile:
