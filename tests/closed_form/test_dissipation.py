@@ -8,7 +8,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
 import carom
@@ -213,3 +213,30 @@ def test_what_is_brittle_yields_between_a_third_of_its_hardness_and_all_of_it():
         return findings(hit)["von Mises stress/Y"]
 
     assert [judged(speed).holds for speed in (0.1, 10.0, 300.0)] == [True, None, False]
+
+
+def test_the_weight_of_a_slow_ball_is_told_by_what_it_adds_to_the_impulse():
+    """d'' = -(5/4) d^(3/2) + g: the speed returns, the impulse grows by g t_c."""
+    ball = carom.Sphere(radius="5 mm", material=STEEL)
+    hit = carom.impact(carom.Pair(ball, carom.HalfSpace(STEEL), 0.2), speed=0.02, angle=0.6)
+    told = findings(hit)["speed by weight/V_1"]
+    weight = 9.80665 * hit.scales.time / hit.normal_speed
+
+    def fall(_, y):
+        return [y[1], weight - 1.25 * max(y[0], 0.0) ** 1.5, 1.25 * max(y[0], 0.0) ** 1.5]
+
+    def leaving(_, y):
+        return y[0]
+
+    leaving.terminal, leaving.direction = True, -1.0
+    after = solve_ivp(fall, (0, 9), [0, 1, 0], events=leaving, rtol=1e-10, atol=1e-12)
+    _, speed, impulse = after.y[:, -1]
+    assert speed == pytest.approx(-1.0, abs=1e-8)
+    assert told.value == pytest.approx(impulse - 2.0, rel=0.02)
+    assert told.holds is None
+    assert f"up to {2.0 * hit.pair.chi * told.value:.2g}" in told.verdict
+    others = {"second": ball}, {"speed": 0.2}, {"angle": 0.0}
+    for other in others:
+        inputs = {"second": carom.HalfSpace(STEEL), "speed": 0.02, "angle": 0.6} | other
+        pair = carom.Pair(ball, inputs.pop("second"), 0.2)
+        assert "speed by weight/V_1" not in findings(carom.impact(pair, **inputs))

@@ -42,7 +42,7 @@ ELASTIC = [  # ball, diameter, what it strikes (None: its like), speed in m/s, a
     ("titanium-alloy", "10 mm", None, 0.1, 0, 0.3),
     ("titanium-alloy", "10 mm", "titanium-alloy", 0.1, 20, 0.3),
     ("aluminium-7075", "10 mm", None, 0.05, 0, 0.3),
-    ("aluminium-7075", "20 mm", "aluminium-7075", 0.05, 10, 0.3),
+    ("aluminium-7075", "20 mm", "aluminium-7075", 0.1, 10, 0.3),
     ("aluminium-6061", "20 mm", None, 0.01, 0, 0.3),
     ("alumina", "5 mm", None, 0.1, 0, 0.1),
     ("alumina", "5 mm", "alumina", 0.1, 0, 0.1),

@@ -14,6 +14,7 @@ from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged
 from carom.fitting.problem import NO_SPEED, FitProblem, IncomingMotion
+from carom.impacts.validity import GRAVITY
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
@@ -27,7 +28,6 @@ NO_LARGER = "must be positive and, apart from scatter, no larger than {}"
 START_FRICTION = 0.3  # of bodies of which none is known
 HEIGHTS = {"drop_height": "normal_speed", "rebound_height": "normal_speed_out"}
 TWICE = ("speed", "angle", "tangential_speed", "contact_angle", "psi_in", "normal_restitution")
-GRAVITY = 9.80665  # m/s^2
 DRAG, AIR = 0.45, 1.2  # drag coefficient of a sphere at Reynolds numbers of 1e3 to 1e5; kg/m^3
 NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
 EXAMPLES = {"friction": 0.2, "restitution": 0.98}

@@ -34,6 +34,8 @@ STIFF_SHELL, SOFT_SHELL = 0.01, 0.1  # dent of a shell over Hertz's depth: as a 
 SOLID_BALL = 0.4 * (1.0 + 1e-9)  # K^2/R^2
 NO_SOLID_BALL = "a ball with this radius of gyration is not solid"
 METAL_FAST, METAL_YIELDED = 300.0, 0.07  # the same for metals
+GRAVITY = 9.80665  # m/s^2
+LIGHT = 0.02  # of V_1, which gravity may add within the contact
 FULL = "the full contact in three dimensions"
 Assumption = Callable[[ImpactResult], Finding | None]
 
@@ -70,6 +72,20 @@ def _transit(pair: Pair) -> float:
     """Return the time of a bar wave through the slower sphere and back, 4 R sqrt(rho/E)."""
     bodies = [(body.radius, body.material) for body in pair.moving if not body.material.is_rigid]
     return max([4.0 * r / sqrt(m.young / (m.density or 1.0)) for r, m in bodies], default=0.0)
+
+
+def _weight(hit: ImpactResult) -> Finding | None:
+    """Return the finding on a ball that falls on a wall so slowly that its weight counts.
+
+    Gravity along the normal adds m g t_c to the impulse, so up to 2 chi g t_c/V_1 to psi_2, but
+    takes no energy.
+    """
+    gained = GRAVITY * hit.duration / hit.normal_speed
+    if isinstance(hit.pair.second, Sphere) or hit.psi_in == 0.0 or not gained > LIGHT:
+        return None
+    change = 2.0 * hit.pair.chi * gained
+    words = f"not judged: where gravity acts along the normal, psi_2 changes by up to {change:.2g}"
+    return Finding("speed by weight/V_1", gained, LIGHT, None, words)
 
 
 def _shell(hit: ImpactResult) -> Finding | None:
@@ -224,6 +240,7 @@ def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
 
 OF_BODIES: tuple[Assumption, ...] = (
     _slow_contact,
+    _weight,
     _shell,
     waves,
     bending,
