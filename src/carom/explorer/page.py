@@ -118,7 +118,7 @@ def _field(name: str, default: Any) -> dict[str, Any]:
         "least": field.least if field.is_number else None,
         "most": field.most if field.is_number else None,
         "choices": [[value, OPTIONS.get(value, value)] for value in choices] or None,
-        "default": list(default) if isinstance(default, tuple) else default,
+        "default": list(default) if isinstance(default, tuple) else field.otherwise or default,
     }
 
 
@@ -127,8 +127,16 @@ def _fields_of_copy() -> dict[str, dict[str, Any]]:
     tabulated = [[f"{e:g}", OPTIONS.get(f"{e:g}", f"{e:g}")] for e in RESTITUTIONS]
     chosen = {"slider": None, "choices": tabulated, "default": f"{View.restitution:g}"}
     plain = {"hint": ""}  # its numbers are read in the unit of the field alone
-    own = _fields()
-    return {"restitution": own["restitution"] | chosen, "radius": own["radius"] | plain}
+    own, no_plate = _fields(), {"least": None, "most": None, "slider": None}
+    plates = {"thickness": "thick", "inelasticity": "0"}  # all that it has
+    return {
+        "restitution": own["restitution"] | chosen,
+        "radius": own["radius"] | plain,
+        **{
+            name: own[name] | no_plate | {"choices": [[only, OPTIONS[only]]], "default": only}
+            for name, only in plates.items()
+        },
+    }
 
 
 def _material(name: str) -> dict[str, float | None]:

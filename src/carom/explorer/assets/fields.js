@@ -9,8 +9,8 @@ Carom.fields = (() => {
   const GROUPS = {
     given: ["given"],
     numbers: ["psi", "chi"],
-    motion: ["angle", "speed", "spin", "friction", "restitution"],
-    bodies: ["radius", ...material(""), "against", "second_radius", ...material("second_")],
+    motion: ["angle", "speed", "spin", "friction", "restitution", "inelasticity"],
+    bodies: ["radius", ...material(""), "against", "second_radius", ...material("second_"), "thickness"],
   };
   const PLAIN = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i; // what a slider can follow
   const heard = [];
@@ -61,7 +61,7 @@ Carom.fields = (() => {
 
   function moved(element) {
     const name = element.id.replace(/-slider$/, "");
-    if (element.id !== name) box(name).value = element.value;
+    if (element.id !== name) box(name).value = (element.value === element.max && described[name].otherwise) || element.value;
     follow(name);
     hide();
     heard.forEach((hear) => hear(name));
@@ -70,7 +70,9 @@ Carom.fields = (() => {
   // A number moves its slider, as far as that goes.
   function follow(name) {
     const slider = box(`${name}-slider`);
-    const text = box(name).value.trim();
+    const { otherwise } = described[name];
+    const typed = box(name).value.trim();
+    const text = otherwise && ["", otherwise].includes(typed) ? slider?.max : typed;
     if (slider && document.activeElement !== slider && PLAIN.test(text)) slider.value = text;
   }
 
@@ -159,8 +161,12 @@ Carom.fields = (() => {
   // The bodies and their motion in words, to tell two impacts apart.
   function words(link) {
     const of = (name) => link.get(name) ?? String(described[name].default);
-    if (of("given") === "numbers") return `ψ₁ = ${of("psi")}, χ = ${of("chi")}`;
-    return `${of("material")} on ${of("second_material")}, ${withUnit("angle", of("angle"))}, µ = ${of("friction")}`;
+    const { default: thick } = described.thickness;
+    if (of("given") === "numbers") {
+      return `ψ₁ = ${of("psi")}, χ = ${of("chi")}${Number(of("inelasticity")) ? `, λ = ${of("inelasticity")}` : ""}`;
+    }
+    const plate = ["", thick].includes(of("thickness")) || !counts("thickness", of) ? "" : ` of ${withUnit("thickness", of("thickness"))}`;
+    return `${of("material")} on ${of("second_material")}${plate}, ${withUnit("angle", of("angle"))}, µ = ${of("friction")}`;
   }
 
   return {
