@@ -29,6 +29,7 @@ def test_an_answer_is_the_scene_as_json_holds_it():
     assert reply["carried"] == {
         "psi": float(f"{scene.psi_in:.6g}"),
         "chi": float(f"{scene.chi:.6g}"),
+        "inelasticity": 0.0,
     }
     psi, out = exact_curve(scene)
     np.testing.assert_allclose(reply["curve"]["psi"], psi, atol=1e-7)

@@ -21,7 +21,7 @@ STEEPEST = 0.7  # angle by which a body may travel around another, in rad
 SLAB = 0.3  # ball radii that a plate is thick of which no thickness is known
 BENT = {
     "plane": "",
-    "plate": ", thickness of the plate to scale",
+    "plate": ", plate to scale",
     "cup": ", paths bent",
     "sphere": ", paths bent, centre of mass at rest",
 }
@@ -119,12 +119,13 @@ def stage_of_numbers(
     gives = bool(np.any(history.centre_speed != history.speed))
     fallen = _travelled(time, history.centre_speed, duration) if gives else closer
     kind, size = ("plate", SLAB) if gives else ("plane", 1.0)
+    scale = ", plate not to scale" if gives else ""
     magnified = _magnification(kind, size, fallen, along)
     still = np.zeros(along.size)
     plane = Body(kind, size, still, magnified * (closer - fallen), still)
     first = Body("sphere", 1.0, magnified * along, 1.0 - magnified * fallen, magnified * turn)
     return MovingBodies(
-        _wide(time), (first, plane), f"drawn as a solid sphere, friction {friction:g}"
+        _wide(time), (first, plane), f"drawn as a solid sphere, friction {friction:g}{scale}"
     )
 
 

@@ -158,15 +158,20 @@ Carom.fields = (() => {
     }
   }
 
+  // The thickness of a plate in words, where these are the words of the fields; "" of a thick wall.
+  function plate(of) {
+    const thick = ["", String(described.thickness.default)].includes(of("thickness").trim());
+    return thick || !counts("thickness", of) ? "" : ` ${withUnit("thickness", of("thickness"))} thick`;
+  }
+
   // The bodies and their motion in words, to tell two impacts apart.
   function words(link) {
     const of = (name) => link.get(name) ?? String(described[name].default);
-    const { default: thick } = described.thickness;
     if (of("given") === "numbers") {
-      return `ψ₁ = ${of("psi")}, χ = ${of("chi")}${Number(of("inelasticity")) ? `, λ = ${of("inelasticity")}` : ""}`;
+      const gives = Number(of("inelasticity")) ? `, λ = ${of("inelasticity")}` : "";
+      return `ψ₁ = ${of("psi")}, χ = ${of("chi")}${gives}`;
     }
-    const plate = ["", thick].includes(of("thickness")) || !counts("thickness", of) ? "" : ` of ${withUnit("thickness", of("thickness"))}`;
-    return `${of("material")} on ${of("second_material")}${plate}, ${withUnit("angle", of("angle"))}, µ = ${of("friction")}`;
+    return `${of("material")} on ${of("second_material")}${plate(of)}, ${withUnit("angle", of("angle"))}, µ = ${of("friction")}`;
   }
 
   return {
@@ -178,6 +183,7 @@ Carom.fields = (() => {
     value,
     complain,
     words,
+    plate,
     label: (name) => (described[name] ? described[name].label : ""),
     reset,
     withUnit,
