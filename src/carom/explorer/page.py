@@ -28,6 +28,7 @@ from carom.verify.entries import CATALOGUE
 ASSETS = "assets"  # the folder of the styles and scripts
 REGIMES = ("stick", "gross slip, stick", "gross slip, slip", "gross slip only")  # as in figures
 SYMBOLS: dict[str, str] = PAGE["symbols"]
+ONLY_THICK = "this copy has thick walls only; the program takes plates"
 OPTIONS: dict[str, str] = PAGE["choices"]
 
 
@@ -127,13 +128,13 @@ def _fields_of_copy() -> dict[str, dict[str, Any]]:
     tabulated = [[f"{e:g}", OPTIONS.get(f"{e:g}", f"{e:g}")] for e in RESTITUTIONS]
     chosen = {"slider": None, "choices": tabulated, "default": f"{View.restitution:g}"}
     plain = {"hint": ""}  # its numbers are read in the unit of the field alone
-    own, no_plate = _fields(), {"least": None, "most": None, "slider": None}
-    plates = {"thickness": "thick", "inelasticity": "0"}  # all that it has
+    own, plates = _fields(), {"thickness": "thick", "inelasticity": "0"}  # all that it has
+    no_plate = {"slider": None, "least": None, "most": None, "hint": ONLY_THICK}
     return {
         "restitution": own["restitution"] | chosen,
         "radius": own["radius"] | plain,
         **{
-            name: own[name] | no_plate | {"choices": [[only, OPTIONS[only]]], "default": only}
+            name: own[name] | no_plate | {"choices": [[only, only]], "default": only}
             for name, only in plates.items()
         },
     }

@@ -127,7 +127,7 @@ Carom.fields = (() => {
       const same = least === null ? null : choices?.find(([each]) => Number(each) === Number(link.get(name)));
       put(name, same ? String(same[0]) : (link.get(name) ?? first));
       if (link.has(name) && !same && value(name) !== link.get(name)) {
-        const held = least === null ? "" : `; this copy has ${choices.map(([each]) => each).join(", ")} only`;
+        const held = least === null && choices.length > 1 ? "" : `; this copy has ${choices.map(([each]) => each).join(", ")} only`;
         odd.push(`${label}: there is no ${link.get(name)}${held}, and ${first} is shown`);
         put(name, first);
       }
