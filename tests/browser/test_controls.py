@@ -78,6 +78,42 @@ def test_losses_are_shown_wherever_the_impact_is(visit):
     seen.laid_over(law, "Thornton, incremental")
 
 
+def test_the_thickness_of_a_plate(visit):
+    """Its slider ends at the thick wall; what a plate comes to is told beside the film."""
+    seen = visit()
+    assert seen.page.input_value("#thickness") == "thick"
+    seen.page.focus("#thickness-slider")
+    seen.page.keyboard.press("Home")
+    seen.until(lambda: seen.notice().startswith("Its thickness: so thin a plate gives way"))
+    for _ in range(8):
+        seen.page.keyboard.press("ArrowRight")
+    seen.linked("thickness=3")
+    ball = carom.Sphere(radius="5 mm", material="bearing-steel")
+    plate = carom.HalfSpace(material="bearing-steel", thickness="3 mm")
+    hit = carom.impact(carom.Pair(ball, plate, friction=0.2), speed=0.6, angle="30 deg")
+    seen.until(lambda: shows(seen, hit))
+    assert seen.number("normal_restitution") == pytest.approx(hit.normal_restitution, rel=1e-5)
+    share = 100.0 * (1.0 - hit.normal_restitution**2)
+    words = f"waves in the plate carry away {share:.1f}"
+    assert words in seen.page.inner_text("#findings")
+    assert "waves in the plate" in seen.page.inner_text("#energies")
+    seen.page.evaluate("Carom.clock.set(1.3)")
+    left = f"waves in the plate have carried away {share:.1f}"
+    seen.until(lambda: left in seen.page.inner_text("#sentence"))
+    seen.page.fill("#restitution", "0.9")
+    seen.until(lambda: seen.notice().startswith("Restitution: must be 1 on a plate"))
+    seen.page.fill("#restitution", "1")
+    seen.choose("given", "ψ₁ and χ")
+    seen.until(lambda: seen.page.input_value("#inelasticity") == "0.380814")
+    seen.until(lambda: seen.number(AFTER) == pytest.approx(hit.psi_out, rel=1e-4))
+    seen.choose("given", "bodies")
+    seen.page.focus("#thickness-slider")
+    seen.page.keyboard.press("End")
+    seen.linked("!thickness")
+    assert seen.page.input_value("#thickness") == "thick"
+    seen.until(lambda: shows(seen, steel()))
+
+
 def test_numbers_typed_move_their_sliders(visit):
     seen = visit()
     seen.page.fill("#angle", "47.3")

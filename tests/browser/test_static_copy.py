@@ -290,6 +290,8 @@ REFUSED = {
     "material=cheese": ("material", "there is no 'cheese'; there are steel; "),
     "law=cheese": ("law", "there is no 'cheese'; there are "),
     "taste=mild": ("", "the link says 'taste', which is unknown; leave it out"),
+    "thickness=3": ("thickness", "there is no '3'; there are thick"),
+    "given=numbers&inelasticity=0.4": ("inelasticity", "there is no '0.4'; there are 0"),
     "a" * 20000: ("", "the link has 20000 characters; at most "),
 }
 
@@ -315,6 +317,10 @@ def test_links_that_say_a_number_otherwise(offline):
     assert offline.evaluate(ask, "restitution=1.0") == ["1", []]
     shown, (odd,) = offline.evaluate(ask, "restitution=0.95")
     assert (shown, "0.95; this copy has 1, 0.9, 0.7 only, and 1 is shown" in odd) == ("1", True)
+    shown, (odd,) = offline.evaluate(ask, "thickness=3")
+    assert odd == "Its thickness: there is no 3; this copy has thick only, and thick is shown"
+    hint = offline.get_attribute("label[for=thickness]", "title")
+    assert hint == "this copy has thick walls only; the program takes plates"
     shown, (odd,) = offline.evaluate(ask, "data=kharaz2001")
     assert (shown, odd.endswith("not fitted in this copy")) == ("1", True)
 

@@ -26,11 +26,13 @@ BODIES = [
     View(restitution=0.7),
     View(restitution=0.4, angle=55.0, spin=200.0, against="sphere", second_radius=7.5),
     View(restitution=0.9, angle=12.0, against="cup", second_radius=25.0),
+    *(View(thickness=3.0), View(thickness=3.5, angle=50.0, spin=300.0, second_material="granite")),
 ]
 NUMBERED = [
     View(given=NUMBERS, psi=psi, chi=chi, restitution=e)
     for psi, chi, e in ((0.5, 1.44, 1.0), (-2.0, 0.4, 1.0), (9.0, 1.2, 1.0), (-1.5, 1.44, 0.6))
 ]
+NUMBERED.append(View(given=NUMBERS, psi=-1.5, inelasticity=0.7))
 
 
 def losses(view):
@@ -38,17 +40,25 @@ def losses(view):
 
 
 def exactly(view, psi, chi):
-    return carom.rebound(psi, chi, losses=losses(view))
+    """Return psi_2; the conversion to Zener's parameter is that of theory.md."""
+    inelasticity = view.inelasticity
+    if view.on_plate and not view.in_numbers:
+        normal_speed = view.speed * np.cos(np.radians(view.angle))
+        inelasticity = 1.25**0.4 * view.pair.plate_give(normal_speed)
+    plate = carom.ZenerPlate(inelasticity=inelasticity) if view.on_plate else None
+    return carom.rebound(psi, chi, losses=plate or losses(view))
 
 
 def assert_coulomb(scene):
     """The force keeps within its limit, and is at it in gross slip, with the sign of the slip."""
-    assert np.all(np.abs(scene.force) <= scene.limit * (1 + 1e-9) + 1e-12)
+    plate = isinstance(scene.losses, carom.ZenerPlate)
+    rounding = 1e-11 * scene.limit.max() if plate else 0.0  # which its steps add up
+    assert np.all(np.abs(scene.force) <= scene.limit * (1 + 1e-9) + 1e-12 + rounding)
     for phase in scene.phases:
         inside = (scene.share > phase.start) & (scene.share < phase.end)
         if phase.kind == "gross slip":
             expected = phase.sign * scene.limit[inside]
-            np.testing.assert_allclose(scene.force[inside], expected, rtol=1e-9)
+            np.testing.assert_allclose(scene.force[inside], expected, rtol=1e-9, atol=rounding)
 
 
 @pytest.mark.parametrize("view", BODIES, ids=str)
@@ -64,10 +74,11 @@ def test_scene_is_the_impact(view):
     assert_coulomb(scene)
     assert scene.phases[0].start == 0.0
     assert scene.phases[-1].end == pytest.approx(1.0)
-    assert scene.contact.max() == pytest.approx(1.0, abs=1e-12 if losses(view) is None else 1e-4)
+    peak = 1e-4 if view.is_lossy else 1e-12  # only elastic ones on thick walls turn at an instant
+    assert scene.contact.max() == pytest.approx(1.0, abs=peak)
 
 
-@pytest.mark.parametrize("view", [BODIES[i] for i in (0, 2, 3, 6, 7, 8, 9)], ids=str)
+@pytest.mark.parametrize("view", [BODIES[i] for i in (0, 2, 3, 6, 7, 8, 9, 11)], ids=str)
 def test_tractions_are_those_of_the_fields(view):
     scene, hit = scene_of(view), impact_of(view)
     unit = hit.max_radius / hit.pair.effective_radius  # Hertz (1882): p_0 = (2 E*/pi) a/R*
@@ -120,7 +131,7 @@ def test_balls_leave_as_the_impact_says(view):
     for end, leaves, sign in ((slice(0, 5), angle, -1), (slice(-5, None), hit.rebound_angle, 1)):
         slope = np.diff(along[end]) / (sign * np.diff(apart[end]))
         np.testing.assert_allclose(slope, np.tan(leaves), rtol=1e-6, atol=1e-9)
-    leaving = view.restitution * hit.normal_speed
+    leaving = hit.normal_restitution * hit.normal_speed
     rise = np.diff(apart[-2:])[0] * view.radius * 1e-3 / leaving  # s, magnified
     turned = np.diff(first.turn[-2:])[0]
     np.testing.assert_allclose(turned, hit.spin_out * rise, rtol=1e-6, atol=1e-9)
@@ -143,7 +154,7 @@ def test_scene_of_numbers_is_the_solution(view):
 
 
 @pytest.mark.parametrize(
-    "view", [BODIES[0], BODIES[2], BODIES[7], NUMBERED[0], NUMBERED[3]], ids=str
+    "view", [*(BODIES[i] for i in (0, 2, 7, 10)), NUMBERED[0], *NUMBERED[3:]], ids=str
 )
 def test_curves_go_through_the_present_point(view):
     scene = scene_of(view)
@@ -153,13 +164,13 @@ def test_curves_go_through_the_present_point(view):
     assert psi[0] <= scene.psi_in <= psi[-1]
     for law in law_curves(scene, ["mindlin", "rigid Coulomb", "Walton & Braun"]):
         entry = next(e for e in carom.verify.catalogue() if e.label == law.label)
-        damped = replace(entry.law, restitution=view.restitution)
+        damped = replace(entry.law, restitution=scene.restitution)
         expected = damped.rebound(scene.psi_in, scene.chi, kappa=scene.kappa)
         np.testing.assert_allclose(law.at, expected, atol=1e-9)
         if law.psi_in[0] <= scene.psi_in <= law.psi_in[-1]:  # drawn as far as the regimes go
             near = np.interp(scene.psi_in, law.psi_in, law.psi_out)
             np.testing.assert_allclose(near, expected, atol=0.02)
-        if law.force.size and view.restitution == 1.0:
+        if law.force.size and scene.restitution == 1.0:
             assert np.abs(law.force).max() <= scene.limit.max() * (1 + 1e-3)
 
 
@@ -217,6 +228,8 @@ SCRIPTED = [
     View(law=LAWS[3:4], angle=41.5, restitution=0.75),
     *(View(given=NUMBERS, psi=1.5, restitution=0.9), View(friction=0.0, restitution=0.9)),
     View(material="own", young=70.0, second_material="own", against="sphere"),
+    View(law=LAWS[3:4], thickness=3.0, second_material="own", second_density=2600.0),
+    View(given=NUMBERS, law=LAWS[3:4], psi=1.5, inelasticity=0.4),
 ]
 
 
@@ -234,6 +247,41 @@ def test_lines_of_python_give_the_same(view, tmp_path, monkeypatch, capsys):
         return
     for psi in (scene.psi_out, *(law.at for law in law_curves(scene, view.law))):
         assert psi == pytest.approx(min(entries, key=lambda number: abs(number - psi)), abs=1e-9)
+
+
+def test_both_modes_tell_the_same_of_a_plate():
+    """Bodies on a plate, and psi_1, chi and Zener's parameter that go on from them."""
+    view = View(thickness=2.0, angle=41.5)
+    bodies, hit = answer(view), impact_of(view)
+    numbers = answer(View(given=NUMBERS, **bodies["carried"]))
+    for name in ("psi_out", "normal_restitution"):
+        one, other = (
+            next(float(row["value"]) for row in each["results"] if row["name"] == name)
+            for each in (bodies, numbers)
+        )
+        assert one == pytest.approx(other, abs=2e-5)
+    curve = carom.curve(hit.pair.chi, [1.0], losses=scene_of(view).losses)
+    for each in (bodies, numbers):
+        assert each["scene"]["plate"] == pytest.approx(hit.normal_restitution, rel=1e-5)
+        np.testing.assert_allclose(each["curve"]["borders"], curve.border.values[0], rtol=1e-5)
+    waves = bodies["history"]["energies"]["normal_loss"][-1]
+    normal = np.cos(np.radians(41.5)) ** 2  # of the energy, which has no spin
+    assert waves == pytest.approx(normal * (1.0 - hit.normal_restitution**2), abs=1e-6)
+    assert "plate" not in answer(View())["scene"]
+
+
+def test_the_plate_is_drawn_where_the_theory_has_its_middle():
+    """It has moved by the impulse over 8 sqrt(D rho h), as the ball is drawn, magnified."""
+    view = View(thickness=2.0)
+    stage, hit = scene_of(view).stage, impact_of(view)
+    ball, plate = stage.bodies
+    assert (plate.kind, plate.radius) == ("plate", pytest.approx(0.4))
+    impulse = hit.pair.normal_mass * hit.normal_speed * (1.0 + hit.normal_restitution)
+    moved = impulse / hit.pair.second.impedance / hit.pair.first.radius
+    magnified = (ball.y - plate.y)[stage.time < 0.0][0] - 1.0
+    magnified /= 0.6 * hit.duration * hit.normal_speed / hit.pair.first.radius
+    assert plate.y[0] == 0.0
+    assert -plate.y[-1] == pytest.approx(magnified * moved, rel=1e-4)
 
 
 @pytest.mark.parametrize("psi", [4000.0, -4000.0])

@@ -23,6 +23,8 @@ STATES = {
     "losses": View(restitution=0.7, angle=55.0),
     "numbers": View(given=NUMBERS, psi=2.2, chi=1.3),
     "numbers with losses": View(given=NUMBERS, psi=-1.5, chi=1.44, restitution=0.6),
+    "plate": View(thickness=3.0, angle=41.5),
+    "numbers on a plate": View(given=NUMBERS, psi=2.2, chi=1.3, inelasticity=0.4),
 }
 
 
@@ -35,7 +37,7 @@ def some_slow(cases, slow):
     return [pytest.param(x, id=str(x), marks=[pytest.mark.slow] * (x in slow)) for x in cases]
 
 
-@pytest.mark.parametrize("name", some_slow(STATES, ("losses", "numbers with losses")))
+@pytest.mark.parametrize("name", some_slow(STATES, ("losses", "numbers with losses", "plate")))
 def test_every_picture_is_written_in_both_modes(name, tmp_path):
     for picture in PICTURES:
         with Image.open(files.write(f"{picture}.png", STATES[name], 0.6, tmp_path)) as image:
@@ -58,13 +60,17 @@ def test_pictures_of_odd_states(view, tmp_path):
         assert len(stored) > 10_000
 
 
-@pytest.mark.parametrize("name", ["numbers", "numbers with losses"])
+@pytest.mark.parametrize("name", ["numbers", "numbers with losses", "numbers on a plate"])
 def test_figures_of_numbers_are_those_of_bodies_in_units_of_the_theory(name):
     """The same psi_1, chi and e as of bodies: the lines differ by a factor each."""
     values = STATES[name]
     shown = {"friction": 0.2, "angle": 41.5, "restitution": values.restitution}
+    if values.on_plate:
+        shown["thickness"] = 3.0
     hit = impact_of(View(**shown))
-    numbers = NumbersImpact(replace(values, psi=hit.psi_in, chi=hit.pair.chi))
+    give = 1.25**0.4 * hit.pair.plate_give(hit.normal_speed)
+    exact = {"psi": hit.psi_in, "chi": hit.pair.chi, "inelasticity": give}
+    numbers = NumbersImpact(replace(values, **exact))
     history, theirs, scales = numbers.history(201), hit.history(201), hit.scales
     units = {
         "time": scales.time,
@@ -105,6 +111,8 @@ def test_histories_are_those_of_the_library(name, tmp_path):
     if view.in_numbers:
         e = view.restitution
         losses = None if e == 1.0 else carom.KelvinVoigt(restitution=e)
+        if view.on_plate:
+            losses = carom.ZenerPlate(inelasticity=view.inelasticity)
         solution = carom.solve(view.psi, view.chi, losses=losses)
         columns = ("psi", "stored", "shear_lost")
         expected = {column: getattr(solution.history(201), column) for column in columns}

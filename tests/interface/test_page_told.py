@@ -29,6 +29,7 @@ def test_an_answer_is_the_scene_as_json_holds_it():
     assert reply["carried"] == {
         "psi": float(f"{scene.psi_in:.6g}"),
         "chi": float(f"{scene.chi:.6g}"),
+        "inelasticity": 0.0,
     }
     psi, out = exact_curve(scene)
     np.testing.assert_allclose(reply["curve"]["psi"], psi, atol=1e-7)
@@ -75,16 +76,19 @@ def test_results_are_the_numbers_of_the_impact():
     assert free["psi_in"] == "none: it slides freely"
 
 
-def test_findings_speak_of_the_page():
-    view = View(radius=0.2, material="rubber", speed=60.0, second_material="steel", friction=0.05)
+RUBBER = View(radius=0.2, material="rubber", speed=60.0, second_material="steel", friction=0.05)
+
+
+@pytest.mark.parametrize("view", [RUBBER, View(thickness=300.0)], ids=["rubber", "thick plate"])
+def test_findings_speak_of_the_page(view):
     reply, actual = answer(view)["findings"], impact_of(view).validity
     assert len(reply) == len(actual.findings)
     marks = [row["mark"] for row in reply]
     assert marks == sorted(marks, key=["FAILS", "?", "ok"].index)
     assert marks.count("FAILS") == sum(finding.holds is False for finding in actual.findings) > 0
     for row in reply:
-        for word in ("method=", "psi_", "mu ", "chi"):
-            assert word not in row["text"]
+        for word in ("method=", "psi_", "mu ", "chi", "thickness", "inf"):
+            assert not re.search(rf"\b{word}", row["text"])
 
 
 def test_the_page_is_told_all_that_it_shows():

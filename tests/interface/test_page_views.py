@@ -18,6 +18,7 @@ from carom.explorer.views import CHOICES, FIELDS, LAWS, NUMBERS, OF_MATERIAL, Re
 KNOBS = {name: field for name, field in FIELDS.items() if field.is_number}
 NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}
 WORD = {name: st.sampled_from(each) for name, each in CHOICES.items() if name != "law"}
+NUMBER["thickness"] |= st.just(np.inf)
 SOME_LAWS = st.lists(st.sampled_from(LAWS), unique=True, max_size=4).map(tuple)
 
 
@@ -30,9 +31,13 @@ def test_every_state_is_a_link_that_restores_it(view):
 @pytest.mark.parametrize("name", KNOBS)
 def test_numbers_out_of_range_are_refused_by_name(name):
     knob, using = KNOBS[name], {"against": "sphere", "material": "own", "second_material": "own"}
-    if name in ("psi", "chi"):
+    if name in ("psi", "chi", "inelasticity"):
         using = {"given": NUMBERS}
-    for text in ("", "nan", "inf", "x", "1e400", str(knob.most * 1.01), str(knob.least - 0.1)):
+    elif name == "thickness":
+        using = {}
+    empty = [] if knob.otherwise else [""]
+    beyond = str(knob.most * 1.01), str(knob.least - 0.1)
+    for text in (*empty, "nan", "inf", "x", "1e400", *beyond):
         with pytest.raises(Refused, match=r": must be a number from .*(not '|empty)") as error:
             View.of(urlencode(using | {name: text}))
         assert error.value.field == name
@@ -47,7 +52,16 @@ def test_what_a_view_does_not_use_may_be_anything():
             View.of(query)
         assert error.value.field in query
     assert View.of("young=soft&second_density=&psi=x").pair == View().pair
-    assert View.of("second_material=own&second_density=").pair.second.material.young == 70e9
+    assert View.of("second_density=&inelasticity=x&against=cup&thickness=x").pair.thickness is None
+
+
+def test_a_wall_without_a_number_is_thick():
+    for text in ("", "thick", " thick "):
+        view = View.of(urlencode({"thickness": text}))
+        assert (view, view.query()) == (View(), "")
+    assert View.of("thickness=0.2 cm").pair.thickness == pytest.approx(2e-3)
+    with pytest.raises(Refused, match=r"from 0.001 to 10000 mm, or thick, not 'thin'"):
+        View.of("thickness=thin")
 
 
 def test_what_a_link_says_to_the_page_alone_is_passed_over():
@@ -66,6 +80,12 @@ HELD = "that a computer cannot hold"
         (View(against="cup", second_radius=1.0), "second_radius", "fit into the cup"),
         (RIGID, "second_material", "must have a density, which a rigid one has not"),
         (View(speed=1e300), "speed", HELD),
+        (View(thickness=3.0, second_material="rigid"), "second_material", "gives no way"),
+        (View(thickness=3.0, restitution=0.9), "restitution", "must be 1 on a plate"),
+        (View(given=NUMBERS, inelasticity=1.0, restitution=0.9), "restitution", "must be 1 on"),
+        (View(thickness=1.0), "thickness", "so thin a plate gives way like a foil"),
+        (View(thickness=1.253), "thickness", "so thin a plate gives way like a foil"),
+        (View(thickness=1e-3), "thickness", "must be above the penetration; the sphere would be"),
         (View(given=NUMBERS, psi=np.inf), "psi", HELD),
     ],
 )
@@ -96,4 +116,4 @@ def test_own_materials_are_those_of_the_numbers():
     soft = View(against="sphere", second_material="own", second_young=0.01, second_poisson=0.5)
     stuff = carom.Material(young="10 MPa", poisson=0.5, density=soft.second_density)
     assert soft.pair.second.material.young == stuff.young
-    assert set(soft.unused) == {"psi", "chi", *OF_MATERIAL}
+    assert set(soft.unused) == {"psi", "chi", "inelasticity", "thickness", *OF_MATERIAL}

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.dimensionless.rebounds import regime_borders
+from carom.bodies.losses import ZenerPlate
 from carom.explorer.limits import LAW_SECONDS
 from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
 from carom.explorer.scenes import Scene, scene_of
@@ -69,7 +69,8 @@ def _carried(view: View, scene: Scene) -> Answer | None:
     """Return the numbers of an impact of bodies, with which it goes on as such."""
     if view.in_numbers or not scene.rubs:
         return None
-    numbers = {"psi": scene.psi_in, "chi": scene.chi}
+    give = scene.losses.inelasticity if isinstance(scene.losses, ZenerPlate) else 0.0
+    numbers = {"psi": scene.psi_in, "chi": scene.chi, "inelasticity": give}
     return {name: float(f"{number:.{CARRIED_DIGITS}g}") for name, number in numbers.items()}
 
 
@@ -88,7 +89,7 @@ def _curve(scene: Scene) -> Answer:
     return {
         "psi": _fine(psi),
         "out": _fine(out),
-        "borders": regime_borders(scene.chi, scene.restitution).tolist(),
+        "borders": scene.borders.tolist(),
         "at": [scene.psi_in, scene.psi_out] if scene.rubs else None,
     }
 

@@ -1,6 +1,7 @@
 """The files of a view, in SI units for bodies, without units where psi_1 and chi are given."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 from carom.bodies.pairs import Scales
 from carom.contacts.contact import contact_in_impact
 from carom.contacts.fields import surface_fields
-from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.solution import solve
 from carom.explorer.limits import LAW_SECONDS, Busy
 from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
@@ -47,7 +48,6 @@ from carom.plots.impact import (
     velocities_panel,
 )
 from carom.plots.legends import legend_above, legend_outside
-from carom.verify.errors import losses_of
 
 SCALES = Scales(
     **dict.fromkeys(("length", "radius", "force", "pressure", "tangential_length"), 1.0),
@@ -73,6 +73,7 @@ class NumbersImpact:
     """An impact that psi_1 and chi tell, as figures take it: each quantity in a unit of theory."""
 
     def __init__(self, view: View) -> None:
+        self.losses = view.losses
         self.solution = solve(view.psi, view.chi, losses=view.losses)
         self.duration = self.solution.duration
 
@@ -81,8 +82,8 @@ class NumbersImpact:
         solution = self.solution
         numbers = {"friction": 1.0, "max_pressure": solution.max_pressure}
         inputs: dict[str, Any] = {"psi_in": solution.psi_in, "chi": solution.chi}
-        if isinstance(solution, LossySolution):
-            inputs["losses"] = solution._losses._asdict()
+        if self.losses is not None:
+            inputs["losses"] = scale_free(self.losses)._asdict()
         columns = columns_of_numbers(solution.history(n))
         return _in_theory(labelled(columns, numbers, solution.phases, inputs))
 
@@ -150,7 +151,7 @@ def curve_figure(view: View, _: float = 0.0) -> Figure:
 def drawn_curve(scene: Scene, laws: list[LawCurve]) -> Figure:
     """Return the rebound curve with the present point and the contact laws over it."""
     psi = exact_curve(scene)[0]
-    figure = plot_curve(curve(scene.chi, psi, losses=losses_of(scene.restitution)))
+    figure = plot_curve(curve(scene.chi, psi, losses=scene.losses))
     axis = figure.axes[0]
     legend = axis.get_legend()
     entries: list[Any] = [] if legend is None else list(legend.legend_handles)
@@ -193,12 +194,16 @@ def history_of(view: View) -> xr.Dataset:
         return impact_of(view).history(HISTORY_TIMES)
     solution = NumbersImpact(view).solution
     history = solution.history(HISTORY_TIMES)
+    history = replace(history, speed=history.centre_speed)
     columns: dict[str, Any] = {
         name: ("time", getattr(history, name), {"long_name": meaning, "units": "1"})
         for name, meaning in PAGE["columns_of_numbers"].items()
     }
     time = ("time", history.time, {"long_name": "time, in d_max/V_1", "units": "1"})
     numbers = {"psi_in": view.psi, "chi": view.chi, "psi_out": solution.psi_out}
-    numbers |= {"restitution": view.restitution} if view.losses else {}
+    if view.on_plate:
+        numbers |= {"restitution": solution.restitution, "inelasticity": view.inelasticity}
+    elif view.losses:
+        numbers |= {"restitution": view.restitution}
     title = {"title": "oblique impact, in the units of carom.solve"}
     return labelled_dataset({**columns, **numbers}, {"time": time}, title)

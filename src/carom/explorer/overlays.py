@@ -9,6 +9,7 @@ from time import monotonic
 
 import numpy as np
 
+from carom.bodies.losses import KelvinVoigt, LossLaw
 from carom.dem.base import ContactLaw, Law
 from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.numerics.threads import available_cores
@@ -17,7 +18,6 @@ from carom.explorer.limits import LAW_SECONDS, MOST_FOLLOWERS
 from carom.explorer.scenes import Scene
 from carom.quantities.arrays import Array
 from carom.verify.entries import damped, named
-from carom.verify.errors import losses_of
 
 POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 81, 61
 CURVE_TOLERANCE = 1e-8  # with losses, where a point takes 0.6 ms
@@ -67,7 +67,7 @@ class LawCurve:
 
 def exact_curve(scene: Scene) -> tuple[Array, Array]:
     """Return psi_1 and psi_2 of the exact curve, over the present point and all regimes."""
-    psi, out = _exact(round(scene.chi, KEY_DIGITS), scene.restitution)
+    psi, out = _exact(round(scene.chi, KEY_DIGITS), scene.losses)
     high = _span(scene)[1]
     if high > psi[-1]:  # the curve is straight there
         psi, out = np.append(psi, high), np.append(out, out[-1] + (high - psi[-1]))
@@ -108,13 +108,12 @@ def _begun(scene: Scene, label: str) -> Future[LawCurve]:
 
 
 @lru_cache(maxsize=KEPT_CURVES)
-def _exact(chi: float, restitution: float) -> tuple[Array, Array]:
+def _exact(chi: float, losses: LossLaw | None) -> tuple[Array, Array]:
     """Return psi_1 and psi_2 over all regimes, psi_1 >= 0."""
-    losses = losses_of(restitution)
-    points = POINTS if losses is None else POINTS_WITH_LOSSES
-    psi = np.linspace(0.0, _regimes(chi), points)
-    if losses is None:
-        return psi, rebound(psi, chi)
+    viscous = isinstance(losses, KelvinVoigt)
+    psi = np.linspace(0.0, _regimes(chi), POINTS_WITH_LOSSES if viscous else POINTS)
+    if losses is None or not viscous:
+        return psi, rebound(psi, chi, losses=losses)
     chis = np.full(psi.size, chi)
     return psi, lossy_rebounds(psi, chis, scale_free(losses), tolerance=CURVE_TOLERANCE).psi_out
 

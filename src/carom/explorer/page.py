@@ -28,6 +28,7 @@ from carom.verify.entries import CATALOGUE
 ASSETS = "assets"  # the folder of the styles and scripts
 REGIMES = ("stick", "gross slip, stick", "gross slip, slip", "gross slip only")  # as in figures
 SYMBOLS: dict[str, str] = PAGE["symbols"]
+ONLY_THICK = "this copy has thick walls only; the program takes plates"
 OPTIONS: dict[str, str] = PAGE["choices"]
 
 
@@ -118,7 +119,7 @@ def _field(name: str, default: Any) -> dict[str, Any]:
         "least": field.least if field.is_number else None,
         "most": field.most if field.is_number else None,
         "choices": [[value, OPTIONS.get(value, value)] for value in choices] or None,
-        "default": list(default) if isinstance(default, tuple) else default,
+        "default": list(default) if isinstance(default, tuple) else field.otherwise or default,
     }
 
 
@@ -127,8 +128,16 @@ def _fields_of_copy() -> dict[str, dict[str, Any]]:
     tabulated = [[f"{e:g}", OPTIONS.get(f"{e:g}", f"{e:g}")] for e in RESTITUTIONS]
     chosen = {"slider": None, "choices": tabulated, "default": f"{View.restitution:g}"}
     plain = {"hint": ""}  # its numbers are read in the unit of the field alone
-    own = _fields()
-    return {"restitution": own["restitution"] | chosen, "radius": own["radius"] | plain}
+    own, plates = _fields(), {"thickness": "thick", "inelasticity": "0"}  # all that it has
+    no_plate = {"slider": None, "least": None, "most": None, "hint": ONLY_THICK}
+    return {
+        "restitution": own["restitution"] | chosen,
+        "radius": own["radius"] | plain,
+        **{
+            name: own[name] | no_plate | {"choices": [[only, only]], "default": only}
+            for name, only in plates.items()
+        },
+    }
 
 
 def _material(name: str) -> dict[str, float | None]:

@@ -9,11 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from carom.bodies.losses import ZENER, LossLaw, ZenerPlate
 from carom.dem.base import SOLID
 from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.rebounds import regime_borders
 from carom.dimensionless.solution import Solution, solve
 from carom.dimensionless.states import History, Phase
-from carom.explorer.results import Row, findings_of, rows_of
+from carom.explorer.results import Row, findings_of, in_words, rows_of
 from carom.explorer.stages import MovingBodies, precise, short, stage_of_bodies, stage_of_numbers
 from carom.explorer.views import PAGE, Refused, View
 from carom.impacts.exact import Impact
@@ -32,6 +34,7 @@ HIGHEST_TRACTION = 9.0  # at the edge it is infinite where viscous bodies are lo
 ENERGIES: dict[str, str] = PAGE["energies"]
 ENERGIES_OF_CONTACT: dict[str, str] = PAGE["energies_of_contact"]
 FORCE_SCALE = 1.5  # F_x/(mu F_max) over Q of the theory
+OF_PLATES = ("thickness", "inelasticity")  # what the library refuses where a plate is too thin
 TOO_LARGE = "with the other numbers it leads to some that a computer cannot hold"
 
 
@@ -44,6 +47,8 @@ class Scene:
     chi: float
     kappa: float
     restitution: float
+    losses: LossLaw | None  # that alone decide the restitution, at any speed
+    borders: Array  # of the regimes
     lasts: float  # d_max/V_1
     duration: float
     time_unit: str
@@ -72,7 +77,9 @@ class Scene:
         """Return what the page animates, as JSON can hold it."""
         names = ("kind", "sign", "start", "end")
         phases = [{name: getattr(phase, name) for name in names} for phase in self.phases]
+        on_plate = isinstance(self.losses, ZenerPlate)
         return {
+            **({"plate": self.restitution} if on_plate else {}),
             "duration": self.duration,
             "unit": self.time_unit,
             "phases": phases,
@@ -112,7 +119,10 @@ def refusals(field: str) -> Iterator[None]:
         yield
     except Refused:
         raise
-    except (InputError, ArithmeticError):
+    except (InputError, ArithmeticError) as error:
+        name, _, message = str(error).partition(": ")
+        if name in OF_PLATES:
+            raise Refused("thickness", in_words(message)) from None
         raise Refused(field, TOO_LARGE) from None
 
 
@@ -120,13 +130,16 @@ def _of_bodies(view: View) -> Scene:
     hit = impact_of(view)
     pair, scales, column = hit.pair, hit.scales, history_columns(hit, HISTORY_TIMES)
     seconds, unit = prefixed(hit.duration, "s")
+    give = pair.plate_give(hit.normal_speed)
     newtons, force_unit = prefixed(pair.friction * hit.max_force or hit.max_force, "N")
     return Scene(
         psi_in=hit.psi_in,
         psi_out=hit.psi_out,
         chi=pair.chi,
         kappa=pair.kappa,
-        restitution=view.restitution,
+        restitution=hit.normal_restitution if give else view.restitution,
+        losses=ZenerPlate(inelasticity=ZENER * give) if give else view.losses,
+        borders=_borders(view, hit.solution, give),
         lasts=hit.solution.duration,
         duration=hit.duration * seconds,
         time_unit=unit,
@@ -143,7 +156,7 @@ def _of_bodies(view: View) -> Scene:
         rim=_rim(hit.solution, column["normal_velocity"] / hit.normal_speed),
         tractions=_tractions(hit.solution),
         stage=stage_of_bodies(hit, column),
-        results=rows_of(_scalars(hit), lossy=hit.losses is not None),
+        results=rows_of(_scalars(hit), lossy=view.is_lossy),
         findings=findings_of(hit.validity.findings),
     )
 
@@ -158,6 +171,8 @@ def _scalars(hit: Impact) -> Mapping[str, float]:
     """Return the numbers of an impact; what rounding leaves of a spin is none."""
     numbers = hit.scalars()
     left = numbers["spin_out"]
+    if hit.pair.thickness is not None:
+        del numbers["shear_lost_energy"]  # bodies on plates are elastic
     return numbers | {"spin_out": 0.0 if abs(left) < SPIN_ROUNDING * abs(hit.spin) else left}
 
 
@@ -168,7 +183,7 @@ def columns_of_numbers(history: History) -> dict[str, Array]:
         "normal_force": history.normal_force,
         "tangential_force": FORCE_SCALE * history.force,
         "contact_velocity": history.psi,
-        "normal_velocity": history.speed,
+        "normal_velocity": history.centre_speed,
         "contact_radius": history.contact_radius,
         "stick_radius": history.stick_radius,
         "contact_kinetic_energy": 0.5 * history.psi**2,
@@ -189,7 +204,9 @@ def _of_numbers(view: View) -> Scene:
         psi_out=solution.psi_out,
         chi=solution.chi,
         kappa=SOLID * solution.chi,
-        restitution=view.restitution,
+        restitution=solution.restitution if view.on_plate else view.restitution,
+        losses=view.losses,
+        borders=_borders(view, solution, view.inelasticity / ZENER),
         lasts=solution.duration,
         duration=solution.duration,
         time_unit="d_max/V₁",
@@ -206,15 +223,22 @@ def _of_numbers(view: View) -> Scene:
         rim=_rim(solution, history.speed),
         tractions=_tractions(solution),
         stage=stage_of_numbers(solution, history, view.friction),
-        results=rows_of(_numbers(solution)),
+        results=rows_of(_numbers(solution, view), lossy=view.on_plate),
         findings=(),
     )
 
 
-def _numbers(solution: Solution | LossySolution) -> dict[str, float]:
+def _borders(view: View, solution: Solution | LossySolution, give: float) -> Array:
+    """Return the psi_1 at which the regime changes; `give` is how far a plate does, lambda."""
+    e = solution.restitution if view.on_plate else view.restitution
+    return regime_borders(solution.chi, e, 1.25 * give * solution.max_force)
+
+
+def _numbers(solution: Solution | LossySolution, view: View) -> dict[str, float]:
     psi, out = solution.psi_in, solution.psi_out
     numbers = {"psi_in": psi, "psi_out": out, "chi": solution.chi}
-    return numbers | ({"contact_restitution": out / psi} if psi else {})
+    numbers |= {"contact_restitution": out / psi} if psi else {}
+    return numbers | ({"normal_restitution": solution.restitution} if view.on_plate else {})
 
 
 def _tractions(solution: Solution | LossySolution) -> Array:

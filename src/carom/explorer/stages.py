@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.shapes import Cup, Sphere
+from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.dem.base import SOLID
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution
@@ -18,12 +18,21 @@ from carom.quantities.arrays import Array
 BEFORE = AFTER = 0.6  # of the contact's duration that is shown besides
 DEEPEST, WIDEST = 0.3, 6.0  # radii that the bodies may approach, and travel sideways
 STEEPEST = 0.7  # angle by which a body may travel around another, in rad
-BENT = {"plane": "", "cup": ", paths bent", "sphere": ", paths bent, centre of mass at rest"}
+SLAB = 0.3  # ball radii that a plate is thick of which no thickness is known
+BENT = {
+    "plane": "",
+    "plate": ", plate to scale",
+    "cup": ", paths bent",
+    "sphere": ", paths bent, centre of mass at rest",
+}
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A body as it is drawn: its radius, and along time its place and the angle it has turned."""
+    """A body as it is drawn: its radius, and along time its place and the angle it has turned.
+
+    Of a plate the radius is its thickness.
+    """
 
     kind: str
     radius: float
@@ -68,15 +77,17 @@ def stage_of_bodies(hit: Impact, column: Mapping[str, Array]) -> MovingBodies:
     closer /= radius
     turns = [_travelled(time, column[name], duration) for name in ("spin", "spin2")]
     kind, size = _shape(pair.second, radius)
-    magnified = _magnification(kind, size, closer, along)
+    fallen = _travelled(time, speed, duration) / radius if kind == "plate" else closer
+    magnified = _magnification(kind, size, fallen, along)
     place = _placed(kind, size, magnified * along, magnified * closer)
+    sunk = magnified * (fallen - closer)  # a plate, in its middle
     first_turn, second_turn = (magnified * turn for turn in turns)
     share = pair.normal_mass / pair.first.mass  # of the relative motion, the first body's
-    height = {"plane": 0.0, "sphere": -size, "cup": size}[kind]  # of the second body
+    height = {"plane": 0.0, "plate": 0.0, "sphere": -size, "cup": size}[kind]  # of the second body
     rest = (1.0 - share) * (place - [0.0, 1.0 - height])
     x, y = place.T - rest.T
-    first = Body("sphere", 1.0, x, y + height, first_turn)
-    second = Body(kind, size, -rest[:, 0], height - rest[:, 1], second_turn)
+    first = Body("sphere", 1.0, x, y + height - sunk, first_turn)
+    second = Body(kind, size, -rest[:, 0], height - rest[:, 1] - sunk, second_turn)
     caption = f"motion magnified {magnified:.3g} times{BENT[kind]}"
     return MovingBodies(_wide(time), (first, second), caption)
 
@@ -87,7 +98,7 @@ def _placed(kind: str, size: float, along: Array, closer: Array) -> Array:
     Paths follow the surface of the second body, so that the bodies overlap by `closer` wherever
     they are: what is magnified is small against both radii.
     """
-    if kind == "plane":
+    if kind in ("plane", "plate"):
         return np.column_stack([along, 1.0 - closer])
     outside = 1.0 if kind == "sphere" else -1.0
     reach = size + outside - outside * closer
@@ -104,19 +115,25 @@ def stage_of_numbers(
     lost = solution.psi_in - history.psi
     along = _travelled(time, slope * (solution.psi_in - SOLID_SPHERE * lost), duration)
     turn = _travelled(time, -slope * (1.0 - SOLID_SPHERE) * lost, duration)
-    closer = _continued(time, history.penetration, 1.0, history.speed[-1], duration)
-    magnified = _magnification("plane", 1.0, closer, along)
+    closer = _continued(time, history.penetration, 1.0, history.centre_speed[-1], duration)
+    gives = bool(np.any(history.centre_speed != history.speed))
+    fallen = _travelled(time, history.centre_speed, duration) if gives else closer
+    kind, size = ("plate", SLAB) if gives else ("plane", 1.0)
+    scale = ", plate not to scale" if gives else ""
+    magnified = _magnification(kind, size, fallen, along)
     still = np.zeros(along.size)
-    first = Body("sphere", 1.0, magnified * along, 1.0 - magnified * closer, magnified * turn)
-    plane = Body("plane", 1.0, still, still, still)
+    plane = Body(kind, size, still, magnified * (closer - fallen), still)
+    first = Body("sphere", 1.0, magnified * along, 1.0 - magnified * fallen, magnified * turn)
     return MovingBodies(
-        _wide(time), (first, plane), f"drawn as a solid sphere, friction {friction:g}"
+        _wide(time), (first, plane), f"drawn as a solid sphere, friction {friction:g}{scale}"
     )
 
 
 def _shape(second: object, radius: float) -> tuple[str, float]:
     if isinstance(second, Sphere | Cup):
         return ("sphere" if isinstance(second, Sphere) else "cup"), second.radius / radius
+    if isinstance(second, HalfSpace) and second.thickness is not None:
+        return "plate", second.thickness / radius
     return "plane", 1.0
 
 

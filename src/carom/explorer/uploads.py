@@ -293,6 +293,8 @@ def words_of(pair: Pair) -> str:
     """Return the bodies of a fit in words."""
     first = f"ball of {text(pair.first.radius, 'm', 4)} radius, {_material(pair.first)}"
     second: Any = pair.second
+    if pair.thickness is not None:
+        return f"{first}; on a plate of {text(pair.thickness, 'm', 4)}, {_material(second)}"
     if not isinstance(second, Sphere | Cup):
         return f"{first}; on a half-space, {_material(second)}"
     kind = "sphere" if isinstance(second, Sphere) else "cup"

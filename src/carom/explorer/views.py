@@ -9,10 +9,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from importlib.resources import files
+from math import inf, isfinite
 from typing import Any, NamedTuple, Self
 from urllib.parse import parse_qs, urlencode
 
-from carom.bodies.losses import KelvinVoigt
+from carom.bodies.losses import KelvinVoigt, ZenerPlate
 from carom.bodies.materials import Material, material, materials
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
@@ -47,7 +48,8 @@ CHOICES: dict[str, tuple[str, ...]] = {
 class Field(NamedTuple):
     """A field: its label, its letter and a hint; of a number its unit, its range and its slider.
 
-    `needs` says what other fields must be for this one to matter.
+    `otherwise` is the word for no number, which is an infinite one, `needs` what other fields must
+    be for this one to matter.
     """
 
     label: str
@@ -57,6 +59,7 @@ class Field(NamedTuple):
     least: float = 0.0
     most: float = 0.0
     slider: tuple[float, float, float] | None = None  # from, to, step
+    otherwise: str = ""
     needs: Mapping[str, list[str]] = {}
 
     @property
@@ -86,8 +89,11 @@ class Refused(InputError):
 def read_number(name: str, text: Any) -> float:
     """Return the number in the text of a field, or raise Refused."""
     field = FIELDS[name]
+    if field.otherwise and str(text).strip() in ("", field.otherwise):
+        return inf
     unit = f" {field.unit}" if field.unit else ""
     allowed = f"must be a number from {field.least:g} to {field.most:g}{unit}"
+    allowed += f", or {field.otherwise}" if field.otherwise else ""
     if not text:
         raise Refused(name, f"{allowed}; it is empty")
     reason = ""
@@ -125,8 +131,10 @@ class View:
     second_young: float = 70.0
     second_poisson: float = 0.23
     second_density: float = 2500.0
+    thickness: float = inf
     friction: float = 0.2
     restitution: float = 1.0
+    inelasticity: float = 0.0
     speed: float = 0.6
     angle: float = 30.0
     spin: float = 0.0
@@ -198,19 +206,39 @@ class View:
     def _second(self) -> Counterbody:
         stuff = self.stuff(SECOND)
         if self.against == PLANE:
-            return HalfSpace(material=stuff)
+            if not self.on_plate:
+                return HalfSpace(material=stuff)
+            if self.second_material == RIGID:
+                raise Refused("second_material", "a rigid plate gives no way; take another")
+            return HalfSpace(material=stuff, thickness=self.thickness * 1e-3)
         shape = Sphere if self.against == SPHERE else Cup
         return shape(radius=self.second_radius * 1e-3, material=stuff)
 
     @property
-    def losses(self) -> KelvinVoigt | None:
-        """What the impact loses energy to besides friction."""
-        return losses_of(self.restitution)
+    def on_plate(self) -> bool:
+        """Whether it is a plate, which gives way, that is struck."""
+        if self.in_numbers:
+            return self.inelasticity > 0.0
+        return self.against == PLANE and isfinite(self.thickness)
+
+    @property
+    def is_lossy(self) -> bool:
+        """Whether the normal motion loses energy, to the bodies or to waves in a plate."""
+        return self.on_plate or self.restitution != 1.0
+
+    @property
+    def losses(self) -> KelvinVoigt | ZenerPlate | None:
+        """What `carom.impact` and `carom.solve` take as losses, or Refused."""
+        if not self.on_plate:
+            return losses_of(self.restitution)
+        if self.restitution != 1.0:
+            raise Refused("restitution", "must be 1 on a plate: the bodies are elastic so far")
+        return ZenerPlate(inelasticity=self.inelasticity) if self.in_numbers else None
 
     @property
     def undamped(self) -> tuple[str, ...]:
         """The contact laws that have no damping, and cannot be laid over losses."""
-        return tuple(label for label in self.law if label in UNDAMPED and self.losses)
+        return tuple(label for label in self.law if label in UNDAMPED and self.is_lossy)
 
     @property
     def laid_over(self) -> tuple[str, ...]:

@@ -12,18 +12,19 @@ from carom.explorer.views import LAWS, NUMBERS, View
 from carom.io.progress import advancing
 
 PATIENCE_SECONDS = 2.0  # that a question waits for what is not there yet
-ELASTIC, LOSSY = View(), View(restitution=0.8)
+ELASTIC, LOSSY, PLATE = View(), View(restitution=0.8), View(thickness=3.0)
 STEPS: tuple[Callable[[], Any], ...] = (
     lambda: scene_of(ELASTIC),
     lambda: exact_curve(scene_of(ELASTIC)),
     lambda: scene_of(View(given=NUMBERS)),
     lambda: scene_of(LOSSY),
     lambda: exact_curve(scene_of(LOSSY)),
+    lambda: exact_curve(scene_of(PLATE)),
     *(lambda label=label: law_curves(scene_of(ELASTIC), [label]) for label in LAWS),
 )
 
 
-OF_ELASTIC, OF_LOSSES, OF_LAWS = 3, 5, len(STEPS)  # steps that answers need
+OF_ELASTIC, OF_LOSSES, OF_LAWS = 3, 6, len(STEPS)  # steps that answers need
 
 
 class Preparing(RuntimeError):
@@ -57,7 +58,7 @@ class Warming:
 
     def check(self, view: View, *, laws: bool = False) -> None:
         """Return once a view can be answered; raise Preparing if that takes long."""
-        needed = OF_LAWS if laws else OF_LOSSES if view.losses else OF_ELASTIC
+        needed = OF_LAWS if laws else OF_LOSSES if view.is_lossy else OF_ELASTIC
         needed = min(needed, len(self._steps))
         with self._news:
             if not self._news.wait_for(lambda: self._done >= needed, PATIENCE_SECONDS):

@@ -178,7 +178,7 @@ Carom.answer = (() => {
     };
     const digits = (value) => Number(value.toPrecision(CARRIED));
     return {
-      carried: met.rubs ? { psi: digits(met.psi), chi: digits(pair.chi) } : null,
+      carried: met.rubs ? { psi: digits(met.psi), chi: digits(pair.chi), inelasticity: 0 } : null,
       scene: scene(solved, shown),
       history: {
         share: shares,

@@ -8,7 +8,7 @@ Carom.contact = (() => {
   // at(s) is its point for s from -1 to 1 (left to right), along its direction, half the angle
   // under which each body sees it.
   function between(ball, other) {
-    if (other.kind === "plane") return onPlane(ball, other);
+    if (["plane", "plate"].includes(other.kind)) return onPlane(ball, other);
     return other.kind === "cup" ? inCup(ball, other) : ofSpheres(ball, other);
   }
 

@@ -9,8 +9,8 @@ Carom.fields = (() => {
   const GROUPS = {
     given: ["given"],
     numbers: ["psi", "chi"],
-    motion: ["angle", "speed", "spin", "friction", "restitution"],
-    bodies: ["radius", ...material(""), "against", "second_radius", ...material("second_")],
+    motion: ["angle", "speed", "spin", "friction", "restitution", "inelasticity"],
+    bodies: ["radius", ...material(""), "against", "second_radius", ...material("second_"), "thickness"],
   };
   const PLAIN = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i; // what a slider can follow
   const heard = [];
@@ -61,7 +61,7 @@ Carom.fields = (() => {
 
   function moved(element) {
     const name = element.id.replace(/-slider$/, "");
-    if (element.id !== name) box(name).value = element.value;
+    if (element.id !== name) box(name).value = (element.value === element.max && described[name].otherwise) || element.value;
     follow(name);
     hide();
     heard.forEach((hear) => hear(name));
@@ -70,7 +70,9 @@ Carom.fields = (() => {
   // A number moves its slider, as far as that goes.
   function follow(name) {
     const slider = box(`${name}-slider`);
-    const text = box(name).value.trim();
+    const { otherwise } = described[name];
+    const typed = box(name).value.trim();
+    const text = otherwise && ["", otherwise].includes(typed) ? slider?.max : typed;
     if (slider && document.activeElement !== slider && PLAIN.test(text)) slider.value = text;
   }
 
@@ -125,7 +127,7 @@ Carom.fields = (() => {
       const same = least === null ? null : choices?.find(([each]) => Number(each) === Number(link.get(name)));
       put(name, same ? String(same[0]) : (link.get(name) ?? first));
       if (link.has(name) && !same && value(name) !== link.get(name)) {
-        const held = least === null ? "" : `; this copy has ${choices.map(([each]) => each).join(", ")} only`;
+        const held = least === null && choices.length > 1 ? "" : `; this copy has ${choices.map(([each]) => each).join(", ")} only`;
         odd.push(`${label}: there is no ${link.get(name)}${held}, and ${first} is shown`);
         put(name, first);
       }
@@ -156,11 +158,20 @@ Carom.fields = (() => {
     }
   }
 
+  // The thickness of a plate in words, where these are the words of the fields; "" of a thick wall.
+  function plate(of) {
+    const thick = ["", String(described.thickness.default)].includes(of("thickness").trim());
+    return thick || !counts("thickness", of) ? "" : ` ${withUnit("thickness", of("thickness"))} thick`;
+  }
+
   // The bodies and their motion in words, to tell two impacts apart.
   function words(link) {
     const of = (name) => link.get(name) ?? String(described[name].default);
-    if (of("given") === "numbers") return `ψ₁ = ${of("psi")}, χ = ${of("chi")}`;
-    return `${of("material")} on ${of("second_material")}, ${withUnit("angle", of("angle"))}, µ = ${of("friction")}`;
+    if (of("given") === "numbers") {
+      const gives = Number(of("inelasticity")) ? `, λ = ${of("inelasticity")}` : "";
+      return `ψ₁ = ${of("psi")}, χ = ${of("chi")}${gives}`;
+    }
+    return `${of("material")} on ${of("second_material")}${plate(of)}, ${withUnit("angle", of("angle"))}, µ = ${of("friction")}`;
   }
 
   return {
@@ -172,6 +183,7 @@ Carom.fields = (() => {
     value,
     complain,
     words,
+    plate,
     label: (name) => (described[name] ? described[name].label : ""),
     reset,
     withUnit,

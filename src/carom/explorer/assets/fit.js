@@ -4,7 +4,7 @@ window.Carom = window.Carom || {};
 Carom.fit = (() => {
   const { largest_upload: LARGEST } = Carom.config; // bytes of a file
   const BODIES = ["material", "young", "poisson", "density"].flatMap((name) => [name, `second_${name}`])
-    .concat("radius", "against", "second_radius");
+    .concat("radius", "against", "second_radius", "thickness");
   const { make } = Carom.elements;
   const panel = document.getElementById("fit-panel");
   const parts = {};
@@ -94,7 +94,7 @@ Carom.fit = (() => {
     const long = (name) => `${withUnit(name, value(name))} radius`;
     const of = (name) => (value(name) === "own" ? "your own material" : value(name));
     const against = document.getElementById("against").selectedOptions[0].text;
-    const sized = value("against") === "half-space" ? "" : ` of ${long("second_radius")}`;
+    const sized = value("against") === "half-space" ? Carom.fields.plate(value) : ` of ${long("second_radius")}`;
     return `ball of ${long("radius")}, ${of("material")}; on a ${against}${sized}, ${of("second_material")}`;
   }
 

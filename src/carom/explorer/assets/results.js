@@ -95,11 +95,19 @@ Carom.results = (() => {
     return [fold];
   }
 
+  // What a plate comes to.
+  function plate({ scene }, title) {
+    const taken = Carom.sentence.waves(scene);
+    const words = `${title}e = ${scene.plate?.toPrecision(3)}, and waves in the plate carry away ${taken} of the normal energy.`;
+    return taken ? [make("p", "carom-note", words)] : [];
+  }
+
   function show(answers) {
     const [first, second] = answers;
     box("results").replaceChildren(table(answers));
     const titles = second ? ["This: ", "Beside: "] : ["", ""];
-    box("findings").replaceChildren(...findings(first, titles[0]), ...(second ? findings(second, titles[1]) : []));
+    const told = (answer, title) => [...plate(answer, title), ...findings(answer, title)];
+    box("findings").replaceChildren(...answers.flatMap((answer, row) => (answer ? told(answer, titles[row]) : [])));
   }
 
   return { show };

@@ -134,8 +134,13 @@ Carom.sentence = (() => {
     return "the ball approaches: no force acts yet, and its contact point moves forwards";
   }
 
+  // The share of the energy of the normal motion that waves in a plate carry away, "" if it is none.
+  const waves = ({ plate: e }) => (e === undefined ? "" : `${Number((100 * (1 - e ** 2)).toPrecision(3))}\u00a0%`);
+
   function leaving(scene) {
-    const lost = scene.facts.viscous ? ", and viscosity has taken part of its energy" : "";
+    const taken = waves(scene.data);
+    const plate = taken ? `, and waves in the plate have carried away ${taken} of its normal energy` : "";
+    const lost = scene.facts.viscous ? ", and viscosity has taken part of its energy" : plate;
     const left = `the ball has left${lost}`;
     if (!scene.facts.rubs) {
       return `${left}: no friction acted, so its tangential velocity and its spin are what they were`;
@@ -163,5 +168,5 @@ Carom.sentence = (() => {
     return `${capital(text)}.`;
   }
 
-  return { of };
+  return { of, waves };
 })();

@@ -46,7 +46,7 @@ Carom.stage = (() => {
     pen.restore();
   }
 
-  // A plane or a block with a hollow: all that is below its surface.
+  // A plane or a block with a hollow: all that is below its surface, of a plate as far as it is thick.
   function drawGround(pen, seen, body) {
     const left = -seen.x / seen.unit;
     const right = (seen.width - seen.x) / seen.unit;
@@ -68,11 +68,13 @@ Carom.stage = (() => {
     pen.lineWidth = 1.5 / seen.unit;
     pen.strokeStyle = color("ink");
     pen.stroke();
-    pen.lineTo(right, low);
-    pen.lineTo(left, low);
+    const base = body.kind === "plate" ? body.y - body.radius : low;
+    pen.lineTo(right, base);
+    pen.lineTo(left, base);
     pen.closePath();
     pen.fillStyle = color("ground");
     pen.fill();
+    if (body.kind === "plate") pen.stroke();
     pen.restore();
   }
 

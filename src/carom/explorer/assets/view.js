@@ -3,6 +3,7 @@ window.Carom = window.Carom || {};
 
 Carom.view = (() => {
   const DEPTH = 0.55; // of a plane or cup that is shown, in radii of the ball
+  const BELOW = 0.2; // of what is below a plate
   const WHOLE = 2.5; // larger second spheres are shown in part
   const PART = 1.2;
   const ARROW = 0.9; // the longest, in radii
@@ -57,7 +58,8 @@ Carom.view = (() => {
       const deep = whole ? least(other.y) - other.radius : most(other.y) + other.radius - part;
       box.bottom = Math.min(box.bottom, deep);
     } else {
-      box.bottom = (other.kind === "cup" ? other.y[0] - other.radius : other.y[0]) - DEPTH;
+      const deep = other.kind === "plate" ? Math.min(PART, Math.max(DEPTH, other.radius + BELOW)) : DEPTH;
+      box.bottom = (other.kind === "cup" ? other.y[0] - other.radius : least(other.y)) - deep;
     }
     for (const { tip } of arrows(stage)) {
       box.left = Math.min(box.left, tip[0] - room[0]);
