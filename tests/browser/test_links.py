@@ -74,7 +74,8 @@ def test_the_link_that_is_told_opens_the_same_page(visit):
         seen.page.keyboard.press("ArrowLeft")
     seen.page.click("#theme")
     seen.until(lambda: {"angle", "law", "time", "theme"} == set(dict(parse_qsl(seen.link()))))
-    sizes = "[...document.querySelectorAll('#film canvas')].map(c => [c.id, c.width, c.height])"
+    drawn = "[...document.querySelectorAll('#film canvas')].filter((each) => each.offsetParent)"
+    sizes = f"{drawn}.map((each) => [each.id, each.width, each.height])"
 
     def shown():
         words = [seen.page.inner_text(part) for part in ("#results", "#clock", "#theme")]

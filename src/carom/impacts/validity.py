@@ -50,7 +50,7 @@ def judge(hit: ImpactResult, assumptions: Sequence[Assumption]) -> Validity:
 def _small_contact(hit: ImpactResult) -> Finding:
     return judged(
         "a_max/R*",
-        hit.scales.radius / hit.pair.effective_radius,
+        hit.max_radius / hit.pair.effective_radius,
         SMALL_CONTACT,
         "the contact is small compared with the bodies",
         f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most",
