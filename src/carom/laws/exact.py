@@ -19,7 +19,7 @@ from carom.dimensionless.lossy.law import LossyRebounds, scale_free
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.patches import Patches
 from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
-from carom.io.citations import IMPACT, bibtex
+from carom.io.citations import IMPACT, PLATE, VISCOUS, bibtex
 from carom.io.progress import advancing
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
@@ -308,7 +308,8 @@ class ReboundLaw(Law):
 
     def cite(self) -> str:
         """Return what to cite for this law, as BibTeX."""
-        return bibtex(*IMPACT, *(() if self._losses is None else (self._losses._source,)))
+        loss = PLATE if self.inelasticity > 0.0 else VISCOUS
+        return bibtex(*IMPACT, *((loss,) if self.restitution < 1.0 else ()))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the table as plain numbers and lists, for JSON; `from_dict` reads it.
@@ -374,10 +375,11 @@ class ReboundLaw(Law):
         return type(self)._of, tuple(getattr(self, field.name) for field in fields(self))
 
     def __repr__(self) -> str:
-        own = self._losses
-        numbers = {} if own is None else own._describe()
-        words = (f", losses={type(own).__name__}({name}={x!r})" for name, x in numbers.items())
-        return f"ReboundLaw(chi={self.chi!r}{''.join(words)})"
+        if self.inelasticity > 0.0:
+            return f"ReboundLaw(chi={self.chi!r}, losses={self._losses!r})"
+        if self.restitution == 1.0:
+            return f"ReboundLaw(chi={self.chi!r})"
+        return f"ReboundLaw(chi={self.chi!r}, losses=KelvinVoigt(restitution={self.restitution!r}))"
 
 
 @lru_cache(maxsize=128)

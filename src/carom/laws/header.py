@@ -7,7 +7,6 @@ from string import Template
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.losses import KelvinVoigt
 from carom.io.version import __version__
 from carom.laws.exact import ReboundLaw
 from carom.quantities.refusals import InputError
@@ -44,7 +43,7 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
     True
     """
     suffixes = [_suffix(law) for law in laws]
-    viscous = any(isinstance(law._losses, KelvinVoigt) for law in laws)
+    viscous = any(law.restitution < 1.0 and law.inelasticity == 0.0 for law in laws)
     for index, law in enumerate(laws):
         if suffixes[index] in suffixes[:index]:
             raise InputError(f"chi: {law.chi:g} comes twice; give each chi once")
@@ -59,12 +58,10 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
 
 
 def _suffix(law: ReboundLaw) -> str:
-    chi, own = _identifier(law._one_chi()), law._losses
-    if own is None:
-        return chi
-    if isinstance(own, KelvinVoigt):
-        return f"{chi}_e_{_identifier(law.restitution)}"
-    return f"{chi}_plate_{_identifier(law.inelasticity)}"
+    chi, e = _identifier(law._one_chi()), law.restitution
+    if law.inelasticity > 0.0:
+        return f"{chi}_plate_{_identifier(law.inelasticity)}"
+    return chi if e == 1.0 else f"{chi}_e_{_identifier(e)}"
 
 
 def _identifier(value: float) -> str:
