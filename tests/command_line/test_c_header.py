@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import carom
+from carom.laws.header import c_header
 
 CHIS = [0.2, 0.5, 1.44, 3.0]
 STRICT = ["-Wall", "-Wextra", "-pedantic", "-Werror"]
@@ -101,6 +102,24 @@ def test_several_laws_in_one_header_and_in_cpp(run):
         np.testing.assert_allclose(got, want, rtol=0, atol=1e-14)
 
 
+def test_the_law_of_a_plate(run):
+    """At one lambda: to 1e-14 of ReboundLaw and 1e-9 of `carom.rebound`; its e is in the text."""
+    code, text, _ = run("curve", "--chi", 1.44, "--inelasticity", 0.4, "--export", "c")
+    assert code == 0
+    Path("rebound.h").write_text(text)
+    plate = carom.ZenerPlate(inelasticity=0.4)
+    law, function = carom.laws.ReboundLaw(1.44, losses=plate), compiled()
+    psi = slopes(law)
+    size = np.maximum(1.0, np.abs(psi))
+    assert np.max(np.abs(function(psi) - law(psi)) / size) <= 1e-14
+    some = psi[np.abs(psi) < 1e6][::20]
+    assert np.max(np.abs(function(some) - carom.rebound(some, 1.44, losses=plate))) <= 1e-9
+    assert f"e = {law.restitution!r}" in text
+    assert "1e-9" in text[: text.index("*/")]
+    laws = [carom.laws.ReboundLaw(1.44, losses=each) for each in (None, plate)]
+    assert "carom_rebound_1_44_plate_0_4(double psi)" in c_header(laws)
+
+
 def test_says_what_it_is(run):
     """Version, chi, the error and the equation stand in the comment, in ASCII."""
     _, text, _ = run("curve", "--chi", "0.75", "--export", "c")
@@ -122,6 +141,8 @@ REFUSED = [
     (["--export", "c", "--output", "x.csv"], "output file: 'x.csv' cannot be used; must end in .h"),
     (["--export", "c", "--output", "no/x.h"], "output file: 'no/x.h' .*folder must exist"),
     (["--export", "c", "--chi", "1.440"], "chi: 1.44 comes twice"),
+    (["--restitution", "0.9", "--inelasticity", "0.4"], "inelasticity: give it or --restitution"),
+    (["--inelasticity", "3"], "inelasticity: '3' cannot be used"),
     (["--export", "c", "--chi", "-1"], "chi: '-1' cannot be used; must be positive"),
     (["--output", "x.h"], "output file: 'x.h' cannot be used; must end in .nc or .csv"),
 ]

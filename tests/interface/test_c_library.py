@@ -26,6 +26,7 @@ def functions():
     library = ctypes.CDLL(carom.get_library())
     library.carom_rebound.argtypes = [ctypes.c_size_t, DOUBLES, DOUBLES, DOUBLES, CODES]
     library.carom_rebound_on_plate.argtypes = [ctypes.c_size_t, *[DOUBLES] * 4, CODES]
+    library.carom_motion_on_plate.argtypes = [ctypes.c_size_t, *[DOUBLES] * 3]
     library.carom_rebound_viscous.argtypes = [ctypes.c_size_t, *[DOUBLES] * 5, CODES]
     library.carom_status_message.restype = ctypes.c_char_p
     return library
@@ -67,6 +68,19 @@ def test_plates_are_those_of_python(functions):
     assert np.count_nonzero(solved) > 400
     assert actual[solved] == pytest.approx(expected[solved], abs=1e-12, rel=1e-12)
     assert np.all(status[give > 2.0][np.isfinite(psi[give > 2.0])] == 5)
+
+
+def test_the_motion_on_plates_is_that_of_python(functions):
+    give = np.array([0.0, 1e-4, 0.345, 1.0, 1.99, 2.1, -0.1, np.nan, np.inf])
+    e, duration = np.zeros(give.size), np.zeros(give.size)
+    assert functions.carom_motion_on_plate(give.size, give, e, duration) == 0
+    laws = [
+        carom.laws.ReboundLaw(0.3, losses=carom.ZenerPlate(inelasticity=each * 1.25**0.4))
+        for each in give[:5]
+    ]
+    assert e[:5] == pytest.approx([law.restitution for law in laws], abs=1e-10)
+    assert duration[:5] == pytest.approx([law.duration for law in laws], abs=1e-9)
+    assert np.isnan([e[5:], duration[5:]]).all()
 
 
 def test_the_same_bits_with_losses(functions):

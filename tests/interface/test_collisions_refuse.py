@@ -152,8 +152,8 @@ def test_out_of_place_touches_nothing(pair):
 def test_says_what_became_of_a_pair():
     """Each status has its words."""
     words = {status: status.message for status in carom.status.CollisionStatus}
-    assert [int(status) for status in words] == [0, 1, 2, 3]
-    assert len(set(words.values())) == 4
+    assert [int(status) for status in words] == [0, 1, 2, 3, 4, 5]
+    assert len(set(words.values())) == 6
     with pytest.warns(UserWarning, match="of 1 pair .* 1 with a number .* too large"):
         fast = carom.collide(PAIR, velocity1=[1e200, 0.0, 1e200], normal=[0.0, 0.0, 1.0])
     assert carom.status.CollisionStatus(int(fast.status)).name == "NOT_FINITE"

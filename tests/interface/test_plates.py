@@ -12,6 +12,7 @@ import carom
 from carom.bodies.cases import case_of, pair_of, read_case
 from carom.cli.commands import app
 from carom.names import GROUPS
+from carom.sweeps.records import summary
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PLATE = carom.HalfSpace("steel", thickness="3 mm")
@@ -83,6 +84,24 @@ def test_a_sweep_over_thickness_is_that_of_single_impacts() -> None:
                 assert value == pytest.approx(getattr(hit, name), rel=1e-12, abs=1e-15), name
 
 
+@pytest.mark.parametrize("axis", ["second.width", "second.thickness"])
+def test_a_sweep_says_where_the_rim_answers(axis) -> None:
+    """As `hit.validity` does, with the results kept; width is an axis like others."""
+    values = {"second.width": [0.02, 0.08, 0.09, 0.1, 0.5], "second.thickness": [2e-3, 3e-3, 0.1]}
+    bodies = {"second": {"thickness": "3 mm", "width": "90 mm"}}
+    swept = carom.sweep(CASE | bodies, carom.Grid({axis: values[axis], "angle": [0.0, 0.5]}))
+    quiet = []
+    for value in values[axis]:
+        sizes = {"thickness": "3 mm", "width": "90 mm", axis.partition(".")[2]: value}
+        hit = carom.impact(carom.Pair(BALL, carom.HalfSpace("steel", **sizes), 0.2), speed=0.5)
+        quiet.append(next(f.holds for f in hit.validity.findings if f.name == "width"))
+    assert len(set(quiet)) == 2
+    assert np.all((swept.status.values.T == carom.status.PointStatus.SOLVED) == quiet)
+    assert np.all((swept.status.values.T == carom.status.PointStatus.RIM_ANSWERS) != quiet)
+    assert np.all(np.isfinite(swept.psi_out.values))
+    assert summary(swept).solved == swept.status.size
+
+
 def test_points_of_a_sweep_have_a_status() -> None:
     swept = carom.sweep(CASE, carom.Grid({"second.thickness": [-1.0, 1e-9, 1e-3, 3e-3]}))
     status = carom.status.PointStatus
@@ -145,6 +164,12 @@ def test_the_rim_of_a_plate_answers() -> None:
         ),
         (lambda: carom.impact(PAIR, speed=1.0, method="halfspace"), "thickness: 0.003"),
         (
+            lambda: carom.sweep(
+                {**CASE, "second": {"width": 0.1}}, carom.Grid({"first.radius": [0.01]})
+            ),
+            "second.width: .*give second.thickness, too",
+        ),
+        (
             lambda: carom.sweep({**CASE, "restitution": 0.9}, carom.Grid({"angle": [0.1]})),
             "restitution: .*elastic so far",
         ),
@@ -157,11 +182,10 @@ def test_what_cannot_be_is_refused_in_one_line(call, words) -> None:
 
 
 LAW = carom.dem.LinearSpring()
-OTHERS = {  # all that takes a pair but `impact`, and what `bench` returns
+OTHERS = {  # all that takes a pair but `impact` and `collide`, and what `bench` returns
     "bearable_speeds": lambda: carom.bearable_speeds(PAIR),
     "bench": lambda: carom.verify.bench(carom.verify.Lammps(), [LAW], pair=PAIR),
     "cattaneo_mindlin": lambda: carom.classical.cattaneo_mindlin(PAIR, 1.0, 0.1),
-    "collide": lambda: carom.collide(PAIR, velocity1=[0.0, 0.0, -1.0], normal=[0.0, 0.0, 1.0]),
     "convert_observables": lambda: carom.convert_observables(
         PAIR, known={"speed": 1.0, "angle": 0.3, "normal_restitution": 1.0}, wanted="psi_in"
     ),
@@ -195,7 +219,7 @@ def test_all_that_takes_a_pair_is_tried() -> None:
             error = isinstance(value, type) and issubclass(value, BaseException)
             if callable(value) and group != "carom.results" and not error:
                 taking |= {name} if "pair" in inspect.signature(value).parameters else set()
-    assert taking - {"impact", "Bench"} == set(OTHERS)
+    assert taking - {"impact", "collide", "Bench"} == set(OTHERS)
 
 
 def test_what_to_cite() -> None:

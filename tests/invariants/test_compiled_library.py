@@ -132,6 +132,9 @@ def laws(rng):
         normal = (normal / np.linalg.norm(normal, axis=1, keepdims=True)).astype(kind)
         for law in (None, carom.laws.RoughLaw(restitution=0.9)):
             carom.collide(PAIR, velocity1=velocity, normal=normal, law=law, threads=1)
+        plate = carom.HalfSpace(material="steel", thickness="3 mm")
+        on_plate = carom.Pair(PAIR.first, plate, friction=0.2)
+        carom.collide(on_plate, velocity1=velocity, normal=normal, threads=1)
     places = np.arange(50, dtype=np.uint64)
     permutation.fractions(places, 1000, permutation.secrets(1, 1)[0])
 

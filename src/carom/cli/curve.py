@@ -14,7 +14,7 @@ from carom.quantities.units import finite, or_none, positive, whole
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.bodies.losses import KelvinVoigt
+    from carom.bodies.losses import KelvinVoigt, ZenerPlate
 
 PRINTED_ROWS = 17
 MOST_POINTS = 100_000
@@ -27,6 +27,8 @@ OPTIONS = {
     "steel ball on a steel plate. You can repeat this option.",
     "restitution": "Normal coefficient of restitution of a viscous (Kelvin-Voigt) contact, e.g. "
     "0.9 (default: elastic bodies).",
+    "inelasticity": "Zener's inelasticity parameter of a plate that gives way, from 0 to 2.18 "
+    "(default: a thick wall).",
     "start": typer.Option("--from", help="First incidence psi_1 = kappa V_x/(mu V_1)."),
     "stop": typer.Option(
         "--to", help="Last psi_1 (default: 4 chi + 1, where the contact slides throughout)."
@@ -42,6 +44,7 @@ OPTIONS = {
 def curve_command(
     chi: list[str],
     restitution: str | None = None,
+    inelasticity: str | None = None,
     start: str = "0",
     stop: str | None = None,
     points: str = "401",
@@ -60,12 +63,13 @@ def curve_command(
     \b
     Example: carom curve --chi 1.44 --chi 2 --plot curve.png
     A viscous contact: carom curve --chi 1.44 --restitution 0.9
+    A plate: carom curve --chi 1.44 --inelasticity 0.4
     A C header: carom curve --chi 1.44 --export c --output rebound.h
     """
     if export is not None:
         table = {"--json": as_json, "--plot": plot, "--from": start != "0", "--to": stop}
         table["--points"] = points != "401"
-        _export(chi, restitution, export, output, table)
+        _export(chi, _losses(restitution, inelasticity), export, output, table)
         return
     import numpy as np
 
@@ -75,7 +79,7 @@ def curve_command(
     last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")
     refuse(not first < last and refusal("to", last, f"must be above --from, {first:g}"))
     psi = np.linspace(first, last, whole("points", points, 2, MOST_POINTS))
-    dataset = carom.curve(values, psi, losses=_losses(restitution))
+    dataset = carom.curve(values, psi, losses=_losses(restitution, inelasticity))
     if output is not None:
         stored(carom.save(dataset, output))
     if plot is not None:
@@ -85,13 +89,17 @@ def curve_command(
     require_some(int(restitutions.count()), restitutions.size)
 
 
-def _losses(restitution: str | None) -> "KelvinVoigt | None":
+def _losses(restitution: str | None, inelasticity: str | None) -> "KelvinVoigt | ZenerPlate | None":
+    if inelasticity is not None:
+        twice = "give it or --restitution, not both; each of them sets the loss of energy"
+        refuse(restitution is not None and f"inelasticity: {twice}")
+        return carom.ZenerPlate(inelasticity=inelasticity)
     return None if restitution is None else carom.KelvinVoigt(restitution=restitution)
 
 
 def _export(
     chi: list[str],
-    restitution: str | None,
+    losses: "KelvinVoigt | ZenerPlate | None",
     language: str,
     output: str | None,
     others: dict[str, Any],
@@ -104,7 +112,6 @@ def _export(
     if unused is not None:
         raise InputError(f"{unused}: has no effect with --export; leave one of them out")
     target = None if output is None else checked_output(output, HEADERS)
-    losses = _losses(restitution)
     text = c_header([carom.laws.ReboundLaw(positive("chi", value), losses=losses) for value in chi])
     if target is None:
         typer.echo(text, nl=False)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.collisions.plates import PlateRule, rebounds
 from carom.collisions.records import LARGEST_SKEW, CollisionStatus, Inertia
+from carom.dimensionless.elastic.integration import Work
+from carom.dimensionless.elastic.phases import new_work
+from carom.dimensionless.elastic.record import Record, new_record
 from carom.dimensionless.numerics.arrays import ArrayType, Codes, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.dimensionless.numerics.threads import available_cores
+from carom.dimensionless.numerics.threads import in_blocks
 from carom.laws.rules import LARGEST, Rule, one_plus_beta
 from carom.quantities.arrays import Array
 
@@ -23,6 +26,7 @@ SMALLEST_SQUARE = 2.0**-960  # of |V_t|^2: less has lost digits, so that V_t is 
 ENLARGED = 2.0**500
 CACHE_PAIRS = 256  # pairs whose numbers stay in the nearest cache
 BLOCK = 65536  # pairs that a thread takes at once
+PLATE_BLOCK = 16 * CACHE_PAIRS  # on a plate, where each is solved
 
 
 class Motions(NamedTuple):
@@ -134,6 +138,40 @@ def part(motions: Motions, low: int, high: int) -> Motions:
     )
 
 
+@kernel
+def meet(
+    before: Motions,
+    normal: Flat,
+    inertia: Inertia,
+    scale: float,
+    scratch: Scratch,
+    status: NDArray[np.int8],
+) -> None:
+    """Write how bodies meet."""
+    approach(before, inertia, scratch)
+    contact_velocity(normal, scale, scratch, status)
+
+
+@kernel
+def leave(
+    before: Motions,
+    inertia: Inertia,
+    restitution: float,
+    scratch: Scratch,
+    after: Motions,
+    status: NDArray[np.int8],
+    inplace: bool,
+) -> None:
+    """Write the motions that the impulses leave."""
+    impulses(inertia, restitution, scratch, status)
+    velocity1, spin1, velocity2, spin2 = inertia.factors
+    add(before.velocity1, velocity1, scratch.linear, after.velocity1, inplace)
+    add(before.spin1, spin1, scratch.angular, after.spin1, inplace)
+    if velocity2 > 0.0:
+        add(before.velocity2, velocity2, scratch.linear, after.velocity2, inplace)
+        add(before.spin2, spin2, scratch.angular, after.spin2, inplace)
+
+
 @entry_point("float32", "float64")
 def collide_block(
     before: Motions,
@@ -145,45 +183,61 @@ def collide_block(
     status: Codes,
     inplace: bool,
     start: int,
+    stop: int,
 ) -> None:
     """Write the motions after a block of collisions, chunk by chunk; `after` may be `before`."""
-    stop = min(start + BLOCK, status.size)
     for low in range(start, stop, CACHE_PAIRS):
         high = min(low + CACHE_PAIRS, stop)
         old, new, code = part(before, low, high), part(after, low, high), status[low:high]
-        approach(old, inertia, scratch)
-        contact_velocity(normal[3 * low : 3 * high], rule.scale, scratch, code)
+        meet(old, normal[3 * low : 3 * high], inertia, rule.scale, scratch, code)
         one_plus_beta(scratch.slope, high - low, rule, scratch.panel, scratch.fraction)
-        impulses(inertia, rule.restitution, scratch, code)
-        velocity1, spin1, velocity2, spin2 = inertia.factors
-        add(old.velocity1, velocity1, scratch.linear, new.velocity1, inplace)
-        add(old.spin1, spin1, scratch.angular, new.spin1, inplace)
-        if velocity2 > 0.0:
-            add(old.velocity2, velocity2, scratch.linear, new.velocity2, inplace)
-            add(old.spin2, spin2, scratch.angular, new.spin2, inplace)
+        leave(old, inertia, rule.restitution, scratch, new, code, inplace)
+
+
+@entry_point("float32", "float64")
+def collide_block_with_plate(
+    before: Motions,
+    normal: Flat,
+    inertia: Inertia,
+    plate: PlateRule,
+    work: Work,
+    record: Record,
+    scratch: Scratch,
+    after: Motions,
+    status: Codes,
+    inplace: bool,
+    start: int,
+    stop: int,
+) -> None:
+    """Write the same after collisions with a plate, each of which has an e of its own."""
+    for low in range(start, stop, CACHE_PAIRS):
+        high = min(low + CACHE_PAIRS, stop)
+        old, new, code = part(before, low, high), part(after, low, high), status[low:high]
+        meet(old, normal[3 * low : 3 * high], inertia, plate.scale, scratch, code)
+        rebounds(plate, work, record, scratch.slope, scratch.closing, scratch.fraction, code)
+        leave(old, inertia, 0.0, scratch, new, code, inplace)
 
 
 def collide_all(
     before: Motions,
     normal: Flat,
     inertia: Inertia,
-    rule: Rule,
+    rule: Rule | PlateRule,
     after: Motions,
     status: NDArray[np.int8],
     threads: int | None,
 ) -> None:
     """Write the motions after all collisions; the result does not depend on the threads."""
 
-    def block(start: int) -> None:
-        collide_block(before, normal, inertia, rule, new_scratch(), after, status, inplace, start)
+    def block(some: slice) -> None:
+        start, stop, scratch = some.start, min(some.stop, status.size), new_scratch()
+        result = scratch, after, status, inplace, start, stop
+        if isinstance(rule, PlateRule):
+            work, record = new_work(), new_record(False)
+            collide_block_with_plate(before, normal, inertia, rule, work, record, *result)
+        else:
+            collide_block(before, normal, inertia, rule, *result)
 
     inplace = np.may_share_memory(before.velocity1, after.velocity1)
-    starts = range(0, status.size, BLOCK)
-    workers = min(threads or available_cores(), len(starts))
-    if workers <= 1:
-        for start in starts:
-            block(start)
-        return
-    block(0)  # compiles, if need be, in one thread
-    with ThreadPoolExecutor(workers) as pool:
-        list(pool.map(block, starts[1:]))
+    sizes = (PLATE_BLOCK, CACHE_PAIRS) if isinstance(rule, PlateRule) else (BLOCK, BLOCK)
+    in_blocks(block, status.size, *sizes, threads)

@@ -41,11 +41,15 @@ class CollisionStatus(WordedStatus):
     SEPARATING = 1, "left alone: the bodies do not approach"
     NOT_FINITE = 2, "left alone: a number is not finite, or too large"
     NORMAL_NOT_UNIT = 3, "left alone: the normal is not a unit vector"
+    PLATE_TOO_THIN = 4, "left alone: the plate is a foil (lambda above 2) or below the penetration"
+    NOT_SOLVED = 5, "left alone: not solved, as chi is too large"
 
 
 ADVICE = {
     CollisionStatus.NORMAL_NOT_UNIT: "whose normal is not of length one (divide it by its length)",
     CollisionStatus.NOT_FINITE: "with a number that is not finite or too large (look for NaN)",
+    CollisionStatus.PLATE_TOO_THIN: "too fast for so thin a plate (make it thicker, or a wall)",
+    CollisionStatus.NOT_SOLVED: "that are not solved (chi is too large)",
 }
 
 

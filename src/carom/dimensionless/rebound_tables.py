@@ -134,14 +134,17 @@ def tabulated(
     degrees: tuple[int, int, int] = (8, 8, 8),
     weight: Callable[[Array], Array] = np.ones_like,
     impact_tolerance: float = TOLERANCE,
+    give: float = 0.0,
 ) -> Patches:
     """Return the table over ranges of chi and e, or one value of either, where the ends are one.
+
+    `give` is lambda of a plate, of which e is the restitution; chi is then one value.
 
     The last terms of a series are below `tolerance` as errors in psi_2, which have a `weight` that
     depends on chi; `impact_tolerance` is that of viscous impacts. `advance` is called with the
     number of impacts that have been solved. Raises InputError if one cannot be solved.
     """
-    ranges, elastic = (chi, restitution), restitution[0] == 1.0
+    ranges, elastic = (chi, restitution), restitution[0] == 1.0 or give > 0.0
     wide = [i for i, (low, high) in enumerate(ranges) if low < high]
     borders = [1.0, 2.0, 3.0] if chi[1] > FOLD else [1.0]
     if not wide:
@@ -157,7 +160,7 @@ def tabulated(
         for i, values in zip(wide, some, strict=True):
             (each_chi, e)[i][:] = values
         psi = psi_at(place, each_chi, e) if wide else place
-        outgoing, branches = _rebounds(psi, each_chi, e, impact_tolerance)
+        outgoing, branches = _rebounds(psi, each_chi, e, impact_tolerance, give)
         advance(psi.size)
         return Samples(outgoing / psi, psi * weight(each_chi), branches)
 
@@ -173,14 +176,14 @@ def tabulated(
 
 
 def _rebounds(
-    psi: Array, chi: Array, restitution: Array, tolerance: float
+    psi: Array, chi: Array, restitution: Array, tolerance: float, give: float
 ) -> tuple[Array, NDArray[np.int64]]:
     """Return psi_2 and the branch of each impact: its phases, or one for all with losses.
 
     With losses kinks are weak. Raises InputError where an impact is not solved.
     """
-    if np.all(restitution == 1.0):
-        outgoing, status, branches = solved(psi, chi)
+    if give > 0.0 or np.all(restitution == 1.0):
+        outgoing, status, branches = solved(psi, chi, give=give)
     else:
         values, which = np.unique(restitution, return_inverse=True)
         losses = LossNumbers(Loss.VISCOUS, np.array(list(map(_viscous_loss, values)))[which])

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from carom.dimensionless.elastic import plates
 from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.motion import PSI
-from carom.dimensionless.elastic.phases import Status, new_work, run_phases
+from carom.dimensionless.elastic.phases import LARGEST_GIVE, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import KIND, KIND_SIGN, Record, new_record
 from carom.dimensionless.lossy import law, layout
 from carom.dimensionless.lossy.law import Loss, LossNumbers, LossyRebounds, ScaleFreeLaw
@@ -86,9 +86,12 @@ def fill(
 
 @entry_point()
 def fill_motion(give: Vector, tolerance: float, work: Work, numbers: Matrix) -> None:
-    """Write what the normal motion of every impact comes to."""
+    """Write what the normal motion of every impact comes to, NaN where lambda is out of range."""
     for i in range(give.size):
         out = numbers[i]
+        out[: layout.NUMBERS] = np.nan
+        if not 0.0 <= give[i] <= LARGEST_GIVE:
+            continue
         e, duration, deepest = plates.normal_motion(give[i], tolerance, work)
         out[layout.RESTITUTION], out[layout.LOST], out[layout.TIME] = e, 1.0 - e * e, duration
         out[layout.DEEPEST], out[layout.WIDEST] = deepest, np.sqrt(deepest)
@@ -155,8 +158,7 @@ def lossy_rebounds(
         out = rows[part], codes[part]
         if losses.loss == Loss.PLATE:
             psi_2, codes[part], _ = solved(psis, chis, 1, parameters)
-            gives = np.where(codes[part] == Status.SOLVED, parameters, 0.0)
-            fill_motion(gives, STEP_TOLERANCE, new_work(), rows[part])
+            fill_motion(parameters, STEP_TOLERANCE, new_work(), rows[part])
             rows[part, layout.PSI_OUT], rows[part, layout.SHEAR_LOST] = psi_2, 0.0
         elif losses.loss == Loss.VISCOUS:
             arrays = tolerance, work.new_work(), record.new_record(False)

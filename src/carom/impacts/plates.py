@@ -1,6 +1,6 @@
 """What the theory of a plate needs: long bending waves, a small contact and deflection, width."""
 
-from math import inf, pi, sqrt
+from math import inf, pi
 from typing import cast
 
 from carom.bodies.losses import LossLaw
@@ -10,6 +10,7 @@ from carom.impacts.dissipation import compressional_speed
 from carom.impacts.findings import judged
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding
+from carom.quantities.elementwise import sqrt
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal, refuse
 
@@ -63,7 +64,7 @@ def rim(hit: ImpactResult) -> Finding | None:
     if hit.pair.thickness is None:
         return None
     plate = cast(HalfSpace, hit.pair.second)
-    needed = 2.0 * sqrt(2.0) * _half_wave(plate, hit.duration)
+    needed = quiet_width(plate, hit.duration)
     if plate.width is None:
         words = f"the plate is taken to be wide: more than {text(needed, 'm', 2)}"
         return Finding("width", inf, needed, True, words)
@@ -71,6 +72,14 @@ def rim(hit: ImpactResult) -> Finding | None:
     answers = f"the rim answers within the contact; it must be {text(needed, 'm', 2)} wide"
     good = "no wave comes back from the rim within the contact"
     return Finding("width", plate.width, needed, wide, good if wide else answers)
+
+
+def quiet_width(plate: HalfSpace, duration: float) -> float:
+    """Return the width in m up to which bending waves come back from the rim within the contact.
+
+    Those of the period of the contact; their group velocity is twice the phase velocity.
+    """
+    return 2.0 * sqrt(2.0) * _half_wave(plate, duration)
 
 
 def _half_wave(plate: HalfSpace, duration: float) -> float:

@@ -47,6 +47,12 @@ CAROM_API int carom_rebound_on_plate(
     size_t n, const double *psi, const double *chi, const double *lambda,
     double *psi_out, int8_t *status);
 
+/* Normal restitution on such plates, which depends on neither psi nor chi, and the duration of the
+ * contact in units of d_max/V_1, of the penetration d_max into a thick wall; NaN where lambda lies
+ * outside 0 to 2. */
+CAROM_API int carom_motion_on_plate(
+    size_t n, const double *lambda, double *restitution, double *duration);
+
 /* psi_2 and normal restitution of n impacts of Kelvin-Voigt solids, viscous in compression and in
  * shear alike; alpha = tau V_1/d_max, with the retardation time tau, the normal speed V_1 and the
  * penetration d_max that it would reach without losses. */

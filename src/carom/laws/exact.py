@@ -1,4 +1,4 @@
-"""The exact rebound as a table: at one chi and e, or over a range of chi."""
+"""The exact rebound as a table: at one chi and e or lambda, or over a range of chi."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from carom.bodies.losses import KelvinVoigt
+from carom.bodies.losses import KelvinVoigt, ZenerPlate
 from carom.bodies.pairs import Pair, checked_pair
 from carom.dem.base import Codes, Law
 from carom.dimensionless import rebound_tables as tables
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import scale_free
+from carom.dimensionless.lossy.law import LossyRebounds, scale_free
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.patches import Patches
 from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
-from carom.io.citations import IMPACT, VISCOUS, bibtex
+from carom.io.citations import IMPACT, PLATE, VISCOUS, bibtex
 from carom.io.progress import advancing
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
@@ -29,10 +29,12 @@ from carom.quantities.refusals import InputError, refusal
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import positive
 
+SAME_RESTITUTION = 1e-9  # of a stored table and its plate
 LARGEST_CHI = 100.0  # tables of larger ones would take minutes
 RANGE = (0.5, 5.0)  # of chi, in which a table over a range takes minutes at most
 RETURNING = 3.0  # chi above which the front of slip returns, with losses
 ELASTIC, ELASTIC_RANGE, VISCOUS_SOLID, ROUGH = 4e-10, 1e-8, 1e-8, 2e-7  # tolerances of tables
+OneLoss = KelvinVoigt | ZenerPlate  # the same at all speeds
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +47,8 @@ class ReboundLaw(Law):
     The ratio r (Maw, Barber & Fawcett 1976; Barber 1979, (33)) is stored as Chebyshev series on
     patches between the regime borders. At one chi the error is below 1e-9 for chi up to 10, where
     impacts have few phases, and 2e-9 above; with losses below 3e-8 max(1, |psi_1|) for e >= 0.01
-    and chi up to 3, and 1e-6 above. Over a range of chi it is below 1e-7, with losses 1e-6.
+    and chi up to 3, and 1e-6 above. Over a range of chi it is below 1e-7, with losses 1e-6. On a
+    plate that gives way it is that of elastic bodies on a thick wall.
 
     Parameters
     ----------
@@ -53,14 +56,18 @@ class ReboundLaw(Law):
         Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive, up to 100; spheres have 0.5 to
         3. The table takes 20 to 70 ms up to 3, and seconds beyond 30. Or a range within 0.5 to 5:
         0.1 s for (1.2, 1.5), a second for (0.9, 1.8), and several seconds for chi beyond 2.
-    losses : KelvinVoigt, optional
-        Loss of energy that is the same at all speeds, which means a restitution. The table takes
-        0.1 to 0.3 s for chi up to 3, and some seconds above; over a range some ten times as long.
+    losses : KelvinVoigt or ZenerPlate, optional
+        Loss of energy that is the same at all speeds, which means a restitution, or a plate at one
+        lambda. The table of a viscous solid takes 0.1 to 0.3 s for chi up to 3, and some seconds
+        above; over a range some ten times as long. That of a plate is for one chi, and takes 0.02
+        to 0.2 s up to 3.
 
     Attributes
     ----------
     restitution : float
         Coefficient of restitution e, 1 without losses.
+    inelasticity : float
+        Zener's parameter of a plate, 0 of a thick wall.
     edges : ndarray, shape (n + 1,)
         Ends of the panels in psi_1, from 0 to max(1, 2 chi (1 + e) - e); empty for a range.
     coefficients : ndarray, shape (n, 11)
@@ -69,8 +76,8 @@ class ReboundLaw(Law):
     Raises
     ------
     InputError
-        If chi is not positive or above 100, if a range is empty or goes beyond 0.5 to 5, or if the
-        losses depend on the speed.
+        If chi is not positive or above 100, if a range is empty, goes beyond 0.5 to 5 or comes with
+        a plate, or if the losses depend on the speed.
 
     Examples
     --------
@@ -85,6 +92,9 @@ class ReboundLaw(Law):
     >>> lossy = carom.laws.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
     (array([0.00384, 0.528  ]), 2.9186)
+    >>> plate = carom.laws.ReboundLaw(1.44, losses=carom.ZenerPlate(inelasticity=0.4))
+    >>> plate([0.5, 9.0]).round(6), round(plate.restitution, 4)
+    (array([0.049481, 4.637839]), 0.5146)
     """
 
     name: ClassVar[str] = "exact rebound"
@@ -96,30 +106,36 @@ class ReboundLaw(Law):
     edges: Array
     coefficients: Array
     _table: Patches | None  # over a range
+    inelasticity: float
 
     @known_keywords
-    def __init__(
-        self, chi: float | tuple[float, float], *, losses: KelvinVoigt | None = None
-    ) -> None:
+    def __init__(self, chi: float | tuple[float, float], *, losses: OneLoss | None = None) -> None:
         e, wide = _restitution_of(losses), isinstance(chi, tuple | list) and len(chi) == 2
+        plate = losses if isinstance(losses, ZenerPlate) and e < 1.0 else None
         ends: Any = chi if wide else (chi, chi)
         low, high = (positive("chi", each) for each in ends)
         if wide and not RANGE[0] <= low < high <= RANGE[1]:
             allowed = "must be a range within {:g} to {:g}; carom.rebound takes any chi"
             raise refusal("chi", (low, high), allowed.format(*RANGE))
+        if wide and plate is not None:
+            raise refusal("chi", (low, high), "the table of a plate is for one chi; give one")
         if high > LARGEST_CHI:
             allowed = f"must be at most {LARGEST_CHI:g} in a table; carom.rebound takes any chi"
             raise refusal("chi", chi, allowed)
         degrees = (8, 8, 8 if wide and e == 1.0 else DEGREE)
         tolerance = ELASTIC_RANGE if wide else ELASTIC
-        if e < 1.0:
+        if e < 1.0 and plate is None:
             tolerance = ROUGH if wide or high > RETURNING else VISCOUS_SOLID
+        give = 0.0 if plate is None else plate._scale_free().parameter
         with advancing("tabulating the rebounds", None, unit="impacts") as advance:
-            table = tables.tabulated((low, high), (e, e), tolerance, advance, degrees=degrees)
+            table = tables.tabulated(
+                (low, high), (e, e), tolerance, advance, degrees=degrees, give=give
+            )
+        inelasticity = 0.0 if plate is None else float(plate.inelasticity)
         if wide:
-            self._hold((low, high), e, np.empty(0), np.empty((0, 0)), table)
+            self._hold((low, high), e, np.empty(0), np.empty((0, 0)), table, inelasticity)
         else:
-            self._hold(low, e, *tables.panels(table, low, e), None)
+            self._hold(low, e, *tables.panels(table, low, e), None, inelasticity)
 
     def _hold(self, *values: Any) -> Self:
         for field, value in zip(fields(self), values, strict=True):
@@ -175,7 +191,9 @@ class ReboundLaw(Law):
         return self.chi
 
     @property
-    def _losses(self) -> KelvinVoigt | None:
+    def _losses(self) -> OneLoss | None:
+        if self.inelasticity > 0.0:
+            return ZenerPlate(inelasticity=self.inelasticity)
         return None if self.restitution == 1.0 else KelvinVoigt(restitution=self.restitution)
 
     def _damped(self, restitution: float) -> ReboundLaw:
@@ -251,10 +269,7 @@ class ReboundLaw(Law):
 
         d_max is the largest penetration of the elastic impact.
         """
-        if self._losses is None:
-            return float(hertz.DURATION)
-        psi, chi = np.zeros(1), np.ones(1)
-        return float(lossy_rebounds(psi, chi, self._losses._scale_free()).duration[0])
+        return float(hertz.DURATION if self._losses is None else _head_on(self._losses).duration[0])
 
     @property
     def nbytes(self) -> int:
@@ -264,7 +279,7 @@ class ReboundLaw(Law):
 
     def rule(self, pair: Pair) -> Rule:
         """Return the numbers that a collision of this pair needs; its chi must be the law's."""
-        chi, (low, high) = checked_pair(pair).chi, self._ends
+        chi, (low, high) = checked_pair(pair, plates=self.inelasticity > 0.0).chi, self._ends
         if not (low <= chi <= high or abs(chi - low) <= 1e-9 * low == 1e-9 * high):
             own = f"{low:.10g}" if low == high else f"{low:.10g} to {high:.10g}"
             raise InputError(
@@ -293,7 +308,8 @@ class ReboundLaw(Law):
 
     def cite(self) -> str:
         """Return what to cite for this law, as BibTeX."""
-        return bibtex(*IMPACT, *((VISCOUS,) if self.restitution < 1.0 else ()))
+        loss = PLATE if self.inelasticity > 0.0 else VISCOUS
+        return bibtex(*IMPACT, *((loss,) if self.restitution < 1.0 else ()))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the table as plain numbers and lists, for JSON; `from_dict` reads it.
@@ -301,7 +317,7 @@ class ReboundLaw(Law):
         Returns
         -------
         dict
-            The values `chi`, `restitution`, `edges` and `coefficients`.
+            The values `chi`, `restitution`, `edges` and `coefficients`, of a plate `inelasticity`.
 
         Raises
         ------
@@ -313,6 +329,7 @@ class ReboundLaw(Law):
             "restitution": self.restitution,
             "edges": self.edges.tolist(),
             "coefficients": self.coefficients.tolist(),
+            **({"inelasticity": self.inelasticity} if self.inelasticity > 0.0 else {}),
         }
 
     @classmethod
@@ -344,17 +361,22 @@ class ReboundLaw(Law):
             edges, rows = (pure_numbers(name, table[name]) for name in ("edges", "coefficients"))
             chi = positive("chi", table["chi"])
             e = _restitution_of(KelvinVoigt(restitution=table.get("restitution", 1.0)))
-            whole = _is_whole(chi, e, edges, rows)
+            plate = ZenerPlate(inelasticity=table.get("inelasticity", 0.0))
+            inelasticity = float(plate.inelasticity)
+            whole = _is_whole(chi, e, edges, rows, inelasticity > 0.0)
+            whole &= inelasticity == 0.0 or abs(_restitution_of(plate) - e) < SAME_RESTITUTION
         except (KeyError, IndexError, TypeError, ValueError):
             whole = False
         if not whole:
             raise InputError("table: it is not a table of ReboundLaw; give what to_dict returned")
-        return cls._of(chi, e, edges, rows, None)
+        return cls._of(chi, e, edges, rows, None, inelasticity)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self)._of, tuple(getattr(self, field.name) for field in fields(self))
 
     def __repr__(self) -> str:
+        if self.inelasticity > 0.0:
+            return f"ReboundLaw(chi={self.chi!r}, losses={self._losses!r})"
         if self.restitution == 1.0:
             return f"ReboundLaw(chi={self.chi!r})"
         return f"ReboundLaw(chi={self.chi!r}, losses=KelvinVoigt(restitution={self.restitution!r}))"
@@ -365,18 +387,18 @@ def _section(law: ReboundLaw, chi: float) -> ReboundLaw:
     """Return the law at one chi of a range, without solving an impact."""
     assert law._table is not None
     panels = tables.panels(law._table, chi, law.restitution)
-    return ReboundLaw._of(chi, law.restitution, *panels, None)
+    return ReboundLaw._of(chi, law.restitution, *panels, None, 0.0)
 
 
 @lru_cache(maxsize=128)
-def law_of(chi: float, losses: KelvinVoigt | None = None) -> ReboundLaw:
+def law_of(chi: float, losses: OneLoss | None = None) -> ReboundLaw:
     """Return the law at one chi, built once."""
     return ReboundLaw(chi, losses=losses)
 
 
-def _is_whole(chi: float, restitution: float, edges: Array, rows: Array) -> bool:
+def _is_whole(chi: float, restitution: float, edges: Array, rows: Array, plate: bool) -> bool:
     """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
-    first = tables.SMALLEST if restitution == 1.0 else tables.SMALLEST_LOSSY
+    first = tables.SMALLEST if restitution == 1.0 or plate else tables.SMALLEST_LOSSY
     last, sliding = regime_borders(chi, restitution)[-1], 2.0 * chi * (1.0 + restitution)
     if rows.shape != (edges.size - 1, DEGREE + 1) or edges.ndim != 1:
         return False
@@ -389,11 +411,21 @@ def _is_whole(chi: float, restitution: float, edges: Array, rows: Array) -> bool
     return bool(np.all(np.diff(edges) > 0.0) and np.all(gaps < 1e-8))
 
 
-def _restitution_of(losses: KelvinVoigt | None) -> float:
+def _restitution_of(losses: OneLoss | None) -> float:
     """Return e of a law of losses that is the same at all speeds, or raise InputError."""
     if losses is None:
         return 1.0
     scale_free(losses)
-    if not isinstance(losses, KelvinVoigt):
-        raise refusal("losses", losses, "a table needs KelvinVoigt(restitution=...), or no losses")
-    return float(losses.restitution)
+    if isinstance(losses, KelvinVoigt):
+        return float(losses.restitution)
+    if isinstance(losses, ZenerPlate):
+        return float(_head_on(losses).restitution[0])
+    allowed = (
+        "a table needs KelvinVoigt(restitution=...), ZenerPlate(inelasticity=...) or no losses"
+    )
+    raise refusal("losses", losses, allowed)
+
+
+def _head_on(losses: OneLoss) -> LossyRebounds:
+    """Return what a central impact comes to."""
+    return lossy_rebounds(np.zeros(1), np.ones(1), losses._scale_free())

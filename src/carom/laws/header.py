@@ -21,17 +21,18 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
     """Return a C99 header that evaluates one law or more, as `ReboundLaw` does.
 
     One law becomes `double carom_rebound(double psi)`; of several, each has its chi in its name,
-    and its e if that is below 1: `carom_rebound_1_44`, `carom_rebound_1_44_e_0_9`.
+    with losses also its e or Zener's parameter: `carom_rebound_1_44`, `carom_rebound_1_44_e_0_9`,
+    `carom_rebound_1_44_plate_0_4`.
 
     Parameters
     ----------
     laws : sequence of ReboundLaw
-        They must differ in chi or e.
+        They must differ in chi or losses.
 
     Raises
     ------
     InputError
-        If a chi comes twice with the same e.
+        If a chi comes twice with the same losses.
 
     Examples
     --------
@@ -42,13 +43,13 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
     True
     """
     suffixes = [_suffix(law) for law in laws]
-    losses = any(law.restitution < 1.0 for law in laws)
+    viscous = any(law.restitution < 1.0 and law.inelasticity == 0.0 for law in laws)
     for index, law in enumerate(laws):
         if suffixes[index] in suffixes[:index]:
             raise InputError(f"chi: {law.chi:g} comes twice; give each chi once")
     names = ["carom_rebound"] if len(laws) == 1 else [f"carom_rebound_{one}" for one in suffixes]
     return HEADER.substitute(
-        error="1e-6 max(1, |psi_1|)" if losses else "1e-9 (chi <= 10)",
+        error="1e-6 max(1, |psi_1|)" if viscous else "1e-9 (chi <= 10)",
         chis=", ".join(repr(law.chi) for law in laws),
         version=__version__,
         guard=f"CAROM_REBOUND_{'_AND_'.join(suffixes)}_H".upper(),
@@ -58,6 +59,8 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
 
 def _suffix(law: ReboundLaw) -> str:
     chi, e = _identifier(law._one_chi()), law.restitution
+    if law.inelasticity > 0.0:
+        return f"{chi}_plate_{_identifier(law.inelasticity)}"
     return chi if e == 1.0 else f"{chi}_e_{_identifier(e)}"
 
 

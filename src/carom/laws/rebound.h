@@ -10,7 +10,8 @@
  *
  * psi_2 = r(|psi_1|) psi_1, r a polynomial on each panel; psi_2 = psi_1 -+ 2 chi (1 + e) in gross
  * slip throughout (Maw, Barber & Fawcett 1976; Barber 1979); e < 1 of a Kelvin-Voigt solid, viscous
- * in shear as in compression. C99 or C++, nothing to link.
+ * in shear as in compression, or of a plate that gives way (Zener 1941), where it is e at one
+ * lambda = m_n V_1/(8 sqrt(D rho h) d_max). C99 or C++, nothing to link.
  */
 #ifndef $guard
 #define $guard

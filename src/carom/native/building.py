@@ -31,7 +31,7 @@ from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
 from carom.dimensionless.lossy.viscoelastic.record import new_record
 from carom.dimensionless.numerics.kernels import ENTRIES, INSTALL, VARIABLE
 from carom.dimensionless.numerics.shared_library import CONTENTS, FOLDER, PACKAGE, digest
-from carom.dimensionless.rebounds import NEARLY_ELASTIC
+from carom.dimensionless.rebounds import NEARLY_ELASTIC, STEP_TOLERANCE
 
 HERE = Path(__file__).parent
 INCLUDE = PACKAGE / "include"
@@ -43,6 +43,7 @@ ENDINGS = {"darwin": ".dylib", "win32": ".dll"}
 GENERIC = {0: "generic", 1: "x86-64", 2: "x86-64-v2", 3: "x86-64-v3", 4: "x86-64-v4"}
 CACHE = "CAROM_BUILD_CACHE"  # of the environment: a folder
 ELASTIC = "carom_dimensionless_rebounds_fill"
+MOTION = "carom_dimensionless_rebounds_fill_motion"
 LOSSY = "carom_dimensionless_lossy_viscoelastic_impacts_fill"
 
 
@@ -116,20 +117,25 @@ def _kept(sources: str, modules: Sequence[str], level: int, scratch: Path) -> Pa
 
 def kernels_h() -> str:
     """Return what the functions in C must know of kernels: shapes of scratch arrays, codes."""
+    elastic_work = phases.new_work()
     defined = {
         "CAROM_ELASTIC": ELASTIC,
+        "CAROM_MOTION": MOTION,
         "CAROM_LOSSY": LOSSY,
-        "CAROM_ELASTIC_SCRATCH": _shapes((*phases.new_work(), *elastic.new_record(False))),
+        "CAROM_ELASTIC_SCRATCH": _shapes((*elastic_work, *elastic.new_record(False))),
+        "CAROM_WORK_ARRAYS": len(elastic_work),
         "CAROM_LOSSY_SCRATCH": _shapes((*work.new_work(), *new_record(False))),
         "CAROM_NUMBERS": layout.NUMBERS,
         "CAROM_PSI_OUT": layout.PSI_OUT,
         "CAROM_RESTITUTION": layout.RESTITUTION,
+        "CAROM_DURATION": layout.TIME,
         "CAROM_NEARLY_ELASTIC": NEARLY_ELASTIC,
+        "CAROM_STEP_TOLERANCE": STEP_TOLERANCE,
         "CAROM_TOLERANCE": TOLERANCE,
         "CAROM_MESSAGES": _braces(f'"{status.message}"' for status in phases.Status),
     }
     lines = (f"#define {name} {value}" for name, value in defined.items())
-    declared = (f"int {name}(const int64_t *words);" for name in (ELASTIC, LOSSY))
+    declared = (f"int {name}(const int64_t *words);" for name in (ELASTIC, MOTION, LOSSY))
     return "\n".join(("#include <stdint.h>", "", *lines, "", *declared, ""))
 
 

@@ -89,6 +89,31 @@ CAROM_API int carom_rebound_on_plate(
     return failed ? -1 : 0;
 }
 
+CAROM_API int carom_motion_on_plate(
+    size_t n, const double *lambda, double *restitution, double *duration)
+{
+    carom_block block = {.count = 0};
+    const carom_array table = {2, {(int64_t)n, CAROM_NUMBERS}};
+    double *numbers = malloc((n ? n : 1) * CAROM_NUMBERS * sizeof *numbers);
+    int failed = numbers == NULL;
+    if (!failed) {
+        add_vector(&block, lambda, n);
+        add_number(&block, CAROM_STEP_TOLERANCE);
+        failed = add_scratch(&block, elastic_scratch, CAROM_WORK_ARRAYS);
+    }
+    if (!failed) {
+        add_array(&block, numbers, &table);
+        failed = CAROM_MOTION(block.words);
+    }
+    for (size_t i = 0; !failed && i < n; i++) {
+        restitution[i] = numbers[i * CAROM_NUMBERS + CAROM_RESTITUTION];
+        duration[i] = numbers[i * CAROM_NUMBERS + CAROM_DURATION];
+    }
+    free(block.room);
+    free(numbers);
+    return failed ? -1 : 0;
+}
+
 CAROM_API int carom_rebound(
     size_t n, const double *psi, const double *chi, double *psi_out, int8_t *status)
 {

@@ -24,7 +24,7 @@ INPUTS = (
     *cases.LOSSES,
     cases.RATIO,
     *(f"{body}.{size}" for body in BODIES for size in cases.SIZES),
-    "second.thickness",
+    *(f"second.{size}" for size in cases.PLATE),
     *(f"{body}.material.{value}" for body in BODIES for value in ELASTIC),
     *CHOSEN,
 )

@@ -23,6 +23,7 @@ from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.dimensionless.solution import solve
 from carom.impacts.outcome import PAIR, Outcome, outcome_fits
 from carom.impacts.peaks import BODIES, MEASURES, StruckBody, growth, struck_bodies
+from carom.impacts.plates import quiet_width
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import NEEDED_STRENGTHS
 from carom.quantities.statuses import WordedStatus
@@ -116,6 +117,7 @@ class PointStatus(WordedStatus):
     UNRESOLVED = 6, "not solved as a phase did not end"
     STRENGTH_NOT_KNOWN = 7, "solved, but a strength is not known or a body is rigid"
     PLATE_GIVES_WAY = 8, "not solved as so thin a plate gives way like a foil"
+    RIM_ANSWERS = 9, "solved, but waves come back from the rim of the plate within the contact"
 
 
 OF_SOLVER = {
@@ -126,11 +128,13 @@ OF_SOLVER = {
     Status.UNRESOLVED: PointStatus.UNRESOLVED,
     Status.PLATE_GIVES_WAY: PointStatus.PLATE_GIVES_WAY,
 }
+WITH_RESULTS = (PointStatus.SOLVED, PointStatus.STRENGTH_NOT_KNOWN, PointStatus.RIM_ANSWERS)
 FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
 POSITIVE = (
     "radius",
     "gyration_radius",
     "thickness",
+    "width",
     "young",
     "density",
     "yield_velocity",
@@ -196,6 +200,11 @@ def evaluate(
         results = {n: getattr(outcome.pair if n in PAIR else outcome, n) for n in others}
         unknown = np.logical_or.reduce([solved & np.isnan(values) for values in strengths.values()])
         status[unknown & solved] = PointStatus.STRENGTH_NOT_KNOWN
+        if "second.width" in columns and pair.thickness is not None:
+            narrow = columns["second.width"] < quiet_width(
+                cast(HalfSpace, second), outcome.duration
+            )
+            status[solved & narrow] = PointStatus.RIM_ANSWERS
         results |= strengths
         values = {name: np.where(solved, value, np.nan) for name, value in results.items()}
     return values, status

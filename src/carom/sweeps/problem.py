@@ -32,11 +32,11 @@ from carom.sweeps.points import WANTED, PointStatus, evaluate, needed_by, needed
 
 OF_STRENGTH = tuple(f"material.{name}" for name in STRENGTHS)
 OF_SECOND = {  # what describes a second body of each kind
-    "half-space": ("thickness", *(f"material.{name}" for name in ELASTIC), *OF_STRENGTH),
+    "half-space": (*cases.PLATE, *(f"material.{name}" for name in ELASTIC), *OF_STRENGTH),
     "cup": ("radius", "material.young", "material.poisson", *OF_STRENGTH),
     "sphere": (*cases.SIZES, *(f"material.{name}" for name in ELASTIC), *OF_STRENGTH),
 }
-OPTIONAL = ("gyration_radius", "inner_radius", "thickness", *OF_STRENGTH)
+OPTIONAL = ("gyration_radius", "inner_radius", *cases.PLATE, *OF_STRENGTH)
 YIELD = "yield_strength"
 AT_REST = {"angle": 0.0, "tangential_speed": 0.0, "spin": 0.0, "spin2": 0.0}
 
@@ -125,6 +125,8 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
     plate = "second.thickness" in {*names, *fixed}
     if "sphere" not in kinds and not plate:  # a material may have more than a fixed body needs
         fixed.pop("second.material.density", None)
+    alone = "second.width" in {*names, *fixed} and not plate
+    refuse(alone and "second.width: is that of a plate; give second.thickness, too")
     cases.refuse_half({*names, *losses, *fixed})
     refuse_contradictions({*names, *losses, *(name for name in fixed if "material" not in name)})
     whole = Common(design, fixed, kinds, inherits, next(iter(losses), None), yields, strengths)
@@ -149,7 +151,7 @@ def _numbers(case: cases.Case) -> Iterator[tuple[str, float]]:
         table = case.get(body, {})
         sizes = cases.SIZES if body == "first" else {**cases.SIZES, **cases.PLATE}
         for name, check in sizes.items():
-            if name != "width" and table.get(name) is not None:
+            if table.get(name) is not None:
                 yield f"{body}.{name}", check(name, table[name])
         if table.get("material") is not None:
             for name, value in cases.material_values(table["material"]).items():

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from carom.io.labels import labelled_dataset, spheres
 from carom.quantities.refusals import refusal
 from carom.sweeps.designs import Box, Values, boxes, chunk_shape
-from carom.sweeps.points import PointStatus
+from carom.sweeps.points import WITH_RESULTS, PointStatus
 from carom.sweeps.problem import SweepProblem
 
 if TYPE_CHECKING:
@@ -125,5 +125,5 @@ def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summar
                     float(np.fmax(most, finite.max())),
                 )
     statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
-    solved = counts[PointStatus.SOLVED] + counts[PointStatus.STRENGTH_NOT_KNOWN]
+    solved = sum(counts[status] for status in WITH_RESULTS)
     return Summary({str(n): size for n, size in dataset.sizes.items()}, statuses, ranges, solved)
