@@ -164,6 +164,12 @@ def test_the_rim_of_a_plate_answers() -> None:
         ),
         (lambda: carom.impact(PAIR, speed=1.0, method="halfspace"), "thickness: 0.003"),
         (
+            lambda: carom.verify.rank(
+                [carom.laws.ReboundLaw(1.0, losses=carom.ZenerPlate(inelasticity=0.4))]
+            ),
+            "law: .*take a ReboundLaw without ZenerPlate",
+        ),
+        (
             lambda: carom.sweep(
                 {**CASE, "second": {"width": 0.1}}, carom.Grid({"first.radius": [0.01]})
             ),

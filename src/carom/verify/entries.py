@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from carom import dem
 from carom.dem.base import Law
-from carom.quantities.refusals import nearest, refusal
+from carom.quantities.refusals import nearest, refusal, refuse
 
 LawOrFunction = Law | Callable[..., Any]  # the latter as a `FunctionLaw` takes it
 STORABLE = float | int | str | None  # parameters that a file can hold
@@ -38,6 +38,7 @@ class Entry(NamedTuple):
 
 
 EXACT = "exact, 32 springs"
+OF_PLATE = "laws are compared with impacts on thick walls; take a ReboundLaw without ZenerPlate"
 SHORT_NAMES = {"carom": EXACT}  # as its styles in LAMMPS are called
 
 CATALOGUE = (
@@ -96,6 +97,7 @@ def is_function(value: object) -> bool:
 def as_law(law: object) -> Law:
     """Return a law as it is, a function as a contact law, or raise InputError."""
     if isinstance(law, Law):
+        refuse(getattr(law, "inelasticity", 0.0) > 0.0 and refusal("law", law, OF_PLATE))
         return law
     if callable(law) and is_function(law):
         return dem.FunctionLaw(law)
