@@ -58,7 +58,8 @@ def draw(benches):
     """Draw a panel for each bench, with a bar for each row."""
     middle = np.sqrt(SPEEDS[1:] * SPEEDS[:-1])
     edges = np.concatenate([SPEEDS[:1], middle, SPEEDS[-1:]])
-    figure, axes = new_figure(len(benches), 1, width=DOUBLE, height=15.0 + 45.0 * len(benches), sharex=True)
+    height = 15.0 + 45.0 * len(benches)  # mm
+    figure, axes = new_figure(len(benches), 1, width=DOUBLE, height=height, sharex=True)
     for axis, (title, rows) in zip(axes[:, 0], benches.items(), strict=True):
         for place, row in enumerate(rows.values()):
             colours = [COLOURS[holds] for holds in row]
