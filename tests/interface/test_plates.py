@@ -158,6 +158,7 @@ def test_what_cannot_be_is_refused_in_one_line(call, words) -> None:
 
 LAW = carom.dem.LinearSpring()
 OTHERS = {  # all that takes a pair but `impact`, and what `bench` returns
+    "adhesive_impact": lambda: carom.classical.adhesive_impact(PAIR, normal_speed=1.0),
     "bearable_speeds": lambda: carom.bearable_speeds(PAIR),
     "bench": lambda: carom.verify.bench(carom.verify.Lammps(), [LAW], pair=PAIR),
     "cattaneo_mindlin": lambda: carom.classical.cattaneo_mindlin(PAIR, 1.0, 0.1),
