@@ -19,6 +19,7 @@ from carom.bodies.pairs import (
 )
 from carom.dimensionless.adhesion import Adhering, solve_adhering
 from carom.impacts.outcome import Outcome
+from carom.io.citations import ADHESION, bibtex
 from carom.quantities.arrays import Array, numbers, refuse_where, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal, refuse
@@ -38,7 +39,8 @@ FINITE = "must be finite numbers, one or an array of them"
 class AdhesiveImpact(Outcome):
     """The result of `adhesive_impact`; SI units, and arrays where arrays were given.
 
-    `solution` is the same without units, in `scales` of `pair` and speed.
+    `solution` is the same without units, in `scales` of `pair` and speed; there are no other
+    losses.
 
     What sticks has a restitution of 0, and no duration nor psi_out: NaN. The `dissipated_energy` is
     lost in shear as the edge of the contact recedes; `max_pressure` is that at the centre (Johnson,
@@ -96,6 +98,16 @@ class AdhesiveImpact(Outcome):
     def dissipated_energy(self) -> float:
         """Energy that shear loses at the receding edge, in J."""
         return super().dissipated_energy
+
+    def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX.
+
+        Returns
+        -------
+        str
+            Entries of BibTeX, one after the other.
+        """
+        return bibtex(*ADHESION)
 
     @cached_property
     def _slowed_by(self) -> float:
