@@ -1,6 +1,8 @@
 """Impacts of spheres that adhere: closed forms, limits, springs, and an integration in SI units."""
 
+import re
 from math import pi, sqrt
+from pathlib import Path
 
 import mpmath as mp
 import numpy as np
@@ -13,7 +15,7 @@ from tests.oracles.adhesion import lost_by_maugis, march
 
 import carom
 from carom.classical import adhesive_impact
-from carom.dimensionless.adhesion import STICKING, solve_adhering
+from carom.dimensionless.adhesion import solve_adhering
 from carom.impacts import adhesive
 from carom.impacts.dissipation import adhesion
 
@@ -43,8 +45,34 @@ def test_pulling_off_takes_the_work_of_jkr():
         unit = mp.mpf(GAMMA) ** (mp.mpf(5) / 3)
         assert float(-pulled / unit) == pytest.approx(adhesive.PULL_OFF, rel=1e-14)
     assert pytest.approx(7.09, rel=5e-4) == adhesive.PULL_OFF  # Thornton & Ning (1998)
-    of_b_0 = 8.0 / 15.0 * (2.0 * pi) ** (5.0 / 3.0)  # of P_max d_max/2.5 at the radius b_0
-    assert pytest.approx(of_b_0 * STICKING, rel=1e-14) == adhesive.PULL_OFF
+    closed = 0.1 * pi ** (5.0 / 3.0) * (1.0 + 6.0 * 4.0 ** (1.0 / 3.0))
+    assert pytest.approx(closed, rel=1e-14) == adhesive.PULL_OFF
+
+
+def test_most_is_lost_as_the_contact_jumps_in():
+    """By the energies of springs and surfaces when it has jumped in, and before it jumps out."""
+    a_0 = (2.0 * pi * GAMMA) ** (1.0 / 3.0)
+
+    def energy(a):
+        d = jkr(a)[0]
+        return d**2 * a - 2.0 * d * a**3 / 3.0 + a**5 / 5.0 - GAMMA * pi * a**2
+
+    won, kept = -energy(a_0), energy(a_0 / 16.0 ** (1.0 / 3.0))
+    assert won + kept == pytest.approx(adhesive.PULL_OFF * GAMMA ** (5.0 / 3.0), rel=1e-12)
+    assert won / (won + kept) == pytest.approx(0.905, abs=5e-4)
+
+
+def test_the_table_of_the_theory_holds():
+    page = Path(__file__).parents[2] / "docs/theory/adhesion.md"
+    text = page.read_text(encoding="utf-8").replace("\u2212", "-")
+    rows = re.findall(r"(?m)^\| ([\d.]+|\$\\infty\$) \|(.*)\|$", text)
+    assert len(rows) == 8
+    for ratio, cells in rows:
+        stickiness = 0.0 if "infty" in ratio else 1.0 / float(ratio)
+        e, *values = map(float, cells.split("|"))
+        assert e == pytest.approx(sqrt(1.0 - stickiness**2), abs=6e-4)
+        for chi, value in zip((0.5, 0.8, 1.2, 1.44, 1.75), values, strict=True):
+            assert value == pytest.approx(solve_adhering(1.0, chi, stickiness).psi_out, abs=6e-4)
 
 
 def test_the_pull_off_force_is_that_of_jkr():
@@ -214,6 +242,7 @@ def test_the_surface_energy_of_the_materials_is_taken():
     assert adhesive_impact(pair, normal_speed=1.0).work_of_adhesion == pytest.approx(0.12)
     assert adhesive.work_of_adhesion(PAIR, 0.9) == pytest.approx(2.0 * sqrt(0.0375 * 0.9))
     given = adhesive_impact(pair, normal_speed=1.0, work_of_adhesion="50 mJ/m^2")
+    assert "@article{johnson1971," in given.cite()
     assert given.work_of_adhesion == 0.05
 
 

@@ -289,7 +289,7 @@ OPEN = {  # NaN or infinity that the docstring tells
     *("KelvinVoigt", "KelvinVoigt, time", "ElasticPlastic", "StandardLinearSolid", "step_error"),
     *("RoughLaw", "sweep", "force_error", "force_error, own", "memory", "Entry", "rank, own"),
     *("hit.spectrum", "hit.spectrum, n", "strength", "wear", "wear, components", "rank"),
-    "Grid, range",
+    *("Grid, range", "Metal", "adhesive_impact"),
 }
 
 

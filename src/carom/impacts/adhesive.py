@@ -17,7 +17,7 @@ from carom.bodies.pairs import (
     checked_scales,
     scales_fit,
 )
-from carom.dimensionless.adhesion import Adhering, solve_adhering
+from carom.dimensionless.adhesion import STICKING, Adhering, solve_adhering
 from carom.impacts.outcome import Outcome
 from carom.io.citations import ADHESION, bibtex
 from carom.quantities.arrays import Array, numbers, refuse_where, together
@@ -25,7 +25,7 @@ from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import APPROACH, Value, not_negative
 
-PULL_OFF = pi ** (5.0 / 3.0) * (0.1 + 0.6 * 4.0 ** (1.0 / 3.0))  # 7.0922
+PULL_OFF = 8.0 / 15.0 * (2.0 * pi) ** (5.0 / 3.0) * STICKING  # 7.0922
 SPACING = 0.3e-9  # m, of atoms in touch
 TABOR = (0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 100.0)
 LOST = (0.005, 0.059, 0.243, 0.475, 0.649, 0.733, 0.819, 0.889, 0.943, 0.971, 0.994)
@@ -92,7 +92,8 @@ class AdhesiveImpact(Outcome):
         Well below 1 the contact has the radius that it has without shear, as is assumed.
         """
         slope = self.contact_velocity / self.normal_speed
-        return cast(float, self.pair.kappa * slope**2 * self.solution.release)
+        with np.errstate(invalid="ignore"):  # nothing over no adhesion
+            return cast(float, self.pair.kappa * slope**2 * self.solution.release)
 
     @property
     def dissipated_energy(self) -> float:
@@ -131,10 +132,11 @@ def adhesive_impact(
 
     The normal impact is exact for the contact of Johnson, Kendall & Roberts (1971): it jumps in
     where the spheres touch, and out where the fixed approach becomes unstable. W_s is what this
-    takes, and up to the sticking speed V_s the bodies stick (Johnson & Pollock 1994; Thornton &
-    Ning 1998). In shear the contact sticks wherever it is closed, and shear is assumed not to
-    change its radius: psi_2/psi_1 is exact in the limit of small psi_1, and `shear_release` says
-    how small. How adhering surfaces slip is not settled, so slip is not treated.
+    takes, and up to the sticking speed V_s the bodies stick (Thornton & Ning 1998). No contact
+    loses more; where `tabor` is below 5, e is larger. In shear the contact is taken to stick
+    wherever it is closed, and to have the radius that it has without shear: psi_2/psi_1 is that of
+    small psi_1, and `shear_release` says how small. How adhering surfaces slip is not settled, so
+    slip is not treated.
 
     Parameters
     ----------
