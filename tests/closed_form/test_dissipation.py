@@ -9,9 +9,10 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 import carom
+from carom.impacts.adhesive import pull_off_work, work_of_adhesion
 from carom.impacts.dissipation import DAMPED, adhesion, damping, waves
 from carom.impacts.peaks import MAY_YIELD
 
@@ -83,6 +84,29 @@ def test_a_wall_without_a_density_is_not_judged():
     wall = carom.HalfSpace(carom.Material(young=2e11, poisson=0.3, yield_strength="2 GPa"))
     finding = waves(carom.impact(carom.Pair(BALL, wall, 0.2), speed=0.1))
     assert (finding.holds, finding.missing) == (None, "density of the second body")
+
+
+def test_pull_off_takes_the_work_of_jkr():
+    """From no approach, where spheres jump into contact, to where they jump out of it."""
+    radius, modulus, adhering = 1.0, 1.0, 2.0  # as those of the pair, with gamma = 1
+
+    def approach(a):
+        return a * a / radius - sqrt(2.0 * pi * adhering * a / modulus)
+
+    def force(a):
+        return 4.0 * modulus * a**3 / (3.0 * radius) - sqrt(8.0 * pi * adhering * modulus * a**3)
+
+    first = brentq(approach, 0.1, 10.0)
+    last = minimize_scalar(approach, bounds=(1e-6, first), method="bounded").x
+    a = np.linspace(last, first, 20_001)
+    work = -np.trapezoid([force(x) for x in a], [approach(x) for x in a])
+    unit = (adhering**5 * radius**4 / modulus**2) ** (1.0 / 3.0)
+    assert work / unit == pytest.approx(7.09, rel=1e-3)
+    stuff = carom.material("bearing steel", surface_energy="0.1 J/m^2")
+    pair = carom.Pair(carom.Sphere(radius="5 mm", material=stuff), BALL, 0.2)
+    size = (2.0 * sqrt(0.1 * 0.9)) ** 5 * pair.effective_radius**4 / pair.effective_modulus**2
+    of_both = pull_off_work(pair, work_of_adhesion(pair, 0.9))
+    assert of_both == pytest.approx(7.092196 * size ** (1.0 / 3.0), rel=1e-7)
 
 
 def test_adhesion_is_told_only_where_it_makes_a_difference():
