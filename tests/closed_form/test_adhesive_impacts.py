@@ -242,6 +242,7 @@ def test_the_surface_energy_of_the_materials_is_taken():
     assert adhesive_impact(pair, normal_speed=1.0).work_of_adhesion == pytest.approx(0.12)
     assert adhesive.work_of_adhesion(PAIR, 0.9) == pytest.approx(2.0 * sqrt(0.0375 * 0.9))
     given = adhesive_impact(pair, normal_speed=1.0, work_of_adhesion="50 mJ/m^2")
+    assert given.inputs()["work_of_adhesion"] == 0.05
     assert "@article{johnson1971," in given.cite()
     assert given.work_of_adhesion == 0.05
 

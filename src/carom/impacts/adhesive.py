@@ -100,6 +100,10 @@ class AdhesiveImpact(Outcome):
         """Energy that shear loses at the receding edge, in J."""
         return super().dissipated_energy
 
+    def inputs(self) -> dict[str, Any]:
+        """Return what the impact was made from, as plain numbers and words."""
+        return super().inputs() | {NAME: self.work_of_adhesion}
+
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.
 
