@@ -52,18 +52,9 @@ ALSO = {
     "plots.style.style": {"YD01"},  # `with` yields nothing
 }
 MADE = {  # by functions, which say what is in them
-    *(
-        "AdhesiveImpact",
-        "Bench",
-        "Collisions",
-        "Contact",
-        "ContactStep",
-        "Estimate",
-        "Fit",
-        "HalfspaceImpact",
-    ),
+    *("Bench", "Collisions", "Contact", "ContactStep", "Estimate", "Fit", "HalfspaceImpact"),
     *("Impact", "JudgedCollisions", "LoadPath", "Obliquity", "Ranking", "Score", "Solution"),
-    *("Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
+    *("AdhesiveImpact", "Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
 }
 WITHOUT_EXAMPLE = {"InputError", "EngineError", "Bench"}  # the last needs a program to be run
 INNER = {  # what the parts of Carom say to each other

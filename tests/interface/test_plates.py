@@ -158,7 +158,6 @@ def test_what_cannot_be_is_refused_in_one_line(call, words) -> None:
 
 LAW = carom.dem.LinearSpring()
 OTHERS = {  # all that takes a pair but `impact`, and what `bench` returns
-    "adhesive_impact": lambda: carom.classical.adhesive_impact(PAIR, normal_speed=1.0),
     "bearable_speeds": lambda: carom.bearable_speeds(PAIR),
     "bench": lambda: carom.verify.bench(carom.verify.Lammps(), [LAW], pair=PAIR),
     "cattaneo_mindlin": lambda: carom.classical.cattaneo_mindlin(PAIR, 1.0, 0.1),
@@ -177,6 +176,7 @@ OTHERS = {  # all that takes a pair but `impact`, and what `bench` returns
     "loop_energy": lambda: carom.classical.loop_energy(PAIR, 1.0, 0.1),
     "recipes": lambda: carom.verify.recipes(PAIR, 1.0),
     "stiffnesses": lambda: carom.verify.stiffnesses(PAIR, 1.0),
+    "adhesive_impact": lambda: carom.classical.adhesive_impact(PAIR, normal_speed=1.0),
     "wear_of_many": lambda: carom.wear_of_many(PAIR, speed=[1.0], angle=[0.2]),
 }
 
