@@ -1,4 +1,4 @@
-"""Closed forms of tangential contact of spheres; their home is `carom.contacts.classical`."""
+"""Classical solutions for spheres: loads along the surface, impacts with adhesion."""
 
 from carom.names import attach
 

@@ -4,3 +4,4 @@ from .contacts.classical import (
     critical_obliquity as critical_obliquity,
     loop_energy as loop_energy,
 )
+from .impacts.adhesive import adhesive_impact as adhesive_impact

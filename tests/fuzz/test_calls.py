@@ -116,6 +116,8 @@ def bodies_and_losses(calls):
     force = {"pair": PAIR, "normal_force": 10.0}
     calls.add("cattaneo_mindlin", classical.cattaneo_mindlin, **force, tangential_force=[1.0])
     calls.add("loop_energy", classical.loop_energy, **force, amplitude=1.0)
+    sticky = {**CARTESIAN, "spin": 3.0, "spin2": 1.0, "work_of_adhesion": 0.1}
+    calls.add("adhesive_impact", classical.adhesive_impact, pair=BALLS, **sticky)
     calls.add("critical_obliquity", classical.critical_obliquity, pair=PAIR)
     calls.add("dataset", carom.datasets.table, name="kharaz2001")
     calls.add("table", read_table, source=RECORDS, columns=None)
@@ -287,7 +289,7 @@ OPEN = {  # NaN or infinity that the docstring tells
     *("KelvinVoigt", "KelvinVoigt, time", "ElasticPlastic", "StandardLinearSolid", "step_error"),
     *("RoughLaw", "sweep", "force_error", "force_error, own", "memory", "Entry", "rank, own"),
     *("hit.spectrum", "hit.spectrum, n", "strength", "wear", "wear, components", "rank"),
-    "Grid, range",
+    *("Grid, range", "Metal", "adhesive_impact"),
 }
 
 

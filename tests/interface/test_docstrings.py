@@ -54,7 +54,7 @@ ALSO = {
 MADE = {  # by functions, which say what is in them
     *("Bench", "Collisions", "Contact", "ContactStep", "Estimate", "Fit", "HalfspaceImpact"),
     *("Impact", "JudgedCollisions", "LoadPath", "Obliquity", "Ranking", "Score", "Solution"),
-    *("Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
+    *("AdhesiveImpact", "Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
 }
 WITHOUT_EXAMPLE = {"InputError", "EngineError", "Bench"}  # the last needs a program to be run
 INNER = {  # what the parts of Carom say to each other
@@ -81,7 +81,8 @@ laws.fit_walton results.HalfspaceImpact results.Impact results.Impact.fields res
 results.Impact.wear results.LoadPath results.Solution results.Solution.traction
 results.Solution.slip_angles results.Fit.advice results.Fit.posterior collide convert_observables
 curve impacts.curves.borders fit impact load_path rebound regime_map solve sweep wear_of_many
-classical.cattaneo_mindlin classical.critical_obliquity classical.loop_energy
+classical.adhesive_impact classical.cattaneo_mindlin classical.critical_obliquity
+classical.loop_energy
 verify.damping_from_restitution verify.error_map verify.poisson_from_kappa verify.score
 verify.stiffnesses
 """

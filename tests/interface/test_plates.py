@@ -206,6 +206,7 @@ OTHERS = {  # all that takes a pair but `impact` and `collide`, and what `bench`
     "loop_energy": lambda: carom.classical.loop_energy(PAIR, 1.0, 0.1),
     "recipes": lambda: carom.verify.recipes(PAIR, 1.0),
     "stiffnesses": lambda: carom.verify.stiffnesses(PAIR, 1.0),
+    "adhesive_impact": lambda: carom.classical.adhesive_impact(PAIR, normal_speed=1.0),
     "wear_of_many": lambda: carom.wear_of_many(PAIR, speed=[1.0], angle=[0.2]),
 }
 

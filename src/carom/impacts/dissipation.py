@@ -3,8 +3,8 @@
 from math import nan, pi, sqrt
 
 from carom.bodies.materials import Material
-from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
+from carom.impacts.adhesive import JKR_FROM, lost_by_maugis, pull_off_work, tabor, work_of_adhesion
 from carom.impacts.findings import judged, lacking
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding
@@ -13,7 +13,6 @@ from carom.quantities.prefixes import text
 LOST = 0.02  # share of the kinetic energy of the normal motion: e is above 0.99
 RADIATED = (1.343, -1.878, 0.812, 0.360)  # of Poisson's ratio, to 0.6 % from -1/2 to 1/2
 PULSE = 1.5918146  # integral of F'^2 dt through Hertz's impact, in P_max^2 V_1/d_max
-PULL_OFF = 7.09  # work of adhesion of JKR, in (Gamma^5 R*^4/E*^2)^(1/3) (Thornton & Ning 1998)
 CLEAN, STICKY = 0.05, 0.5  # J/m^2, between which the energies of most surfaces in air lie
 RUBBER = 0.49975  # Poisson's ratio
 DAMPED = 3.5446  # share of energy per loss factor: Kelvin & Voigt's solid of eta = pi tau/t_c
@@ -56,33 +55,32 @@ def compressional_speed(wall: Material) -> float:
 
 
 def adhesion(hit: ImpactResult) -> Finding:
-    """Return the finding on the work that pulls the bodies apart (Johnson, Kendall & Roberts)."""
+    """Return the finding on the work that pulls the bodies apart (Johnson, Kendall & Roberts).
+
+    It is the most that adhesion takes; the contact of small stiff bodies loses less (Maugis 1992).
+    """
     pair, name = hit.pair, "work of adhesion"
     limit = LOST if hit.losses is None else 1.0
-    least, most = (pull_off_work(pair, energy) / hit.scales.energy for energy in (CLEAN, STICKY))
-    if least <= limit < most:
-        without = {"first": pair.first.material, "second": pair.second.material}
-        without = {body: m for body, m in without.items() if m.surface_energy is None}
+    energies = [work_of_adhesion(pair, usual) for usual in (CLEAN, STICKY)]
+    least, most = (pull_off_work(pair, energy) / hit.scales.energy for energy in energies)
+    number = tabor(pair, energies[0])
+    stiff = f"; it is the most, as Tabor's number is {number:.2g}" if number < JKR_FROM else ""
+    without = {"first": pair.first.material, "second": pair.second.material}
+    without = {body: m for body, m in without.items() if m.surface_energy is None}
+    if least * lost_by_maugis(number) <= limit < most:
+        words = f"not judged: pulling the bodies apart takes up to this share{stiff}"
+        if not without:
+            return Finding(name, least, limit, None, words)
         finding = lacking(name, limit, "surface_energy", without)
         between = f"it is {least:.2g} with {CLEAN} J/m^2 and {most:.2g} with {STICKY} J/m^2"
         return finding._replace(verdict=f"{finding.verdict}; {between}")
-    bad = "pulling the bodies apart takes too much energy"
-    if least >= 1.0:
-        bad = f"the bodies stick below {text(sqrt(least) * hit.normal_speed, 'm/s', 2)}"
+    usual = f" with {CLEAN} J/m^2" if without else ""
+    bad = f"the bodies stick below {text(sqrt(least) * hit.normal_speed, 'm/s', 2)}{usual}"
+    if least < 1.0:
+        e = f"e is {sqrt(1.0 - least):.2g} by carom.classical.adhesive_impact{usual}"
+        bad = f"pulling the bodies apart takes too much energy; {e}"
     good = "pulling the bodies apart takes little energy"
-    return judged(name, most if most <= limit else least, limit, good, bad)
-
-
-def pull_off_work(pair: Pair, usual: float) -> float:
-    """Return the work that pulls two spheres apart, in J; `usual` where no energy is known.
-
-    7.09 (Gamma^5 R*^4/E*^2)^(1/3), with the work of adhesion Gamma = 2 sqrt(gamma_1 gamma_2).
-    """
-    energies = [m.surface_energy for m in (pair.first.material, pair.second.material)]
-    one, two = (usual if energy is None else energy for energy in energies)
-    adhering = (2.0 * sqrt(one * two)) ** (5.0 / 3.0)
-    size = (pair.effective_radius**2 / pair.effective_modulus) ** (2.0 / 3.0)
-    return float(PULL_OFF * adhering * size)
+    return judged(name, most if most <= limit else least, limit, good, f"{bad}{stiff}")
 
 
 def damping(hit: ImpactResult) -> Finding | None:

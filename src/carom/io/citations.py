@@ -14,6 +14,7 @@ FITS = (*IMPACT, "newville2014")
 SAMPLES = ("foremanmackey2013",)
 VISCOUS = "kuwabara1987"
 PLATE = "zener1941"
+ADHESION = ("carom", "johnson1971", "thornton1998")
 
 
 def bibtex(*keys: str) -> str:

@@ -33,11 +33,13 @@ CALLED = {  # in order: of names that one word stands for, the first that there 
     "hardness": "H HV",
     "surface_energy": "gamma",
     "loss_factor": "eta tan_delta",
+    "work_of_adhesion": "surface_energy Gamma",
 }
 REMARKS = {
     "diameter": "radius, half of it",
     "d": "radius, half the diameter",
     "D": "radius, half the diameter",
+    "surface_energy": "work_of_adhesion, twice the surface energy of like materials",
     "restitution": "losses=carom.KelvinVoigt(restitution=...)",
 }
 
