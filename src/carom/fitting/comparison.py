@@ -15,7 +15,7 @@ from carom.bodies.pairs import Pair
 from carom.datasets.observables import NORMAL
 from carom.dimensionless.lossy.viscoelastic.normal import restitution
 from carom.dimensionless.lossy.viscoelastic.work import new_work
-from carom.fitting import model as laws
+from carom.fitting import model as laws, plates
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan
 from carom.fitting.intervals import profiled, settle
@@ -36,7 +36,7 @@ ALARM = 0.001  # probability of calling a value of a response that has none an o
 FEWEST, RANGE = 4, 1.2  # values; of the speeds, largest over smallest: below nothing can be told
 LEAST, MOST = 1e-8, 10.0  # of a loss time, in units of d_max/V_1
 LEAST_YIELD = 1e-5  # velocity, in units of the smallest speed
-CONSTANT = "constant"
+CONSTANT, ON_PLATE = "constant", "ZenerPlate"
 LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
 
@@ -136,7 +136,8 @@ def compare(best: Best) -> Comparison:
     Values that lie far from the law that describes the others best are left out for all laws, and
     the errors are those of the best law on what is left: none gains by the scatter that it leaves.
     """
-    criteria, fits = on_common_ground([best, *(_rival(law, best) for law in laws.RIVALS)])
+    rivals = (laws.suited(law, best.model.problem) for law in laws.RIVALS)
+    criteria, fits = on_common_ground([best, *(_rival(law, best) for law in rivals)])
     numbers = zip([best, *fits[1:]], *weighed(criteria), criteria.tolist(), strict=True)
     return Comparison(
         tuple(
@@ -242,9 +243,11 @@ class LossFit(Standing):
     parameter: Estimate
 
     @property
-    def losses(self) -> LossLaw:
-        """The law with its parameter, as `impact` takes it."""
+    def losses(self) -> LossLaw | None:
+        """The law with its parameter, as `impact` takes it; None if the bodies have the plate."""
         value = self.parameter.value
+        if self.law == ON_PLATE:
+            return None
         if self.parameter.name == "yield_velocity":
             return ElasticPlastic(yield_velocity=value)
         return KelvinVoigt(**{self.parameter.name: value})
@@ -307,8 +310,9 @@ class LossComparison:
 def compare_losses(best: Best, confidence: float) -> LossComparison | None:
     """Return laws of losses on the normal velocities of a fit; None where they tell nothing.
 
-    A constant restitution, the viscoelastic solid of one loss time (Kuwabara & Kono 1987), and the
-    sphere that yields (Thornton 1997), on common ground as laws of rebound are.
+    A constant restitution, the viscoelastic solid of one loss time (Kuwabara & Kono 1987), the
+    sphere that yields (Thornton 1997), and the waves of a plate (Zener 1941), on common ground as
+    laws of rebound are.
     """
     problem = _normal(best.model.problem)
     if problem is None:
@@ -332,7 +336,7 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
 def _normal(problem: FitProblem) -> FitProblem | None:
     """Return the normal responses alone, if their speeds are known and differ."""
     places = [place for place, name in enumerate(problem.responses) if name in NORMAL]
-    if not places or not problem.has_speeds:
+    if not places or not problem.has_speeds or problem.motion.thickness is not None:
         return None
     there = problem.present[:, places]
     speeds = problem.motion.normal_speed[there.any(axis=1)]
@@ -351,12 +355,20 @@ def _restitutions(problem: FitProblem, best: Best) -> tuple[Array, Array]:
 
 
 def _laws(problem: FitProblem) -> tuple[FittedLaw, ...]:
-    """Return the laws, with ranges beyond which nothing changes at these speeds."""
+    """Return the laws, with ranges beyond which nothing changes at these speeds.
+
+    On a plate, one of them is that its waves take the energy.
+    """
     speeds = problem.motion.normal_speed
     times = _times(problem.pair, speeds)
     loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None)
     yielding = Parameter("yield_velocity", LEAST_YIELD * speeds.min(), float(speeds.max()), None)
+    plate: tuple[FittedLaw, ...] = ()
+    if problem.pair.thickness is not None:
+        thickness = laws.ranged(laws.THICK, problem)
+        plate = (FittedLaw(ON_PLATE, (thickness,), laws.untouched, plates.restitution),)
     return (
+        *plate,
         FittedLaw(CONSTANT, (laws.ANY_RESTITUTION,), laws.untouched),
         FittedLaw("KelvinVoigt", (loss_time,), laws.untouched, viscous),
         FittedLaw("ElasticPlastic", (yielding,), laws.untouched, plastic),

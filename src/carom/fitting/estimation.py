@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.fitting import problem as errors
+from carom.fitting import plates, problem as errors
 from carom.fitting.least_squares import Minimum, descend, jacobian
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
@@ -348,17 +348,26 @@ def _valleys(sums: Array) -> Mask:
 def _levels(model: Model, name: str) -> Array:
     """Return the coordinates of a parameter in the scan."""
     if name == "restitution":
-        return _likely_restitutions(model.problem)
+        return _likely_restitutions(model.problem, 0.35)
+    if name == plates.THICKNESS:
+        return np.clip(
+            -plates.give_of(_likely_restitutions(model.problem, 0.02)), *_range(model, name)
+        )
     if name not in LEVELS:
         return np.zeros(1)
-    place = model.free.index(name)
-    low, high = model.bounds.low[place], model.bounds.high[place]
+    low, high = _range(model, name)
     if name == "friction":
         low, high = np.log(5e-3), np.log(3.0)
     return np.linspace(low, high, LEVELS[name] + 2)[1:-1]
 
 
-def _likely_restitutions(problem: FitProblem) -> Array:
+def _range(model: Model, name: str) -> tuple[float, float]:
+    """Return the ends of the coordinate of a parameter."""
+    place = model.free.index(name)
+    return float(model.bounds.low[place]), float(model.bounds.high[place])
+
+
+def _likely_restitutions(problem: FitProblem, least: float) -> Array:
     """Return normal restitutions to start from: what was measured, or a few."""
     measured = dict(zip(problem.responses, problem.measured.T, strict=True))
     if "normal_restitution" in measured:
@@ -367,4 +376,4 @@ def _likely_restitutions(problem: FitProblem) -> Array:
         ratios = measured["normal_speed_out"] / problem.motion.normal_speed
     else:
         return np.array([0.6, 0.8, 0.95])
-    return np.clip([float(np.nanmedian(ratios))], 0.35, 0.999)
+    return np.clip([float(np.nanmedian(ratios))], least, 0.999)

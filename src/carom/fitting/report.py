@@ -2,16 +2,18 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from math import isnan, log, pi
+from math import inf, isnan, log, pi
 from typing import NamedTuple
 
 import numpy as np
 
+from carom.fitting import plates
 from carom.fitting.comparison import FitRecord
 from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.model import Model
+from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
 from carom.fitting.reading import HEIGHTS, taken_by_air
 from carom.quantities.arrays import Array
@@ -227,6 +229,7 @@ def notes(fit: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> t
         lines.append(ONE_INCIDENCE)
     lines += [*_about_others(whole, estimates), *_about_bodies(estimates["kappa"])]
     lines += [*_likely_mistake(whole, estimates), *_about_air(problem)]
+    lines += _about_plate(best, estimates)
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -266,6 +269,28 @@ def _about_air(problem: FitProblem) -> list[str]:
     if part < THIN:
         return []
     return [f"air: drag makes the restitution about {100.0 * part:.2g} % of its value too small"]
+
+
+def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> list[str]:
+    """Return how the restitution follows, and where the theory of a plate does not hold."""
+    problem, law = best.model.problem, best.model.law
+    pair, motion = problem.pair, problem.motion
+    if pair.thickness is None:
+        return []
+    speeds, thickness = motion.normal_speed, estimates.get(THICKNESS)
+    rows = thickness.value if thickness is not None else motion.thickness
+    heights = np.broadcast_to(np.asarray(rows), speeds.shape)
+    e = law.restitution(pair, speeds, {THICKNESS: heights})
+    lines = [f"restitution: the plate gives {e.min():.3g} to {e.max():.3g}, the median is shown"]
+    found = list(plates.doubtful(pair, speeds, heights))
+    lines += [f"{f.label}: {f.verdict} ({problem.rows.named(bad)})" for f, bad in found]
+    if thickness is None or not thickness.determined:
+        return lines
+    if thickness.high == inf:
+        lines.append("thickness: the data do not tell the plate from a thick wall")
+    fitted = plates.with_thickness(pair, thickness.value)
+    sheared = plates.shear(fitted, float(np.median(speeds)))
+    return [*lines, *([sheared] if sheared else [])]
 
 
 def _about_ranges(best: Best) -> list[str]:
