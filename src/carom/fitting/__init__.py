@@ -8,8 +8,9 @@ from carom.bodies.pairs import Pair
 from carom.fitting.estimates import Estimate
 from carom.fitting.intervals import settle
 from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
+from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import RobustLoss
-from carom.fitting.reading import check_count, checked_confidence, read_options, read_problem
+from carom.fitting.reading import read_problem
 from carom.fitting.result import Fit, assembled
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag

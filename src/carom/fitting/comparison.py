@@ -355,20 +355,16 @@ def _restitutions(problem: FitProblem, best: Best) -> tuple[Array, Array]:
 
 
 def _laws(problem: FitProblem) -> tuple[FittedLaw, ...]:
-    """Return the laws, with ranges beyond which nothing changes at these speeds.
-
-    On a plate, one of them is that its waves take the energy.
-    """
+    """Return the laws, with ranges beyond which nothing changes at these speeds."""
     speeds = problem.motion.normal_speed
     times = _times(problem.pair, speeds)
     loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None)
     yielding = Parameter("yield_velocity", LEAST_YIELD * speeds.min(), float(speeds.max()), None)
-    plate: tuple[FittedLaw, ...] = ()
-    if problem.pair.thickness is not None:
-        thickness = laws.ranged(laws.THICK, problem)
-        plate = (FittedLaw(ON_PLATE, (thickness,), laws.untouched, plates.restitution),)
+    zener = problem.on_plate and FittedLaw(
+        ON_PLATE, (laws.ranged(laws.THICK, problem),), laws.untouched, plates.restitution
+    )
     return (
-        *plate,
+        *([zener] if zener else []),
         FittedLaw(CONSTANT, (laws.ANY_RESTITUTION,), laws.untouched),
         FittedLaw("KelvinVoigt", (loss_time,), laws.untouched, viscous),
         FittedLaw("ElasticPlastic", (yielding,), laws.untouched, plastic),

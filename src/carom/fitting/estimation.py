@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.fitting import plates, problem as errors
-from carom.fitting.least_squares import Minimum, descend, jacobian
+from carom.fitting.least_squares import DIFFERENCE_STEP, Minimum, descend, jacobian
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
 from carom.io.extras import extra
@@ -174,6 +174,7 @@ LEVELS = {  # of the scan
 TURNS = 8  # times that errors are estimated and the fit is made anew
 FOLLOWED = 3  # minima that are followed with errors of their own
 HOPELESS = 20.0  # of -2 log likelihood behind the best, after two turns
+MOST_SOLVED = 300  # times that all rows are solved, where parameters act only together
 SAME = 0.02  # of a coordinate between ends of descents that are one minimum
 
 
@@ -302,7 +303,10 @@ def polished(
         at = np.array([list(point.valuesdict().values())])
         return np.asarray(residuals(at)[0][present])
 
-    result = lmfit.minimize(of, parameters, method="leastsq", xtol=1e-9, ftol=1e-10)
+    ends: dict[str, float] = {"xtol": 1e-9, "ftol": 1e-10}
+    if model.problem.on_plate:  # psi_2 is that of the solver, slower and less smooth than a table
+        ends |= {"epsfcn": DIFFERENCE_STEP**2, "max_nfev": MOST_SOLVED}
+    result = lmfit.minimize(of, parameters, method="leastsq", **ends)
     lowest = np.array(list(result.params.valuesdict().values()))
     before, after = np.square(of(parameters)).sum(), np.square(residuals(lowest[None])).sum()
     return (lowest if after <= before else at), result

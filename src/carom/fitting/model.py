@@ -174,7 +174,7 @@ RIVALS = (
 
 def suited(law: FittedLaw, problem: FitProblem) -> FittedLaw:
     """Return the law for the bodies: on a plate the thickness gives the restitution."""
-    if problem.pair.thickness is None:
+    if not problem.on_plate:
         return law
     thickness = () if THICKNESS in problem.before else (THICK,)
     others = (each for each in law.parameters if each.name != RESTITUTION.name)

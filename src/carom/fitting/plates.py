@@ -5,7 +5,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace
@@ -20,32 +20,34 @@ from carom.quantities.arrays import Array
 
 THICKNESS, DURATION = "thickness", "duration"
 LEAST_GIVE = 1e-5  # lambda of what is fitted: 1 - e is 2e-5, below the accuracy of data
-KNOTS = 401  # of lambda, between which the interpolation is good to 1e-11
+KNOTS, SMOOTH = 401, 7  # of lambda, and the degree between: good to 1e-12
 CLIPPED = 1.0 - 1e-12  # part of the largest lambda
 SHIFT = 1.0  # per cent of a thickness by which shear of the plate may shift it unsaid
 Values = Mapping[str, Array]
 
 
 @cache
-def _normal_motion() -> CubicSpline:
+def _normal_motion() -> BSpline:
     """Return e, the duration in d_max/V_1, and the speed of the centres as surfaces turn."""
     gives, numbers = np.linspace(0.0, LARGEST_GIVE, KNOTS), np.empty((KNOTS, layout.NUMBERS))
     fill_motion(gives, STEP_TOLERANCE, new_work(), numbers)
     turning = 1.25 * gives * numbers[:, layout.STRONGEST]
     columns = numbers[:, layout.RESTITUTION], numbers[:, layout.TIME], turning
-    return CubicSpline(gives, np.stack(columns, axis=-1))
+    return make_interp_spline(gives, np.stack(columns, axis=-1), SMOOTH)
 
 
 def give(pair: Pair, normal_speed: Array, values: Values) -> Array:
     """Return lambda, which goes as 1/h^2; what is beyond the largest, as errors shift it, is it."""
-    thinner = (pair.thickness or np.inf) / values[THICKNESS]
+    with np.errstate(divide="ignore"):  # an end of an interval that is open
+        thinner = (pair.thickness or np.inf) / values[THICKNESS]
     whole = pair.plate_give(normal_speed) * thinner**2  # type: ignore[arg-type]
     return np.asarray(np.minimum(whole, LARGEST_GIVE * CLIPPED))
 
 
 def restitution(pair: Pair, normal_speed: Array, values: Values) -> Array:
     """Return the restitution at each speed."""
-    return np.asarray(_normal_motion()(give(pair, normal_speed, values))[..., 0])
+    e = _normal_motion()(give(pair, normal_speed, values))[..., 0]
+    return np.asarray(np.minimum(e, 1.0))
 
 
 def duration(pair: Pair, normal_speed: Array, values: Values) -> Array:

@@ -81,6 +81,11 @@ class FitProblem:
         return not bool(sideways.any())
 
     @property
+    def on_plate(self) -> bool:
+        """Whether a plate is struck, which gives the restitution."""
+        return self.pair.thickness is not None
+
+    @property
     def is_one(self) -> bool:
         """Whether every impact that was measured has the same incidence, to either side."""
         slopes = np.abs(self.contact_velocity / self.motion.normal_speed)

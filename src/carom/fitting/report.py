@@ -181,6 +181,8 @@ def _is_promising(model: Model, loss: RobustLoss, as_given: Array) -> bool:
     """Tell whether a response may scatter less than as it was given, by a rough fit."""
     minimum, present = rough_minima(model, loss)[0], model.problem.present
     left = model.problem.measured - model.expected(minimum[np.newaxis])[0]
+    if not np.isfinite(left[present]).all():  # ratios to a velocity that is zero then
+        return False
     typical = typical_deviation(left, present) < HOPEFUL * typical_deviation(as_given, present)
     return bool(typical.any())
 
@@ -275,7 +277,7 @@ def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> list[str]:
     """Return how the restitution follows, and where the theory of a plate does not hold."""
     problem, law = best.model.problem, best.model.law
     pair, motion = problem.pair, problem.motion
-    if pair.thickness is None:
+    if not problem.on_plate:
         return []
     speeds, thickness = motion.normal_speed, estimates.get(THICKNESS)
     rows = thickness.value if thickness is not None else motion.thickness

@@ -16,8 +16,8 @@ from carom.fitting.datasets import fit_dataset, sample
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
 from carom.fitting.model import Model, half_ratio
+from carom.fitting.options import NAMES
 from carom.fitting.plates import THICKNESS
-from carom.fitting.reading import NAMES
 from carom.fitting.report import as_text, notes
 from carom.impacts.curves import REGIMES
 from carom.io.citations import FITS, PLATE, SAMPLES, VISCOUS, bibtex, with_doi
@@ -236,8 +236,8 @@ class Fit(FitRecord, Result):
         >>> [line for line in found.cite().splitlines() if line.startswith("@")][-2:]
         ['@software{newville2014,', '@article{kharaz2001,']
         """
-        on_plate = self._best.model.problem.pair.thickness is not None
-        lossy = (PLATE if on_plate else VISCOUS,) if self.restitution.value < 1.0 else ()
+        why = PLATE if self._best.model.problem.on_plate else VISCOUS
+        lossy = (why,) if self.restitution.value < 1.0 else ()
         keys = (*FITS, *lossy, *(SAMPLES if posterior else ()))
         doi = self._best.model.problem.doi
         return "\n".join([bibtex(*keys), *([with_doi(doi)] if doi else [])])
@@ -269,7 +269,7 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     pair, kappa = model.problem.pair, estimates["kappa"]
     value, low, high = (half_ratio(pair) * each for each in (kappa.value, kappa.low, kappa.high))
     estimates["chi"] = Estimate("chi", value, low, high, kappa.reason)
-    if pair.thickness is not None:
+    if model.problem.on_plate:
         estimates["restitution"] = _on_plate(model, estimates.get(THICKNESS))
     counts = np.bincount(model.regimes(best.at), minlength=len(REGIMES))
     regimes = dict(zip(REGIMES, counts.tolist(), strict=True))
