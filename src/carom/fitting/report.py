@@ -291,7 +291,7 @@ def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> list[str]:
     if thickness.high == inf:
         lines.append("thickness: the data do not tell the plate from a thick wall")
     fitted = plates.with_thickness(pair, thickness.value)
-    sheared = plates.shear(fitted, float(np.median(speeds)))
+    sheared = plates.shear(fitted, float(np.median(speeds)), problem.responses)
     return [*lines, *([sheared] if sheared else [])]
 
 
