@@ -149,8 +149,8 @@ class Fit(FitRecord, Result):
 
         Walkers move by differential evolution (ter Braak 2006) in emcee (Foreman-Mackey et al.
         2013). The likelihood is exp(-L/(2 lambda)), with the loss L and its spread lambda of the
-        fit. The prior is even in log friction, log kappa, restitution, 1/thickness^2 and spin
-        offset within their ranges.
+        fit. The prior is even in log friction, log kappa, restitution, the inverse square of a
+        thickness, and spin offset, within their ranges.
 
         Parameters
         ----------
