@@ -106,7 +106,7 @@ def fit(
     >>> plate = carom.Pair(ball, carom.HalfSpace("steel", thickness="5 mm"), friction=0.2)
     >>> drops = {"normal_speed": [0.2, 0.5, 1.0], "normal_restitution": [0.59, 0.535, 0.49]}
     >>> print(carom.fit(drops, pair=plate).thickness)
-    3 mm (2.99 to 3.02)
+    3 mm (2.971 to 3.03)
     """
     level, limited = checked_confidence(confidence), flag("robust", robust)
     problem = read_problem(data, pair, columns)
