@@ -133,9 +133,9 @@ def test_the_thickness_of_a_plate(run, arguments):
     """2 mm, from contact times and restitutions of normal impacts."""
     code, out, error = run("fit", "drops.csv", *arguments, "--json")
     assert code == 0, error
-    found = json.loads(out)
-    assert found["parameters"]["thickness"]["value"] == pytest.approx(2e-3, rel=1e-3)
-    assert next(iter(found["losses"])) == "ZenerPlate"
+    record = json.loads(out)
+    assert record["parameters"]["thickness"]["value"] == pytest.approx(2e-3, rel=1e-3)
+    assert next(iter(record["losses"])) == "ZenerPlate"
 
 
 def test_a_known_thickness_in_place_of_that_of_the_case(run):

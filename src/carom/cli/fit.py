@@ -155,7 +155,8 @@ def _pair(case: str | None, thickness: str | None, source: str | Path) -> "Pair 
     for name in (*LOSSES, RATIO):
         if name in content:
             raise refusal(name, content[name], hint)
-    return pair_of({"friction": START_FRICTION, **content})
+    friction = 0.0 if case is None else START_FRICTION  # in the data none is one that is not known
+    return pair_of({"friction": friction, **content})
 
 
 def _sampled(fit: "Fit", target: str, steps: int, seed: int) -> Path:

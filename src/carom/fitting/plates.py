@@ -113,17 +113,19 @@ def _findings(pair: Pair, speed: float) -> list[Finding]:
     return [finding for judge in judges if (finding := judge(hit)) is not None]
 
 
-def shear(pair: Pair, speed: float, responses: tuple[str, ...]) -> str:
-    """Return what shear of the plate, which the theory leaves out, does to a fitted thickness.
+def shear(pair: Pair, speed: float, responses: tuple[str, ...], *, fitted: bool) -> str:
+    """Return what shear of the plate, which the theory leaves out, does to e or to a thickness.
 
     1 - e goes as 1/h^2 and is larger by SHEARING/r^2 of itself (theory, page 11), or more where the
-    waves are short: the thickness comes out smaller by half of that.
+    waves are short: a fitted thickness comes out smaller by half of that.
     """
     bending = _findings(pair, speed)[0]
     part = 50.0 * plates.SHEARING / max(bending.value, plates.LONG_WAVE) ** 2
     if part < SHIFT or bending.holds is False:
         return ""
+    some = "some" if bending.holds else "more than"
+    if not fitted:
+        return f"restitution: as the plate also shears, 1 - e is {some} {2.0 * part:.2g} % larger"
     if responses == (DURATION,):
         return "thickness: the plate also shears, and what contact times make of that is not known"
-    some = "some" if bending.holds else "more than"
     return f"thickness: as the plate also shears, it comes out {some} {part:.2g} % too small"

@@ -280,18 +280,17 @@ def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> list[str]:
     if not problem.on_plate:
         return []
     speeds, thickness = motion.normal_speed, estimates.get(THICKNESS)
-    rows = thickness.value if thickness is not None else motion.thickness
-    heights = np.broadcast_to(np.asarray(rows), speeds.shape)
-    e = law.restitution(pair, speeds, {THICKNESS: heights})
+    of_rows = motion.thickness if thickness is None else np.full(speeds.shape, thickness.value)
+    sizes = np.asarray(of_rows)
+    e = law.restitution(pair, speeds, {THICKNESS: sizes})
     lines = [f"restitution: the plate gives {e.min():.3g} to {e.max():.3g}, the median is shown"]
-    found = list(plates.doubtful(pair, speeds, heights))
-    lines += [f"{f.label}: {f.verdict} ({problem.rows.named(bad)})" for f, bad in found]
-    if thickness is None or not thickness.determined:
-        return lines
-    if thickness.high == inf:
+    doubts = list(plates.doubtful(pair, speeds, sizes))
+    lines += [f"{f.label}: {f.verdict} ({problem.rows.named(bad)})" for f, bad in doubts]
+    if thickness is not None and thickness.high == inf:
         lines.append("thickness: the data do not tell the plate from a thick wall")
-    fitted = plates.with_thickness(pair, thickness.value)
-    sheared = plates.shear(fitted, float(np.median(speeds)), problem.responses)
+    usual = plates.with_thickness(pair, float(np.median(sizes)))
+    fitted = thickness is not None and thickness.determined
+    sheared = plates.shear(usual, float(np.median(speeds)), problem.responses, fitted=fitted)
     return [*lines, *([sheared] if sheared else [])]
 
 
