@@ -125,7 +125,9 @@ def test_drops_are_told_as_restitution_against_speed():
     (chart,) = reply["charts"]
     assert chart["along_unit"] == "m/s"
     np.testing.assert_allclose(chart["measured"], np.sqrt([0.6, 0.5, 0.425, 0.3625]), rtol=1e-5)
-    assert {law["law"] for law in reply["laws"]} == {"ElasticPlastic", "KelvinVoigt", "constant"}
+    assert {law["law"] for law in reply["laws"]} == {
+        *("ElasticPlastic", "KelvinVoigt", "Metal", "constant")
+    }
 
 
 @pytest.mark.parametrize(

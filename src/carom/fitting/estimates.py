@@ -20,6 +20,7 @@ LIMITS = {  # what a parameter can be at all
     "thickness": (0.0, inf),
     "loss_time": (0.0, inf),
     "yield_velocity": (0.0, inf),
+    "flow_stress": (0.0, inf),
 }
 
 

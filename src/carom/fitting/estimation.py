@@ -170,6 +170,7 @@ LEVELS = {  # of the scan
     "tangential_restitution": 9,
     "loss_time": 40,
     "yield_velocity": 40,
+    "flow_stress": 40,
 }
 TURNS = 8  # times that errors are estimated and the fit is made anew
 FOLLOWED = 3  # minima that are followed with errors of their own

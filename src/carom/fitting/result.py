@@ -102,7 +102,7 @@ class Fit(FitRecord, Result):
         >>> heights = {"drop_height": [0.1, 0.2, 0.4, 0.8],
         ...            "rebound_height": [0.06, 0.1, 0.17, 0.29]}
         >>> print(carom.fit(heights, pair=pair).losses.verdict)
-        the restitution depends on the speed as in ElasticPlastic; the data rule out KelvinVoigt
+        the restitution depends on the speed as in ElasticPlastic; the data rule out Metal
         """
         return compare_losses(self._best, self.confidence)
 
