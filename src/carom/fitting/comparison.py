@@ -275,7 +275,8 @@ class LossComparison:
             return "there are too few values to tell laws of losses apart"
         close = [each.law for each in others if not each.excess > APART]
         if close:
-            return f"the data cannot tell {first.law} from {' and '.join(close)}"
+            names = " and ".join(each for each in (", ".join(close[:-1]), close[-1]) if each)
+            return f"the data cannot tell {first.law} from {names}"
         next_law = others[0].law
         how = f"the data rule out {next_law}"
         if others[0].excess <= CLEAR:
