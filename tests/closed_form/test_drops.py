@@ -10,7 +10,7 @@ from tests import checks
 from tests.checks import BALL, PAIR
 
 import carom
-from carom.fitting.comparison import plastic, viscous
+from carom.fitting.loss_laws import metal, plastic, viscous
 from carom.fitting.reading import AIR, DRAG, GRAVITY, taken_by_air
 from carom.plots.fits import plot_drops
 
@@ -21,6 +21,7 @@ TRUTHS = {
     "constant": (carom.KelvinVoigt(restitution=0.9), 0.9),
     "KelvinVoigt": (carom.KelvinVoigt(loss_time="2 us"), 2e-6),
     "ElasticPlastic": (carom.ElasticPlastic(yield_velocity="0.3 m/s"), 0.3),
+    "Metal": (carom.Metal(flow_stress="500 MPa"), 500e6),
 }
 
 
@@ -45,6 +46,14 @@ def test_restitution_of_a_yield_velocity_is_that_of_the_impact(velocity):
     exact = restitutions(carom.ElasticPlastic(yield_velocity=velocity))
     actual = plastic(PAIR, SPEEDS, {"yield_velocity": np.array([[velocity]])})[0]
     np.testing.assert_allclose(actual, exact, atol=1e-12)
+
+
+@pytest.mark.parametrize("stress", [100e6, 300e6, 1e9, 5e9])
+def test_restitution_of_a_flow_stress_is_that_of_the_impact(stress):
+    """From no yield at all to V_1 = 3000 V_y; the impact is marched over springs."""
+    exact = restitutions(carom.Metal(flow_stress=stress))
+    actual = metal(PAIR, SPEEDS, {"flow_stress": np.array([[stress]])})[0]
+    np.testing.assert_allclose(actual, exact, atol=3e-6)
 
 
 def test_heights_give_the_restitution():

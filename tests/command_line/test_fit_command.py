@@ -18,9 +18,24 @@ GIVEN = ("fit", "data.csv", "--case", "ball.toml")
 
 
 @pytest.fixture(autouse=True)
-def folder(run, tmp_path, table):
+def folder(run, tmp_path, table, drops):
     (tmp_path / "ball.toml").write_text(CASE)
     (tmp_path / "data.csv").write_text(table)
+    (tmp_path / "plate.toml").write_text(f'{CASE}[second]\nthickness = "3 mm"\n')
+    (tmp_path / "lossy.toml").write_text(f"restitution = 0.9\n{CASE}[second]\nthickness = 0.003")
+    (tmp_path / "drops.csv").write_text(drops)
+
+
+@pytest.fixture(scope="module")
+def drops():
+    ball = carom.Sphere(radius="2.5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace("steel", thickness="2 mm"), friction=MU)
+    bodies = {"first": {"radius": 0.0025, "material": "steel"}, "second": {"material": "steel"}}
+    lines = [f"# case: {json.dumps(bodies)}", "normal_speed [m/s],normal_restitution,duration [us]"]
+    for speed in (0.1, 0.2, 0.5, 1.0):
+        hit = carom.impact(pair, speed=speed)
+        lines.append(f"{speed},{hit.normal_restitution},{1e6 * hit.duration}")
+    return "\n".join(lines) + "\n"
 
 
 @pytest.fixture(scope="module")
@@ -98,10 +113,38 @@ def test_files_are_stored(run, tmp_path):
         ((*GIVEN[1:], "--steps", "0"), "steps: '0' cannot be used"),
         ((*GIVEN[1:], "--steps", str(10**12)), "from 100 to 100000"),
         ((*GIVEN[1:], "--seed", str(10**30)), "seed: '1000"),
+        ((*GIVEN[1:], "--vary", "thickness"), "the wall is thick; give its thickness"),
+        ((*GIVEN[1:], "--thickness", "0 mm"), "thickness: '0 mm' cannot be used; must be positive"),
+        (("data.csv", "--thickness", "3 mm"), "pair: missing, and the data do not name the bodies"),
+        (("drops.csv", "--case", "lossy.toml"), "elastic so far; leave losses or thickness out"),
+        (("drops.csv", "--case", "plate.toml", "--vary", "restitution"), "or vary thickness"),
     ],
 )
 def test_bad_input_is_one_line_and_code_2(refusal, arguments, words):
     assert words in refusal("fit", *arguments)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [("--thickness", "5 mm"), ("--case", "plate.toml", "--vary", "thickness")],
+    ids=["bodies of the table", "case file"],
+)
+def test_the_thickness_of_a_plate(run, arguments):
+    """2 mm, from contact times and restitutions of normal impacts."""
+    code, out, error = run("fit", "drops.csv", *arguments, "--json")
+    assert code == 0, error
+    record = json.loads(out)
+    assert record["parameters"]["thickness"]["value"] == pytest.approx(2e-3, rel=1e-3)
+    assert next(iter(record["losses"])) == "ZenerPlate"
+
+
+def test_a_known_thickness_in_place_of_that_of_the_case(run):
+    """Then nothing is left to fit of normal impacts, unless a thickness is fixed."""
+    code, out, _ = run("fit", "drops.csv", "--case", "plate.toml", "--thickness", "2 mm")
+    assert code == 0
+    assert "thickness      2 mm (" in out
+    code, _, error = run("fit", "drops.csv", "--case", "plate.toml", "--fix", "thickness=2 mm")
+    assert (code, error.count("\n")) == (2, 1)
 
 
 def test_the_template_is_a_table_once_it_is_filled_in(run, refusal, tmp_path):

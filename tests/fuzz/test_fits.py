@@ -12,7 +12,6 @@ from tests.checks import is_stored, one_line
 import carom
 from carom.datasets.observables import OBSERVABLES, SCALED
 
-PARAMETERS = ("friction", "kappa", "chi", "restitution", "spin_offset")
 RATIOS = tuple(name for name in OBSERVABLES if name not in SCALED)
 
 
@@ -37,6 +36,8 @@ OTHERS = {
     "cup": carom.Cup(radius="50 mm", material="steel"),
     "ball": carom.Sphere(radius="5 mm", material="steel"),
     "large": carom.Sphere(radius="80 mm", material="soda-lime-glass"),
+    "plate": carom.HalfSpace(material="steel", thickness="6 mm"),
+    "thick plate": carom.HalfSpace(material="soda-lime-glass", thickness="50 mm"),
 }
 
 
@@ -150,17 +151,18 @@ def habits(rng, table, before, names):
 def options(rng, pair):
     """Return the other arguments of `fit`."""
     values = {name: getattr(pair, name) for name in ("friction", "kappa", "chi")}
-    values |= {"restitution": 0.98, "spin_offset": 0.0}
+    of_wall = {"restitution": 0.98} if pair.thickness is None else {"thickness": pair.thickness}
+    values |= {**of_wall, "spin_offset": 0.0}
     inputs = {"robust": bool(rng.random() < 0.7)}
     inputs["confidence"] = float(rng.choice([0.5, 0.68, 0.95, 0.999]))
     way = rng.random()
     if way < 0.3:
-        held = [name for name in ("friction", "kappa", "restitution") if rng.random() < 0.4]
+        held = [name for name in ("friction", "kappa", *of_wall) if rng.random() < 0.4]
         inputs["fixed"] = {name: values[name] for name in held}
     elif way < 0.5:
-        inputs["vary"] = [name for name in PARAMETERS if rng.random() < 0.4]
+        inputs["vary"] = [name for name in values if rng.random() < 0.4]
     elif way < 0.7:
-        inputs["vary"] = str(rng.choice(PARAMETERS))
+        inputs["vary"] = str(rng.choice(list(values)))
         same = {"kappa", "chi"} if inputs["vary"] in ("kappa", "chi") else {inputs["vary"]}
         drop = same | ({"chi"} if rng.random() < 0.5 else {"kappa"})
         inputs["fixed"] = {n: v for n, v in values.items() if n not in drop}

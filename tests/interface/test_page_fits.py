@@ -60,6 +60,20 @@ def test_a_fit_is_the_librarys(name):
         assert chart["lines"][0]["law"] == "exact"
 
 
+def test_a_plate_in_a_file_is_fitted(tmp_path):
+    case = {"first": {"radius": 0.005, "material": "steel"}, "second": {"thickness": 0.005}}
+    rows = "0.2,0.59,52\n0.5,0.535,45\n1,0.49,40\n2,0.43,35\n"
+    text = f"# case: {json.dumps(case)}\nnormal_speed,normal_restitution,duration [us]\n{rows}"
+    reply = asked(text)
+    assert reply == json.loads(json.dumps(reply, allow_nan=False))
+    (row,) = (row for row in reply["parameters"] if row["name"] == "thickness")
+    assert (row["symbol"], row["unit"]) == ("h", "mm")
+    assert float(row["value"]) == pytest.approx(3.0, rel=0.02)
+    assert "on a plate of 5 mm, steel" in reply["bodies"]["text"]
+    assert [column["kind"] for column in reply["columns"]][-1] == "after the impact"
+    assert reply["laws"][0]["law"] == "ZenerPlate"
+
+
 def test_bodies_are_asked_for_where_the_file_does_not_tell_them():
     for bodies in ("", "given=numbers&psi=2"):
         reply = asked(measured(0.123), bodies)
@@ -111,7 +125,9 @@ def test_drops_are_told_as_restitution_against_speed():
     (chart,) = reply["charts"]
     assert chart["along_unit"] == "m/s"
     np.testing.assert_allclose(chart["measured"], np.sqrt([0.6, 0.5, 0.425, 0.3625]), rtol=1e-5)
-    assert {law["law"] for law in reply["laws"]} == {"ElasticPlastic", "KelvinVoigt", "constant"}
+    assert {law["law"] for law in reply["laws"]} == {
+        *("ElasticPlastic", "KelvinVoigt", "Metal", "constant")
+    }
 
 
 @pytest.mark.parametrize(

@@ -188,18 +188,15 @@ def test_what_cannot_be_is_refused_in_one_line(call, words) -> None:
 
 
 LAW = carom.dem.LinearSpring()
-OTHERS = {  # all that takes a pair but `impact` and `collide`, and what `bench` returns
+TAKING = {"impact", "collide", "fit", "convert_observables"}
+OTHERS = {  # all else that takes a pair, but for what `bench` returns
     "bearable_speeds": lambda: carom.bearable_speeds(PAIR),
     "bench": lambda: carom.verify.bench(carom.verify.Lammps(), [LAW], pair=PAIR),
     "cattaneo_mindlin": lambda: carom.classical.cattaneo_mindlin(PAIR, 1.0, 0.1),
-    "convert_observables": lambda: carom.convert_observables(
-        PAIR, known={"speed": 1.0, "angle": 0.3, "normal_restitution": 1.0}, wanted="psi_in"
-    ),
     "critical_obliquity": lambda: carom.classical.critical_obliquity(PAIR),
     "Experiment": lambda: carom.verify.Experiment(
         pair=PAIR, law=LAW, normal_speed=1.0, tangential_speed=(0.1,), steps=100
     ),
-    "fit": lambda: carom.fit({"speed": [1.0], "angle": [0.3], "spin_out": [1.0]}, pair=PAIR),
     "fit_walton": lambda: carom.laws.fit_walton(PAIR),
     "FunctionLaw": lambda: carom.dem.FunctionLaw(lambda contact, state: (0.0, state), pair=PAIR),
     "load_path": lambda: carom.load_path(PAIR, normal_force=[0.0, 1.0], displacement=[0.0, 0.0]),
@@ -217,6 +214,17 @@ def test_what_takes_no_plate_says_so(name: str) -> None:
         OTHERS[name]()
 
 
+def test_observables_of_a_rebound_do_not_depend_on_the_plate() -> None:
+    """The restitution is among what is known."""
+    known = {"speed": 1.0, "angle": 0.3, "normal_restitution": 0.5, "spin_out": -20.0}
+    wall = carom.Pair(BALL, carom.HalfSpace("steel"), friction=0.2)
+    for wanted in ("psi_in", "psi_out", "rebound_angle"):
+        one, other = (
+            carom.convert_observables(p, known=known, wanted=wanted) for p in (PAIR, wall)
+        )
+        assert one == other
+
+
 def test_all_that_takes_a_pair_is_tried() -> None:
     taking = set()
     for group in GROUPS:
@@ -226,7 +234,7 @@ def test_all_that_takes_a_pair_is_tried() -> None:
             error = isinstance(value, type) and issubclass(value, BaseException)
             if callable(value) and group != "carom.results" and not error:
                 taking |= {name} if "pair" in inspect.signature(value).parameters else set()
-    assert taking - {"impact", "collide", "Bench"} == set(OTHERS)
+    assert taking - {*TAKING, "Bench"} == set(OTHERS)
 
 
 def test_what_to_cite() -> None:

@@ -91,7 +91,7 @@ def checked_pair(pair: Any, *, plates: bool = False) -> "Pair":
     """Return a pair, or raise InputError if it is none, or has a plate where none is taken."""
     allowed = "must be a Pair of bodies; make one with carom.Pair"
     bodies: Pair = checked_type("pair", pair, Pair, allowed)
-    only = "only carom.impact and carom.collide take a plate so far; leave it out for a thick wall"
+    only = "no plate can be taken here so far; leave it out for a thick wall"
     thin = bodies.thickness is not None and not plates
     refuse(thin and refusal("thickness", bodies.thickness, only))
     return bodies

@@ -26,8 +26,11 @@ OPTIONS = {
     "case": file_option(
         "Case file, as for carom impact, with the bodies; needed if the data hold none."
     ),
-    "vary": "Parameters to fit, separated by commas, of friction, kappa (or chi), restitution and "
-    "spin_offset (default: the first three, or restitution for vertical drops).",
+    "thickness": "Thickness of the plate that is struck, e.g. '3 mm' [m], in place of that of the "
+    "case; where it is fitted, that to begin with.",
+    "vary": "Parameters to fit, separated by commas, of friction, kappa (or chi), restitution, "
+    "spin_offset and, on a plate, thickness instead of restitution (default: the first three, or "
+    "restitution or thickness for vertical drops).",
     "fix": "A parameter that you know, with its value, e.g. restitution=0.98. You can repeat this "
     "option.",
     "confidence": "Confidence level of the intervals.",
@@ -51,6 +54,7 @@ def fit_command(
     data: str | None = None,
     dataset: str | None = None,
     case: str | None = None,
+    thickness: str | None = None,
     vary: str | None = None,
     fix: list[str] | None = None,
     confidence: str = "0.95",
@@ -75,13 +79,15 @@ def fit_command(
     tangential_speed; or angle, contact_angle or psi_in alone if no speed is needed. The columns
     spin and spin2 may be added. Of the motion after the impact give any of normal_restitution,
     normal_speed_out, tangential_restitution, tangential_speed_out, rebound_speed, rebound_angle,
-    spin_out, contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio and psi_out.
+    spin_out, contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio and psi_out;
+    on a plate also duration, the contact time. A column thickness holds those of many plates.
     Write '-' where nothing was measured. Standard deviations are in columns such as spin_out_error
     and angle_error.
 
     \b
     Example: carom fit --dataset kharaz2001 --plot kharaz.png
     Your own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
+    A plate of unknown thickness: carom fit drops.csv --case ball.toml --thickness "3 mm"
     An empty table: carom fit --template > rebounds.csv
     """
     if template:
@@ -99,7 +105,7 @@ def fit_command(
     check_outputs(outputs, data=source, case=case)
     fit = carom.fit(
         source,
-        pair=_pair(case),
+        pair=_pair(case, thickness, source),
         vary=None if vary is None else [name.strip() for name in vary.split(",")],
         fixed=named_values("fix", fix, "restitution=0.98"),
         robust=not squares,
@@ -132,19 +138,25 @@ def _source(data: str | None, dataset: str | None) -> str | Path:
     return data if data is not None else carom.datasets.path(str(dataset))
 
 
-def _pair(case: str | None) -> "Pair | None":
-    """Return the bodies of a case file, whose friction may be left out."""
+def _pair(case: str | None, thickness: str | None, source: str | Path) -> "Pair | None":
+    """Return the bodies of a case file, or of the data if these get another thickness."""
     from carom.bodies.cases import LOSSES, RATIO, pair_of
-    from carom.fitting.reading import START_FRICTION
+    from carom.fitting.reading import START_FRICTION, case_of_data
 
-    if case is None:
+    if case is None and thickness is None:
         return None
-    content = read_case_file(case, losses=True)
+    content = case_of_data(source) if case is None else read_case_file(case, losses=True)
+    if thickness is not None:
+        content = {**content, "second": {**content.get("second", {}), "thickness": thickness}}
+    hint = "a fit finds the restitution; if you know it, leave it out of the case and give --fix, "
+    hint += "e.g. --fix restitution=0.98"
+    if "thickness" in content.get("second", {}):
+        hint = "bodies on a plate are elastic so far; leave losses or thickness out"
     for name in (*LOSSES, RATIO):
         if name in content:
-            hint = "a fit finds the restitution; if you know it, leave it out of the case and give"
-            raise refusal(name, content[name], f"{hint} --fix, e.g. --fix restitution=0.98")
-    return pair_of({"friction": START_FRICTION, **content})
+            raise refusal(name, content[name], hint)
+    friction = 0.0 if case is None else START_FRICTION  # in the data none is one that is not known
+    return pair_of({"friction": friction, **content})
 
 
 def _sampled(fit: "Fit", target: str, steps: int, seed: int) -> Path:

@@ -103,7 +103,7 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
     >>> carom.convert_observables(pair, known=known, wanted="spin_out").round(1)
     array([-533.6, -551.5])
     """
-    checked_pair(pair)
+    checked_pair(pair, plates=True)
     checked_type(
         "known", known, Mapping, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}"
     )

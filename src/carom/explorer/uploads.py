@@ -23,6 +23,7 @@ from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View
 from carom.fitting import Estimate, Fit, fit
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
+from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.reading import HEIGHTS, read_measurements, read_problem
 from carom.io.tables import read_table
 from carom.io.user_table import Column, entry
@@ -35,6 +36,8 @@ COLUMN_KINDS = {
     **dict.fromkeys(BEFORE, "before the impact"),
     **dict.fromkeys(OBSERVABLES, "after the impact"),
     **dict.fromkeys(HEIGHTS, "drop and rebound"),
+    THICKNESS: "the plate",
+    DURATION: "after the impact",
 }
 BODIES_ASKED = (
     "{name} does not say which bodies struck each other. The fit needs their radius, their "
@@ -296,7 +299,8 @@ def words_of(pair: Pair) -> str:
     if pair.thickness is not None:
         return f"{first}; on a plate of {text(pair.thickness, 'm', 4)}, {_material(second)}"
     if not isinstance(second, Sphere | Cup):
-        return f"{first}; on a half-space, {_material(second)}"
+        plate = pair.thickness and f"plate of {text(pair.thickness, 'm', 4)}"
+        return f"{first}; on a {plate or 'half-space'}, {_material(second)}"
     kind = "sphere" if isinstance(second, Sphere) else "cup"
     return f"{first}; on a {kind} of {text(second.radius, 'm', 4)} radius, {_material(second)}"
 

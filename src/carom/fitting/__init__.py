@@ -7,9 +7,10 @@ from typing import Any
 from carom.bodies.pairs import Pair
 from carom.fitting.estimates import Estimate
 from carom.fitting.intervals import settle
-from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model
+from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
+from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import RobustLoss
-from carom.fitting.reading import check_count, checked_confidence, read_options, read_problem
+from carom.fitting.reading import read_problem
 from carom.fitting.result import Fit, assembled
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
@@ -29,14 +30,16 @@ def fit(
     confidence: Value = 0.95,
     columns: Mapping[str, str] | None = None,
 ) -> Fit:
-    """Return friction, stiffness ratio and restitution from measured rebounds, with intervals.
+    """Return friction, stiffness and restitution from measured rebounds, or a plate's thickness.
 
     The model is V_n' = e V_n and V_x' = mu V_n psi_2(psi_1; chi, e)/kappa, with psi_1 = kappa
     V_x/(mu V_n), chi = (kappa/2)(m_n/m_t), J_t = m_t (V_x - V_x'), and the psi_2 of Maw, Barber &
     Fawcett (1976). For e < 1 the solid is that of `KelvinVoigt`. The fit minimises the sum of a
     loss of the residuals, which count in standard deviations. An interval ends where this sum,
     minimised over all other parameters, has risen by a quantile of chi squared (profile
-    likelihood), or of F where errors come from the scatter.
+    likelihood), or of F where errors come from the scatter. On a plate that gives way, a
+    `HalfSpace` with a thickness, e and psi_2 follow from the thickness and the speed of each impact
+    (Zener 1941), and the thickness can be fitted instead of e.
 
     Parameters
     ----------
@@ -46,10 +49,11 @@ def fit(
         contact_angle or psi_in alone if no speed is needed; spin and spin2 may be added. Of the
         motion after give any of normal_restitution, normal_speed_out, tangential_restitution,
         tangential_speed_out, rebound_speed, rebound_angle, spin_out, contact_restitution,
-        contact_beta, contact_rebound_angle, impulse_ratio, psi_out. For vertical drops give
-        drop_height and rebound_height instead, in a file with their unit. Standard deviations are
-        in columns `<name>_error`, also for the motion before; where none are given they come from
-        the scatter. "-" means not measured.
+        contact_beta, contact_rebound_angle, impulse_ratio, psi_out; on a plate also duration, the
+        contact time. For vertical drops give drop_height and rebound_height instead, in a file with
+        their unit, or normal_speed. A column thickness holds those of many plates. Standard
+        deviations are in columns `<name>_error`, also for the motion before; where none are given
+        they come from the scatter. "-" means not measured.
     pair : Pair, optional
         The bodies, by default those in the comment "# case:" of the file.
     vary : names, optional
@@ -57,7 +61,8 @@ def fit(
         first three, or restitution alone if all impacts are normal ones. The others are held: at
         what `fixed` says, else friction and kappa at those of the pair, restitution at 1, the
         offset at 0. A restitution that was measured, or a friction that the bodies do not have,
-        must be varied or fixed.
+        must be varied or fixed. On a plate there is thickness instead of restitution: by default
+        held at that of the pair, or fitted if all impacts are normal ones.
     fixed : mapping, optional
         Values of parameters that are known, e.g. {"restitution": 0.98}.
     robust : bool
@@ -72,11 +77,11 @@ def fit(
     Returns
     -------
     Fit
-        `estimates` has friction, kappa, chi and restitution as pure numbers and spin_offset in
-        rad/s, each an `Estimate` with value, low and high, or with a reason if the data do not
-        determine it. `regimes` counts the rows in each regime, `notes` has remarks, `comparison`
-        compares with other laws, and `losses` has laws of restitution against speed. Methods for
-        the rest are advice, posterior, plot and to_dataset.
+        `estimates` has friction, kappa, chi and restitution as pure numbers, thickness in m and
+        spin_offset in rad/s, each an `Estimate` with value, low and high, or with a reason if the
+        data do not determine it. `regimes` counts the rows in each regime, `notes` has remarks,
+        `comparison` compares with other laws, and `losses` has laws of restitution against speed.
+        Methods for the rest are advice, posterior, plot and to_dataset.
 
     Raises
     ------
@@ -95,6 +100,13 @@ def fit(
     >>> found = carom.fit(measured, pair=pair, fixed={"restitution": 1.0})
     >>> round(found.friction.value, 3), round(found.chi.value, 2)
     (0.2, 1.44)
+
+    A plate of which the thickness is sought, from about 5 mm on:
+
+    >>> plate = carom.Pair(ball, carom.HalfSpace("steel", thickness="5 mm"), friction=0.2)
+    >>> drops = {"normal_speed": [0.2, 0.5, 1.0], "normal_restitution": [0.59, 0.535, 0.49]}
+    >>> print(carom.fit(drops, pair=plate).thickness)
+    3 mm (2.971 to 3.03)
     """
     level, limited = checked_confidence(confidence), flag("robust", robust)
     problem = read_problem(data, pair, columns)
@@ -102,6 +114,6 @@ def fit(
     check_count(problem, options.free)
     turns = OFFSET in options.free or options.start[OFFSET]
     law = STRAIGHT if problem.is_normal and not turns else EXACT
-    model = Model(law, problem, (), options.start).freeing(options.free)
+    model = Model(suited(law, problem), problem, (), options.start).freeing(options.free)
     loss = RobustLoss() if limited else RobustLoss(inf)
     return assembled(settle(model, loss, options.start), level)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from carom.fitting.comparison import FitRecord
 from carom.fitting.estimation import Best, information
+from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import NORMAL, FitProblem, RobustLoss, gaussian_mean
 from carom.impacts.curves import REGIMES
 from carom.quantities.arrays import Array
@@ -144,7 +145,7 @@ def _impacts(problem: FitProblem) -> FitProblem:
     motion, count = problem.motion, len(ANGLES)
     speed = float(np.median(np.hypot(motion.normal_speed, motion.tangential_speed)))
     before = {"angle": np.radians(ANGLES), "speed": np.full(count, speed)}
-    for name in ("spin", "spin2"):
+    for name in ("spin", "spin2", THICKNESS):
         if name in problem.before:
             before[name] = np.full(count, float(np.median(problem.before[name])))
     errors = {

@@ -2,25 +2,22 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cached_property
 from math import inf, isfinite, nan
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 from scipy.special import stdtrit
 
-from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw
-from carom.bodies.pairs import Pair
+from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw, Metal
 from carom.datasets.observables import NORMAL
-from carom.dimensionless.lossy.viscoelastic.normal import restitution
-from carom.dimensionless.lossy.viscoelastic.work import new_work
 from carom.fitting import model as laws
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan
 from carom.fitting.intervals import profiled, settle
 from carom.fitting.least_squares import descend
-from carom.fitting.model import EXACT, OFFSET, FittedLaw, Model, Parameter, Values
+from carom.fitting.loss_laws import CONSTANT, ON_PLATE, elastic, laws_of_losses
+from carom.fitting.model import EXACT, OFFSET, FittedLaw, Model
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
@@ -34,9 +31,6 @@ CLEAR = 10.0  # from which one is out of the question
 SQUARES = RobustLoss(inf)
 ALARM = 0.001  # probability of calling a value of a response that has none an outlier
 FEWEST, RANGE = 4, 1.2  # values; of the speeds, largest over smallest: below nothing can be told
-LEAST, MOST = 1e-8, 10.0  # of a loss time, in units of d_max/V_1
-LEAST_YIELD = 1e-5  # velocity, in units of the smallest speed
-CONSTANT = "constant"
 LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
 
@@ -136,7 +130,8 @@ def compare(best: Best) -> Comparison:
     Values that lie far from the law that describes the others best are left out for all laws, and
     the errors are those of the best law on what is left: none gains by the scatter that it leaves.
     """
-    criteria, fits = on_common_ground([best, *(_rival(law, best) for law in laws.RIVALS)])
+    rivals = (laws.suited(law, best.model.problem) for law in laws.RIVALS)
+    criteria, fits = on_common_ground([best, *(_rival(law, best) for law in rivals)])
     numbers = zip([best, *fits[1:]], *weighed(criteria), criteria.tolist(), strict=True)
     return Comparison(
         tuple(
@@ -242,11 +237,15 @@ class LossFit(Standing):
     parameter: Estimate
 
     @property
-    def losses(self) -> LossLaw:
-        """The law with its parameter, as `impact` takes it."""
+    def losses(self) -> LossLaw | None:
+        """The law with its parameter, as `impact` takes it; None if the bodies have the plate."""
         value = self.parameter.value
+        if self.law == ON_PLATE:
+            return None
         if self.parameter.name == "yield_velocity":
             return ElasticPlastic(yield_velocity=value)
+        if self.parameter.name == "flow_stress":
+            return Metal(flow_stress=value)
         return KelvinVoigt(**{self.parameter.name: value})
 
     def restitution(self, normal_speed: Array) -> Array:
@@ -276,7 +275,8 @@ class LossComparison:
             return "there are too few values to tell laws of losses apart"
         close = [each.law for each in others if not each.excess > APART]
         if close:
-            return f"the data cannot tell {first.law} from {' and '.join(close)}"
+            names = " and ".join(each for each in (", ".join(close[:-1]), close[-1]) if each)
+            return f"the data cannot tell {first.law} from {names}"
         next_law = others[0].law
         how = f"the data rule out {next_law}"
         if others[0].excess <= CLEAR:
@@ -307,15 +307,16 @@ class LossComparison:
 def compare_losses(best: Best, confidence: float) -> LossComparison | None:
     """Return laws of losses on the normal velocities of a fit; None where they tell nothing.
 
-    A constant restitution, the viscoelastic solid of one loss time (Kuwabara & Kono 1987), and the
-    sphere that yields (Thornton 1997), on common ground as laws of rebound are.
+    A constant restitution, the viscoelastic solid of one loss time (Kuwabara & Kono 1987), spheres
+    that yield (Thornton 1997; Jackson & Green 2005), and the waves of a plate (Zener 1941), on
+    common ground as laws of rebound are.
     """
     problem = _normal(best.model.problem)
     if problem is None:
         return None
     own = [
-        settle(Model(law, problem, law.names, {OFFSET: 0.0}), best.loss, _elastic(law)).best
-        for law in _laws(problem)
+        settle(Model(law, problem, law.names, {OFFSET: 0.0}), best.loss, elastic(law)).best
+        for law in laws_of_losses(problem)
     ]
     criteria, fits = on_common_ground(own)
     excess, weights = weighed(criteria)
@@ -332,7 +333,7 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
 def _normal(problem: FitProblem) -> FitProblem | None:
     """Return the normal responses alone, if their speeds are known and differ."""
     places = [place for place, name in enumerate(problem.responses) if name in NORMAL]
-    if not places or not problem.has_speeds:
+    if not places or not problem.has_speeds or problem.motion.thickness is not None:
         return None
     there = problem.present[:, places]
     speeds = problem.motion.normal_speed[there.any(axis=1)]
@@ -348,53 +349,3 @@ def _restitutions(problem: FitProblem, best: Best) -> tuple[Array, Array]:
     is_speed = problem.responses[0] == "normal_speed_out"
     scale = 1.0 / problem.motion.normal_speed if is_speed else 1.0
     return scale * problem.measured[:, 0], scale * best.sigma[:, 0] * best.scale[0]
-
-
-def _laws(problem: FitProblem) -> tuple[FittedLaw, ...]:
-    """Return the laws, with ranges beyond which nothing changes at these speeds."""
-    speeds = problem.motion.normal_speed
-    times = _times(problem.pair, speeds)
-    loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None)
-    yielding = Parameter("yield_velocity", LEAST_YIELD * speeds.min(), float(speeds.max()), None)
-    return (
-        FittedLaw(CONSTANT, (laws.ANY_RESTITUTION,), laws.untouched),
-        FittedLaw("KelvinVoigt", (loss_time,), laws.untouched, viscous),
-        FittedLaw("ElasticPlastic", (yielding,), laws.untouched, plastic),
-    )
-
-
-def _elastic(law: FittedLaw) -> dict[str, float]:
-    """Return the parameter with which a law loses next to nothing."""
-    (parameter,) = law.parameters
-    is_time = parameter.name == "loss_time"
-    return {parameter.name: parameter.low if is_time else parameter.high}
-
-
-def _times(pair: Pair, normal_speed: Any) -> Array:
-    """Return d_max/V_1 at each speed."""
-    return np.asarray(pair.scales(normal_speed).time)
-
-
-def viscous(pair: Pair, normal_speed: Array, values: Values) -> Array:
-    """Return e(alpha), alpha = tau V_1/d_max (Kuwabara & Kono 1987), without tension."""
-    alpha = values["loss_time"] / _times(pair, normal_speed)
-    return np.asarray(np.exp(-np.exp(_viscous()(np.log(alpha)))))
-
-
-@cache
-def _viscous() -> CubicSpline:
-    """Return log(-log e) of log alpha, which is nearly straight at both ends."""
-    alphas, work = np.geomspace(1e-7, 90.0, 241), new_work()
-    restitutions = np.array([restitution(float(alpha), work) for alpha in alphas])
-    return CubicSpline(np.log(alphas), np.log(-np.log(restitutions)))
-
-
-def plastic(pair: Pair, normal_speed: Array, values: Values) -> Array:
-    """Return e = P_max/d_max^(1/4) of a sphere that yields, 1 below V_y (Thornton 1997, (28)).
-
-    In units of the elastic impact, y = (V_y/V_1)^(2/5) and P_max^2 = (6/5) y - y^6/5.
-    """
-    y = np.minimum(values["yield_velocity"] / normal_speed, 1.0) ** 0.4
-    peak = np.sqrt(1.2 * y - 0.2 * y**6)
-    deepest = y**2 + (peak - y**3) / (1.5 * y)
-    return np.asarray(peak / deepest**0.25)

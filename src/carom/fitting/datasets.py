@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.dimensionless.rebounds import regime_borders
 from carom.fitting.comparison import FitRecord, LossComparison
 from carom.fitting.estimation import Best
 from carom.fitting.intervals import rise_of
@@ -102,8 +101,8 @@ def _curves(fit: FitRecord) -> dict[str, Any]:
     fits = [each._best for each in fit.comparison]
     lines = [each.model.expected(each.at[np.newaxis], motion)[0] for each in fits]
     half_width = _band(fit, motion)
-    mu, kappa, e = (best.values[name] for name in ("friction", "kappa", "restitution"))
-    psi = regime_borders(half_ratio(best.model.problem.pair) * kappa, e)
+    mu, kappa = (best.values[name] for name in ("friction", "kappa"))
+    psi = np.median(best.model.borders(best.at, motion), axis=0)
     border = np.arctan(mu / kappa * psi)
     words = "incidence of the contact point at which a regime starts"
     return {
@@ -129,7 +128,9 @@ def _usual(problem: FitProblem) -> tuple[Array, IncomingMotion]:
     else:
         along = np.full(angles.size, float(np.median(normal)))
     nothing = np.zeros(angles.size)
-    return angles, IncomingMotion(along, along * np.tan(angles), nothing, nothing)
+    thickness = problem.motion.thickness
+    usual = None if thickness is None else np.full(angles.size, float(np.median(thickness)))
+    return angles, IncomingMotion(along, along * np.tan(angles), nothing, nothing, usual)
 
 
 def _band(fit: FitRecord, motion: IncomingMotion) -> Array:

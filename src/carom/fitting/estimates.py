@@ -17,8 +17,10 @@ LIMITS = {  # what a parameter can be at all
     "restitution": (0.0, 1.0),
     "tangential_restitution": (-1.0, 1.0),
     "spin_offset": (-inf, inf),
+    "thickness": (0.0, inf),
     "loss_time": (0.0, inf),
     "yield_velocity": (0.0, inf),
+    "flow_stress": (0.0, inf),
 }
 
 

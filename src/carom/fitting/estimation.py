@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.fitting import problem as errors
-from carom.fitting.least_squares import Minimum, descend, jacobian
+from carom.fitting import plates, problem as errors
+from carom.fitting.least_squares import DIFFERENCE_STEP, Minimum, descend, jacobian
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
 from carom.io.extras import extra
@@ -170,10 +170,12 @@ LEVELS = {  # of the scan
     "tangential_restitution": 9,
     "loss_time": 40,
     "yield_velocity": 40,
+    "flow_stress": 40,
 }
 TURNS = 8  # times that errors are estimated and the fit is made anew
 FOLLOWED = 3  # minima that are followed with errors of their own
 HOPELESS = 20.0  # of -2 log likelihood behind the best, after two turns
+MOST_SOLVED = 300  # times that all rows are solved, where parameters act only together
 SAME = 0.02  # of a coordinate between ends of descents that are one minimum
 
 
@@ -302,7 +304,10 @@ def polished(
         at = np.array([list(point.valuesdict().values())])
         return np.asarray(residuals(at)[0][present])
 
-    result = lmfit.minimize(of, parameters, method="leastsq", xtol=1e-9, ftol=1e-10)
+    ends: dict[str, float] = {"xtol": 1e-9, "ftol": 1e-10}
+    if model.problem.on_plate:  # psi_2 is that of the solver, slower and less smooth than a table
+        ends |= {"epsfcn": DIFFERENCE_STEP**2, "max_nfev": MOST_SOLVED}
+    result = lmfit.minimize(of, parameters, method="leastsq", **ends)
     lowest = np.array(list(result.params.valuesdict().values()))
     before, after = np.square(of(parameters)).sum(), np.square(residuals(lowest[None])).sum()
     return (lowest if after <= before else at), result
@@ -348,17 +353,26 @@ def _valleys(sums: Array) -> Mask:
 def _levels(model: Model, name: str) -> Array:
     """Return the coordinates of a parameter in the scan."""
     if name == "restitution":
-        return _likely_restitutions(model.problem)
+        return _likely_restitutions(model.problem, 0.35)
+    if name == plates.THICKNESS:
+        return np.clip(
+            -plates.give_of(_likely_restitutions(model.problem, 0.02)), *_range(model, name)
+        )
     if name not in LEVELS:
         return np.zeros(1)
-    place = model.free.index(name)
-    low, high = model.bounds.low[place], model.bounds.high[place]
+    low, high = _range(model, name)
     if name == "friction":
         low, high = np.log(5e-3), np.log(3.0)
     return np.linspace(low, high, LEVELS[name] + 2)[1:-1]
 
 
-def _likely_restitutions(problem: FitProblem) -> Array:
+def _range(model: Model, name: str) -> tuple[float, float]:
+    """Return the ends of the coordinate of a parameter."""
+    place = model.free.index(name)
+    return float(model.bounds.low[place]), float(model.bounds.high[place])
+
+
+def _likely_restitutions(problem: FitProblem, least: float) -> Array:
     """Return normal restitutions to start from: what was measured, or a few."""
     measured = dict(zip(problem.responses, problem.measured.T, strict=True))
     if "normal_restitution" in measured:
@@ -367,4 +381,4 @@ def _likely_restitutions(problem: FitProblem) -> Array:
         ratios = measured["normal_speed_out"] / problem.motion.normal_speed
     else:
         return np.array([0.6, 0.8, 0.95])
-    return np.clip([float(np.nanmedian(ratios))], 0.35, 0.999)
+    return np.clip([float(np.nanmedian(ratios))], least, 0.999)

@@ -11,6 +11,7 @@ from carom.dimensionless.rebounds import THROUGHOUT
 from carom.fitting.estimation import WEAK, Best, Information, estimate
 from carom.fitting.least_squares import descend
 from carom.fitting.model import OFFSET, Model
+from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import RobustLoss
 from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
@@ -18,8 +19,8 @@ from carom.quantities.arrays import Array
 TRIES = 4  # fits of which the ends are searched for, each better than the one before
 FIRST = 4.0  # parts of the range in which an open side is searched for, at first
 ROUNDS, CLOSE = 16, 2e-3  # at most; of the distance at which the loss has risen enough
-HELD_FIRST = (OFFSET, "restitution", "tangential_restitution", "kappa", "friction")
-EXAMPLES = {"restitution": 0.98, "kappa": 0.82, "friction": 0.1, OFFSET: 0.0}
+HELD_FIRST = (OFFSET, THICKNESS, "restitution", "tangential_restitution", "kappa", "friction")
+EXAMPLES = {"restitution": 0.98, "kappa": 0.82, "friction": 0.1, OFFSET: 0.0, THICKNESS: "3 mm"}
 LEAST_PART = 0.25  # of a direction that a parameter of a group has
 ROUNDED = 1e-10  # of the information: less is that of rounded difference quotients
 WORSE = 0.5  # rise of the loss at which a starting value contradicts the data
@@ -188,7 +189,7 @@ def _held(best: Best, group: tuple[str, ...], start: float) -> Best:
 def reason(group: tuple[str, ...], best: Best) -> str:
     """Return why the data do not tell a group of parameters."""
     if len(group) > 1:
-        others = f"fix one of them, e.g. fixed={{'{group[0]}': {EXAMPLES[group[0]]}}}"
+        others = f"fix one of them, e.g. fixed={{'{group[0]}': {EXAMPLES[group[0]]!r}}}"
         if set(group) == {"friction", "restitution"}:
             cure = f"{others}, or measure normal_restitution"
             return f"only friction (1 + restitution) matters; {cure}"

@@ -11,14 +11,16 @@ from numpy.typing import NDArray
 from carom.bodies.kinematics import Rebound, Tangential
 from carom.bodies.pairs import Pair
 from carom.dimensionless.rebound_tables import STORED_CHI, STORED_E, psi_out, stored
-from carom.dimensionless.rebounds import regimes
+from carom.dimensionless.rebounds import regime_borders
+from carom.fitting import plates
 from carom.fitting.least_squares import BoxBounds, Residuals
+from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import FitProblem, IncomingMotion, RobustLoss, Weights
 from carom.quantities.arrays import Array
 
-Values = Mapping[str, Array]  # of parameters by name, each of shape (batch, 1)
+Values = Mapping[str, Array]  # by name: of parameters (batch, 1), of restitutions (batch, rows)
 OutgoingVelocity = Callable[[Pair, Array, Array, Values], Array]
-NormalRestitution = Callable[[Pair, Array, Values], Array]
+OfNormalSpeed = Callable[[Pair, Array, Values], Array]
 OFFSET = "spin_offset"
 ROUNDING = 1e-9
 
@@ -40,9 +42,26 @@ class Parameter(NamedTuple):
         return np.exp(coordinate) if self.scale is None else coordinate * self.scale
 
 
+class Thickness(Parameter):
+    """A thickness h, of which -(scale/h)^2 is varied: e is nearly linear in it."""
+
+    def coordinate(self, value: float) -> float:
+        """Return what is varied in place of a value."""
+        return -(((self.scale or 1.0) / value) ** 2)
+
+    def value(self, coordinate: Array) -> Array:
+        """Return the values of coordinates."""
+        return np.asarray((self.scale or 1.0) / np.sqrt(-coordinate))
+
+
 def constant(pair: Pair, normal_speed: Array, values: Values) -> Array:
     """Return the same restitution at every speed."""
     return values["restitution"] + 0.0 * normal_speed
+
+
+def unmoved(pair: Pair, normal_speed: Array, values: Values) -> Array:
+    """Return the speed of the centres as the surfaces turn: none, but for plates."""
+    return np.zeros(normal_speed.shape)
 
 
 @dataclass(frozen=True)
@@ -50,13 +69,15 @@ class FittedLaw:
     """A law of rebound: `contact_velocity_out` is V_x' of V_n, V_x, and what can be varied.
 
     V_n and V_x have the shape (rows,), V_x' and e have (batch, rows). Besides `parameters` an
-    offset of the spin can be varied.
+    offset of the spin can be varied. On a plate e, the contact time, and w as the surfaces turn
+    depend on V_n.
     """
 
     name: str
     parameters: tuple[Parameter, ...]
     contact_velocity_out: OutgoingVelocity
-    restitution: NormalRestitution = constant
+    restitution: OfNormalSpeed = constant
+    turning: OfNormalSpeed = unmoved
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -67,15 +88,27 @@ class FittedLaw:
         self, pair: Pair, motion: IncomingMotion, values: Values, names: Sequence[str]
     ) -> Array:
         """Return the observables of these names, of shape (batch, rows, names)."""
-        normal, tangential, spin, spin2 = motion
+        normal, tangential, spin, spin2, _ = motion
+        values = of_rows(motion, values)
         turning = spin + values[OFFSET]
         before = Tangential(tangential + 0.0 * turning, turning, spin2)  # type: ignore[arg-type]
         velocity = np.asarray(before.contact_velocity(pair))
-        after = self.contact_velocity_out(pair, normal, velocity, values)
+        e = self.restitution(pair, normal, values)
+        after = self.contact_velocity_out(pair, normal, velocity, {**values, "restitution": e})
         impulse = pair.tangential_mass * (velocity - after)
-        restitution = self.restitution(pair, normal, values)
-        rebound = Rebound(pair, normal, *before, restitution + 0.0 * turning, impulse)
-        return np.stack([getattr(rebound, name) for name in names], axis=-1)
+        rebound = Rebound(pair, normal, *before, e + 0.0 * turning, impulse)
+        observed = (
+            plates.duration(pair, normal, values) + 0.0 * turning
+            if name == DURATION
+            else getattr(rebound, name)
+            for name in names
+        )
+        return np.stack(list(observed), axis=-1)
+
+
+def of_rows(motion: IncomingMotion, values: Values) -> Values:
+    """Return the values with the thickness of each row, if that is in the table."""
+    return values if motion.thickness is None else {**values, THICKNESS: motion.thickness[None]}
 
 
 def half_ratio(pair: Pair) -> float:
@@ -88,6 +121,22 @@ def exact(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
     unit = values["friction"] * normal_speed / values["kappa"]
     chi = half_ratio(pair) * values["kappa"][:, 0]
     return unit * psi_out(stored(), velocity / unit, chi, values["restitution"][:, 0])
+
+
+def exact_on_plate(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
+    """Return the same on a plate, by the solver: e, and psi_2 for its sake, depend on V_n."""
+    unit = values["friction"] * normal_speed / values["kappa"]
+    shape = np.broadcast_shapes(velocity.shape, unit.shape, values["restitution"].shape)
+    psi, chi, gives, e = (
+        np.broadcast_to(each, shape)
+        for each in (
+            velocity / unit,
+            half_ratio(pair) * values["kappa"],
+            plates.give(pair, normal_speed, values),
+            values["restitution"],
+        )
+    )
+    return unit * plates.rebounds(psi, chi, gives, e)
 
 
 def untouched(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
@@ -110,6 +159,7 @@ def rigid(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
 FRICTION = Parameter("friction", 1e-3, 10.0, None)
 KAPPA = Parameter("kappa", 0.1, 4.0, None)
 RESTITUTION = Parameter("restitution", *STORED_E)
+THICK = Thickness(THICKNESS, 0.0, np.inf)  # its range depends on the speeds
 BETA = Parameter("tangential_restitution", -1.0, 1.0)
 
 ANY_RESTITUTION = RESTITUTION._replace(low=1e-3)  # where the table of psi_2 is not asked
@@ -122,8 +172,26 @@ RIVALS = (
 )
 
 
-def ranged(parameter: Parameter, pair: Pair) -> Parameter:
-    """Return a parameter with the range it has for a pair: chi of a kappa must be in the table."""
+def suited(law: FittedLaw, problem: FitProblem) -> FittedLaw:
+    """Return the law for the bodies: on a plate the thickness gives the restitution."""
+    if not problem.on_plate:
+        return law
+    thickness = () if THICKNESS in problem.before else (THICK,)
+    others = (each for each in law.parameters if each.name != RESTITUTION.name)
+    out = exact_on_plate if law.contact_velocity_out is exact else law.contact_velocity_out
+    of_speed = plates.restitution, plates.turning
+    return FittedLaw(law.name, (*others, *thickness), out, *of_speed)
+
+
+def ranged(parameter: Parameter, problem: FitProblem) -> Parameter:
+    """Return a parameter with the range it has for a problem.
+
+    chi of a kappa must be in the table; a plate must be one that the theory can solve.
+    """
+    pair = problem.pair
+    if parameter.name == THICKNESS:
+        low, high, scale = plates.thickness_range(pair, problem.motion.normal_speed)
+        return parameter._replace(low=low, high=high, scale=scale)
     if parameter.name != "kappa":
         return parameter
     half = half_ratio(pair)
@@ -144,7 +212,7 @@ class Model:
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
         """The free parameters, in the order of the coordinates."""
-        own = (ranged(parameter, self.problem.pair) for parameter in self.law.parameters)
+        own = (ranged(parameter, self.problem) for parameter in self.law.parameters)
         by_name = {parameter.name: parameter for parameter in own}
         return tuple(by_name.get(name) or offset_parameter(self.problem) for name in self.free)
 
@@ -209,7 +277,17 @@ class Model:
         problem, values = self.problem, self.values_at(point)
         velocity = problem.contact_velocity + problem.pair.first.radius * values[OFFSET]
         psi = values["kappa"] * velocity / (values["friction"] * problem.motion.normal_speed)
-        return regimes(psi, half_ratio(problem.pair) * values["kappa"], values["restitution"])
+        passed = self.borders(point, problem.motion) <= np.abs(psi)[:, np.newaxis]
+        return np.asarray(passed.sum(axis=1).astype(np.int8))
+
+    def borders(self, point: Array, motion: IncomingMotion) -> Array:
+        """Return the |psi_1| at which the regime changes, of shape (rows, 3)."""
+        pair, values = self.problem.pair, self.values(point[np.newaxis])
+        arguments = pair, motion.normal_speed, of_rows(motion, values)
+        e, turning = self.law.restitution(*arguments), self.law.turning(*arguments)
+        chi = half_ratio(pair) * float(values["kappa"][0, 0])
+        rows = (np.atleast_2d(each)[0] for each in (e, turning))
+        return regime_borders(chi, *rows)
 
     def holding(self, name: str, value: float) -> "Model":
         """Return the model with one of the free parameters held."""

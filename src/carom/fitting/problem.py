@@ -10,6 +10,7 @@ from scipy.special import gammaln
 
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import convert_observables
+from carom.fitting.plates import THICKNESS
 from carom.io.user_table import Mask, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -20,12 +21,13 @@ STEEPEST = np.radians(89.9)
 
 
 class IncomingMotion(NamedTuple):
-    """Motion before the impacts, one a row, in SI units."""
+    """Motion before the impacts, one a row, in SI units; and thicknesses of the plates struck."""
 
     normal_speed: Array
     tangential_speed: Array
     spin: Array
     spin2: Array
+    thickness: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +81,11 @@ class FitProblem:
         return not bool(sideways.any())
 
     @property
+    def on_plate(self) -> bool:
+        """Whether a plate is struck, which gives the restitution."""
+        return self.pair.thickness is not None
+
+    @property
     def is_one(self) -> bool:
         """Whether every impact that was measured has the same incidence, to either side."""
         slopes = np.abs(self.contact_velocity / self.motion.normal_speed)
@@ -104,6 +111,7 @@ class FitProblem:
         motion = self.motion
         speed = float(np.median(np.hypot(motion.normal_speed, motion.tangential_speed)))
         units = {"rad/s": speed / self.pair.first.radius, "m/s": speed}
+        units["s"] = float(self.pair.scales(speed).time)
         return np.array([units.get(GLOSSARY[name].unit, 1.0) for name in self.responses])
 
     @cached_property
@@ -116,6 +124,7 @@ class FitProblem:
     def moved(self, changes: Mapping[str, Array]) -> IncomingMotion:
         """Return the motion before with some of its columns changed by so much."""
         quantities = {name: values + changes.get(name, 0.0) for name, values in self.before.items()}
+        thickness = quantities.pop(THICKNESS, None)
         for name in {"angle", "contact_angle"} & set(quantities):
             quantities[name] = np.clip(quantities[name], -STEEPEST, STEEPEST)
         if not self.has_speeds:
@@ -125,7 +134,7 @@ class FitProblem:
             for name in ("normal_speed", "tangential_speed")
         )
         spins = (quantities.get(name, np.zeros(len(self.measured))) for name in ("spin", "spin2"))
-        return IncomingMotion(*speeds, *spins)
+        return IncomingMotion(*speeds, *spins)._replace(thickness=thickness)
 
     @cached_property
     def shaken(self) -> tuple[tuple[IncomingMotion, IncomingMotion], ...]:

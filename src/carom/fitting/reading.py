@@ -1,26 +1,30 @@
-"""What a user gives to a fit, read and checked: measurements, and which parameters are varied."""
+"""Measured rebounds as a user gives them to a fit, read and checked."""
 
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from carom.bodies.cases import check_case, pair_of
 from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair, alike, checked_pair
+from carom.bodies.shapes import HalfSpace
 from carom.datasets import observables
 from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
+from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebound_tables import STORED_CHI
-from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged
+from carom.fitting import plates
+from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import NO_SPEED, FitProblem, IncomingMotion
 from carom.impacts.validity import GRAVITY
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import Faults, InputError, checked_type, clipped, nearest, refusal
-from carom.quantities.units import WHY_POSITIVE, number
+from carom.quantities.refusals import Faults, InputError
+from carom.quantities.units import WHY_POSITIVE
 
 MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit
 LARGEST = 1e9  # of what has no unit
@@ -29,9 +33,20 @@ START_FRICTION = 0.3  # of bodies of which none is known
 HEIGHTS = {"drop_height": "normal_speed", "rebound_height": "normal_speed_out"}
 TWICE = ("speed", "angle", "tangential_speed", "contact_angle", "psi_in", "normal_restitution")
 DRAG, AIR = 0.45, 1.2  # drag coefficient of a sphere at Reynolds numbers of 1e3 to 1e5; kg/m^3
-NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
-EXAMPLES = {"friction": 0.2, "restitution": 0.98}
-FIRST = ("friction", "kappa", "restitution")  # varied unless something else is said
+NO_BODIES = (
+    "pair: missing, and the data do not name the bodies; give pair=carom.Pair(...) in Python or "
+    "--case FILE in a shell, or write the bodies as JSON into a comment '# case: {...}' of the file"
+)
+FAR_OFF = 30.0  # times: a contact time in another unit
+
+
+def case_of_data(data: Any) -> Mapping[str, Any]:
+    """Return the case that stands in the data, or raise InputError if there is none."""
+    case = read_table(data, None).case
+    if case is None:
+        raise InputError(NO_BODIES)
+    check_case(case)
+    return case
 
 
 def read_problem(
@@ -44,18 +59,23 @@ def read_problem(
 
 
 def read_measurements(
-    table: UserTable, faults: Faults | None = None
+    table: UserTable, faults: Faults | None = None, more: Sequence[str] = ()
 ) -> tuple[UserTable, tuple[str, ...]]:
-    """Return measurements in SI units, with speeds of drops, and what the table holds besides."""
-    names = with_errors((*BEFORE, *OBSERVABLES, *HEIGHTS))
+    """Return measurements in SI units, with speeds of drops, and what the table holds besides.
+
+    `more` are names of columns that are read as well.
+    """
+    names = with_errors((*BEFORE, *OBSERVABLES, *HEIGHTS, *more))
     ignored = others(table, names, faults)
-    rows = in_units(table, names, (*OBSERVABLES, "rebound_height"), faults)
+    rows = in_units(table, names, (*OBSERVABLES, "rebound_height", DURATION), faults)
     return with_speeds(rows), ignored
 
 
 def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
-    rows, ignored = read_measurements(table, faults)
-    measured = tuple(name for name in OBSERVABLES if name in rows.columns)
+    of_plates = _columns_of_plates(pair, table)
+    rows, ignored = read_measurements(table, faults, of_plates)
+    possible = (*OBSERVABLES, *of_plates[1:])
+    measured = tuple(name for name in possible if name in rows.columns)
     responses = tuple(name for name in measured if np.isfinite(rows[name]).any())
     if not responses:
         faults.settle()
@@ -63,17 +83,24 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
             f"data: there is no value in {', '.join(measured)}; '-' means not measured"
             if measured
             else f"data: no measured response among the columns {', '.join(table.names)}; there "
-            f"must be one or more of {', '.join(OBSERVABLES)}, or drop_height and rebound_height"
+            f"must be one or more of {', '.join(possible)}, or drop_height and rebound_height"
         )
     empty = (f"{name} (no value in it)" for name in measured if name not in responses)
     bodies, knows_friction = _bodies(pair, table.case)
+    if of_plates and THICKNESS in rows.columns:
+        rows.refuse(THICKNESS, rows[THICKNESS] <= 0.0, "must be positive")
+        faults.settle()
+        bodies = plates.with_thickness(bodies, float(np.median(rows[THICKNESS])))
     if "drop_height" in rows.columns and len(bodies.moving) > 1:
         raise InputError(
             "drop_height: the second body flies off, too, so that the heights of the first do not "
             "give the speed at which they part; drop the ball on a half-space, or give "
             "normal_speed and normal_speed_out"
         )
-    before = {name: rows[name] for name in BEFORE if name in rows.columns}
+    before = {name: rows[name] for name in (*BEFORE, THICKNESS) if name in rows.columns}
+    is_open = "normal_speed" in before and not {*observables.INCIDENCE} & {*before}
+    if is_open and {*responses} <= {*NORMAL, DURATION}:  # for which the normal speed suffices
+        before["tangential_speed"] = np.zeros(len(rows))
     if (scaled := {*before, *responses} & {"psi_in", "psi_out"}) and not knows_friction:
         raise InputError(
             f"friction: missing; {min(scaled)} is in units of it, so give that of the bodies"
@@ -81,6 +108,11 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
     _check_sizes(rows, bodies)
     _check_before(rows, before, responses)
     faults.settle()
+    if bodies.thickness is not None and not {*WHY_POSITIVE} & {*before}:
+        raise InputError(
+            "speed: column missing; how far a plate gives way depends on the speed, so add speed "
+            "and angle, or normal_speed"
+        )
     problem = FitProblem(
         pair=bodies,
         before=before,
@@ -97,6 +129,16 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
     return problem
 
 
+def _columns_of_plates(pair: Pair | None, table: UserTable) -> tuple[str, ...]:
+    """Return the columns that only rebounds from a plate have, if there is one."""
+    with suppress(InputError):  # which is told later
+        wall = _bodies(pair, table.case)[0].second
+        named = THICKNESS in table.names
+        if isinstance(wall, HalfSpace) and (named or wall.thickness is not None):
+            return THICKNESS, DURATION
+    return ()
+
+
 def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bool]:
     """Return the bodies, and whether their friction is known; otherwise it is a guess."""
     own = None
@@ -104,18 +146,16 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
         check_case(case)
         own = pair_of({"friction": 0.0, **case})
     if pair is not None:
-        checked_pair(pair)
+        checked_pair(pair, plates=True)
+        if own is not None and pair.thickness is not None and isinstance(own.second, HalfSpace):
+            own = plates.with_thickness(own, pair.thickness)  # as its friction, of no account
         if own is not None and not alike(pair, own):
             raise InputError(
                 "pair: its bodies differ from those in the data; leave it, or --case, out"
             )
     bodies = own if pair is None else pair
     if bodies is None:
-        raise InputError(
-            "pair: missing, and the data do not name the bodies; give pair=carom.Pair(...) in "
-            "Python or --case FILE in a shell, or write the bodies as JSON into a comment "
-            "'# case: {...}' of the file"
-        )
+        raise InputError(NO_BODIES)
     least, most = STORED_CHI
     if not least <= bodies.chi <= most:
         raise InputError(
@@ -168,7 +208,7 @@ def _check_before(rows: UserTable, before: Mapping[str, Array], responses: Colle
     for name in before:
         if (error := name + ERROR) in rows.columns:
             rows.refuse(error, rows[error] < 0.0, "a standard deviation is zero or positive")
-            if name in WHY_POSITIVE:
+            if name in (*WHY_POSITIVE, THICKNESS):
                 too_large = rows[error] >= before[name]
                 rows.refuse(error, too_large, f"must be smaller than the {name} itself")
 
@@ -188,12 +228,17 @@ def _check_responses(pair: Pair, rows: UserTable, motion: IncomingMotion, veloci
     for name in filter(rows.columns.__contains__, most):
         ratio = rows[name] / most[name][0]
         rows.refuse(name, (ratio < 0.0) | (ratio > MOST_RESTITUTION), most[name][1])
+    if DURATION in rows.columns:
+        usual = hertz.DURATION * np.asarray(pair.scales(motion.normal_speed).time)  # type: ignore[arg-type]
+        off = np.abs(np.log(np.maximum(rows[DURATION], 1e-300) / usual)) > np.log(FAR_OFF)
+        allowed = f"on a thick wall it is {GLOSSARY[DURATION].text(float(np.median(usual)), 3)}"
+        rows.refuse(DURATION, off, f"{allowed}; check its unit")
     _check_sense(rows, motion, velocity)
 
 
 def _most_speed(pair: Pair, motion: IncomingMotion) -> Array:
     """Return the speed of the centre that would take all of the energy before."""
-    spins: Any = Tangential(*motion[1:])  # type: ignore[arg-type]
+    spins: Any = Tangential(*motion[1:4])  # type: ignore[arg-type]
     turning = spins.spin_energy(pair) / (0.5 * pair.normal_mass)
     most: Array = np.sqrt(motion.normal_speed**2 + motion.tangential_speed**2 + turning)
     return most
@@ -246,112 +291,3 @@ def taken_by_air(heights: Mapping[str, Array], radius: float, mass: float) -> fl
     k = DRAG * AIR * np.pi * radius**2 / mass
     whole = heights["drop_height"] + heights["rebound_height"]
     return float(0.25 * k * np.nanmedian(whole))
-
-
-class Options(NamedTuple):
-    """Names of free parameters, and the values of all to begin with, or to hold."""
-
-    free: tuple[str, ...]
-    start: Mapping[str, float]
-
-
-def read_options(
-    problem: FitProblem, vary: Collection[str] | str | None, fixed: Mapping[str, Any] | None
-) -> Options:
-    """Return what is varied and what it starts from, or raise InputError."""
-    held = _fixed(problem, {} if fixed is None else fixed)
-    tells_restitution = problem.is_normal and set(NORMAL) & set(problem.responses)
-    first = ("restitution",) if tells_restitution else FIRST
-    wanted = [name for name in first if name not in held] if vary is None else _varied(vary)
-    for name in filter(held.__contains__, wanted):
-        raise InputError(f"{name}: it is both varied and fixed; leave it out of vary or of fixed")
-    if OFFSET in (*wanted, *held) and not problem.has_speeds:
-        raise InputError(
-            f"{OFFSET}: it needs speeds in the data; add a column speed or normal_speed"
-        )
-    if set(wanted) & {"friction", "kappa"} and OFFSET not in wanted and problem.is_normal:
-        raise InputError(
-            "data: every impact is a normal one, in which friction and stiffness do not matter; "
-            "measure at other angles, or fit restitution alone, vary='restitution'"
-        )
-    if not wanted:
-        raise InputError("vary: nothing is left to fit; fix fewer parameters")
-    _refuse_assumed(problem, {*wanted, *held})
-    pair = problem.pair
-    start = {"friction": pair.friction, "kappa": pair.kappa, "restitution": 1.0, OFFSET: 0.0}
-    return Options(tuple(wanted), {**start, **held})
-
-
-def _refuse_assumed(problem: FitProblem, named: Collection[str]) -> None:
-    """Raise InputError for a parameter that would be held at a value that nobody has given."""
-    measured = [name for name in NORMAL if name in problem.responses]
-    why = {"restitution": f"{measured[0]} is in the data" if measured else ""}
-    if not problem.knows_friction and not problem.is_normal and {*problem.responses} - {*NORMAL}:
-        why["friction"] = "the bodies have none"
-    for name, reason in why.items():
-        if reason and name not in named:
-            example = f"fixed={{'{name}': {EXAMPLES[name]}}}"
-            raise InputError(
-                f"{name}: {reason}, but it is neither varied nor fixed; add it to vary, or fix it, "
-                f"e.g. {example}"
-            )
-
-
-def checked_confidence(value: Any) -> float:
-    """Return a confidence, or raise InputError if it is out of range."""
-    confidence = number("confidence", value, "1")
-    if not 0.5 <= confidence < 1.0:
-        raise refusal("confidence", value, "must lie between 0.5 and 1, e.g. 0.95")
-    return confidence
-
-
-def check_count(problem: FitProblem, free: Sequence[str]) -> None:
-    """Raise InputError if there are too few values for so many parameters."""
-    least = len(free) + (not problem.all_errors_known)
-    if problem.count < least:
-        values = f"{problem.count} measured value{'s' * (problem.count != 1)}"
-        wanted = f"{len(free)} parameters ({', '.join(free)})" if len(free) > 1 else free[0]
-        fewer = ", or fix some, e.g. fixed={'restitution': 0.98}" if len(free) > 1 else ""
-        raise InputError(
-            f"data: {values} cannot determine {wanted}; measure more, at least {least}{fewer}"
-        )
-
-
-def _varied(vary: Collection[str] | str) -> list[str]:
-    try:
-        names = [vary] if isinstance(vary, str) else list(vary)
-    except TypeError:
-        raise refusal("vary", vary, f"must be names of {', '.join(NAMES)}") from None
-    for name in names:
-        _check_name("vary", name)
-    plain = ["kappa" if name == "chi" else name for name in names]
-    return list(dict.fromkeys(plain))
-
-
-def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
-    """Return the parameters that are held, in SI units; chi becomes kappa."""
-    checked_type("fixed", fixed, Mapping, "must be values by name, e.g. {'restitution': 0.98}")
-    ranges = {each.name: ranged(each, problem.pair) for each in EXACT.parameters}
-    held: dict[str, float] = {}
-    for name, value in fixed.items():
-        _check_name("fixed", name)
-        si = number(name, value, "rad/s" if name == OFFSET else "1")
-        if name == "chi":
-            if "kappa" in fixed:
-                raise InputError("kappa and chi: each follows from the other; fix one of them")
-            name, si = "kappa", si / half_ratio(problem.pair)
-        parameter = ranges.get(name) or offset_parameter(problem)
-        if not parameter.low <= si <= parameter.high:
-            low, high = (GLOSSARY[name].text(end) for end in (parameter.low, parameter.high))
-            allowed = f"{name} must lie between {low} and {high}"
-            raise refusal(f"fixed {name}", value, allowed)
-        held[name] = si
-    return held
-
-
-def _check_name(where: str, name: Any) -> None:
-    there_are = f"parameters are {', '.join(NAMES)}"
-    shown = clipped(checked_type(where, name, str, there_are))
-    if name not in NAMES:
-        near = nearest(shown, NAMES) or there_are
-        raise InputError(f"{where}: {shown!r} is no parameter; {near}")

@@ -2,16 +2,18 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from math import isnan, log, pi
+from math import inf, isnan, log, pi
 from typing import NamedTuple
 
 import numpy as np
 
+from carom.fitting import plates
 from carom.fitting.comparison import FitRecord
 from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.model import Model
+from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
 from carom.fitting.reading import HEIGHTS, taken_by_air
 from carom.quantities.arrays import Array
@@ -179,6 +181,8 @@ def _is_promising(model: Model, loss: RobustLoss, as_given: Array) -> bool:
     """Tell whether a response may scatter less than as it was given, by a rough fit."""
     minimum, present = rough_minima(model, loss)[0], model.problem.present
     left = model.problem.measured - model.expected(minimum[np.newaxis])[0]
+    if not np.isfinite(left[present]).all():  # ratios to a velocity that is zero then
+        return False
     typical = typical_deviation(left, present) < HOPEFUL * typical_deviation(as_given, present)
     return bool(typical.any())
 
@@ -227,6 +231,7 @@ def notes(fit: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> t
         lines.append(ONE_INCIDENCE)
     lines += [*_about_others(whole, estimates), *_about_bodies(estimates["kappa"])]
     lines += [*_likely_mistake(whole, estimates), *_about_air(problem)]
+    lines += _about_plate(best, estimates)
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -266,6 +271,27 @@ def _about_air(problem: FitProblem) -> list[str]:
     if part < THIN:
         return []
     return [f"air: drag makes the restitution about {100.0 * part:.2g} % of its value too small"]
+
+
+def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> list[str]:
+    """Return how the restitution follows, and where the theory of a plate does not hold."""
+    problem, law = best.model.problem, best.model.law
+    pair, motion = problem.pair, problem.motion
+    if not problem.on_plate:
+        return []
+    speeds, thickness = motion.normal_speed, estimates.get(THICKNESS)
+    of_rows = motion.thickness if thickness is None else np.full(speeds.shape, thickness.value)
+    sizes = np.asarray(of_rows)
+    e = law.restitution(pair, speeds, {THICKNESS: sizes})
+    lines = [f"restitution: the plate gives {e.min():.3g} to {e.max():.3g}, the median is shown"]
+    doubts = list(plates.doubtful(pair, speeds, sizes))
+    lines += [f"{f.label}: {f.verdict} ({problem.rows.named(bad)})" for f, bad in doubts]
+    if thickness is not None and thickness.high == inf:
+        lines.append("thickness: the data do not tell the plate from a thick wall")
+    usual = plates.with_thickness(pair, float(np.median(sizes)))
+    fitted = thickness is not None and thickness.determined
+    sheared = plates.shear(usual, float(np.median(speeds)), problem.responses, fitted=fitted)
+    return [*lines, *([sheared] if sheared else [])]
 
 
 def _about_ranges(best: Best) -> list[str]:

@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.bodies.pairs import Pair
+from carom.fitting import plates
 from carom.fitting.advice import Advice, advise
 from carom.fitting.comparison import FitRecord, LossComparison, compare_losses
 from carom.fitting.datasets import fit_dataset, sample
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
-from carom.fitting.model import half_ratio
-from carom.fitting.reading import NAMES
+from carom.fitting.model import Model, half_ratio
+from carom.fitting.options import NAMES
+from carom.fitting.plates import THICKNESS
 from carom.fitting.report import as_text, notes
 from carom.impacts.curves import REGIMES
-from carom.io.citations import FITS, SAMPLES, VISCOUS, bibtex, with_doi
+from carom.io.citations import FITS, PLATE, SAMPLES, VISCOUS, bibtex, with_doi
 from carom.io.progress import Progress
 from carom.plots.result import Result, card
 
@@ -31,9 +33,9 @@ if TYPE_CHECKING:
 class Fit(FitRecord, Result):
     """Parameters from measured rebounds; made by `carom.fit`.
 
-    `estimates` holds friction, kappa, chi, restitution and spin_offset by name, `fit["friction"]`
-    one of them, with intervals at the level `confidence`. `regimes` counts the rows in each regime,
-    `notes` has remarks on the fit.
+    `estimates` holds friction, kappa, chi, restitution and spin_offset by name, and the thickness
+    of a plate; `fit["friction"]` is one of them, with intervals at the level `confidence`.
+    `regimes` counts the rows in each regime, `notes` has remarks on the fit.
 
     Examples
     --------
@@ -63,8 +65,13 @@ class Fit(FitRecord, Result):
 
     @property
     def restitution(self) -> Estimate:
-        """Normal coefficient of restitution e."""
+        """Normal coefficient of restitution e; on a plate the median of the rows."""
         return self.estimates["restitution"]
+
+    @property
+    def thickness(self) -> Estimate | None:
+        """Thickness of the plate in m; None for other bodies, and if the data have it by row."""
+        return self.estimates.get(THICKNESS)
 
     @property
     def spin_offset(self) -> Estimate:
@@ -73,8 +80,10 @@ class Fit(FitRecord, Result):
 
     @property
     def pair(self) -> Pair:
-        """The bodies with the fitted friction."""
+        """The bodies with the fitted friction, and thickness of a plate."""
         bodies = self._best.model.problem.pair
+        if THICKNESS in self.estimates:
+            bodies = plates.with_thickness(bodies, self.estimates[THICKNESS].value)
         return Pair(bodies.first, bodies.second, self.friction.value)
 
     @property
@@ -86,12 +95,14 @@ class Fit(FitRecord, Result):
     def losses(self) -> LossComparison | None:
         """Laws of losses, compared on the normal velocities; None unless their speeds differ.
 
+        On a plate, `ZenerPlate` is that its waves take the energy, with a thickness.
+
         Examples
         --------
         >>> heights = {"drop_height": [0.1, 0.2, 0.4, 0.8],
         ...            "rebound_height": [0.06, 0.1, 0.17, 0.29]}
         >>> print(carom.fit(heights, pair=pair).losses.verdict)
-        the restitution depends on the speed as in ElasticPlastic; the data rule out KelvinVoigt
+        the restitution depends on the speed as in ElasticPlastic; the data rule out Metal
         """
         return compare_losses(self._best, self.confidence)
 
@@ -106,8 +117,8 @@ class Fit(FitRecord, Result):
         n : int
             Number of further measurements, 1 to 1000.
         parameter : str, optional
-            Parameter that shall become more certain, of friction, kappa, chi, restitution and
-            spin_offset; by default the least certain.
+            Parameter that shall become more certain, of friction, kappa, chi, thickness,
+            restitution and spin_offset; by default the least certain.
 
         Returns
         -------
@@ -138,8 +149,8 @@ class Fit(FitRecord, Result):
 
         Walkers move by differential evolution (ter Braak 2006) in emcee (Foreman-Mackey et al.
         2013). The likelihood is exp(-L/(2 lambda)), with the loss L and its spread lambda of the
-        fit. The prior is even in log friction, log kappa, restitution and spin offset within their
-        ranges.
+        fit. The prior is even in log friction, log kappa, restitution, the inverse square of a
+        thickness, and spin offset, within their ranges.
 
         Parameters
         ----------
@@ -155,8 +166,8 @@ class Fit(FitRecord, Result):
         -------
         xarray.Dataset
             Along `sample`: the parameters that were varied, friction, kappa and restitution as pure
-            numbers, spin_offset in rad/s; and chi if kappa was varied. The attributes are steps,
-            seed, autocorrelation_time in steps, and converged.
+            numbers, thickness in m, spin_offset in rad/s; and chi if kappa was varied. The
+            attributes are steps, seed, autocorrelation_time in steps, and converged.
 
         Raises
         ------
@@ -225,7 +236,8 @@ class Fit(FitRecord, Result):
         >>> [line for line in found.cite().splitlines() if line.startswith("@")][-2:]
         ['@software{newville2014,', '@article{kharaz2001,']
         """
-        lossy = (VISCOUS,) if self.restitution.value < 1.0 else ()
+        why = PLATE if self._best.model.problem.on_plate else VISCOUS
+        lossy = (why,) if self.restitution.value < 1.0 else ()
         keys = (*FITS, *lossy, *(SAMPLES if posterior else ()))
         doi = self._best.model.problem.doi
         return "\n".join([bibtex(*keys), *([with_doi(doi)] if doi else [])])
@@ -257,12 +269,29 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     pair, kappa = model.problem.pair, estimates["kappa"]
     value, low, high = (half_ratio(pair) * each for each in (kappa.value, kappa.low, kappa.high))
     estimates["chi"] = Estimate("chi", value, low, high, kappa.reason)
+    if model.problem.on_plate:
+        estimates["restitution"] = _on_plate(model, estimates.get(THICKNESS))
     counts = np.bincount(model.regimes(best.at), minlength=len(REGIMES))
     regimes = dict(zip(REGIMES, counts.tolist(), strict=True))
     for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
         estimates[name] = replace(estimates[name], elastic=elastic)
-    ordered = {name: estimates[name] for name in NAMES}
+    ordered = {name: estimates[name] for name in NAMES if name in estimates}
     return Fit(ordered, confidence, regimes, notes(profile, settled.whole, ordered), best)
+
+
+def _on_plate(model: Model, thickness: Estimate | None) -> Estimate:
+    """Return the restitution that follows from a plate, the median of the rows."""
+    pair, motion = model.problem.pair, model.problem.motion
+    rows = motion.thickness
+
+    def median(h: float) -> float:
+        values = {THICKNESS: np.asarray(h) if rows is None else rows}
+        return float(np.median(plates.restitution(pair, motion.normal_speed, values)))
+
+    if thickness is None:
+        return Estimate("restitution", median(nan))
+    own, low, high = map(median, (thickness.value, thickness.low, thickness.high))
+    return Estimate("restitution", own, low, high, thickness.reason)
 
 
 def _undetermined(

@@ -27,6 +27,8 @@ LOSS_STYLES: dict[str, Any] = {
     "constant": {"color": style.GREEN, "ls": (0, (1.5, 1))},
     "KelvinVoigt": {"color": style.BLUE, "ls": (0, (5, 1.5))},
     "ElasticPlastic": {"color": style.VERMILION, "ls": "-"},
+    "Metal": {"color": style.PURPLE, "ls": (0, (4, 1.5, 1, 1.5))},
+    "ZenerPlate": {"color": style.BLACK, "ls": "-"},
 }
 
 
