@@ -18,6 +18,7 @@ INLINE = {  # a formula, or the formulas of a sentence, and their LaTeX
     "1e-10 max(1, |psi_1|)": r"10^{-10} \max(1, \lvert \psi_1\rvert)",
     "3e-8 max(1, |psi_1|)": r"3 \times 10^{-8} \max(1, \lvert \psi_1\rvert)",
     "sqrt(R* d)": r"\sqrt{R^* d}",
+    "(Gamma^5 R*^4/E*^2)^(1/3)": r"(\Gamma^5 R^{*4}/E^{*2})^{1/3}",
     "V_1^(1/5)": "V_1^{1/5}",
     "V_1^(-1/4)": "V_1^{-1/4}",
     "(kappa/2)(m_n/m_t)": r"(\kappa/2)(m_n/m_t)",
