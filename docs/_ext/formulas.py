@@ -12,7 +12,7 @@ from carom.quantities.glossary import GLOSSARY
 
 GREEK = (
     "alpha|beta|gamma|delta|epsilon|zeta|eta|theta|kappa|lambda|mu|nu|xi|pi|rho|sigma|tau|phi|chi"
-    "|psi|omega"
+    "|psi|omega|Gamma"
 )
 VARIABLES = "|".join(name for name in GLOSSARY if re.search(r"_\w\w", name))
 SYMBOL = (  # a letter, with d before it, an index, stars or primes behind it
