@@ -281,6 +281,7 @@ OBLIQUE = {"speed": SPEEDS, "angle": ANGLES, "rebound_angle": 0.9 * ANGLES}
         ({"normal_speed": SPEEDS, "duration": SPEEDS}, {}, "duration: .* check its unit"),
         ({"normal_speed": SPEEDS, "duration": SPEEDS}, {"pair": WALL}, "no measured response"),
         ({"normal_speed": SPEEDS, "spin_out": SPEEDS}, {}, "angle: column missing"),
+        ({"speed": SPEEDS, "normal_restitution": SPEEDS / 9.0}, {}, "head-on impacts normal_speed"),
     ],
 )
 def test_what_cannot_be_is_refused_in_one_line(data, inputs, words):

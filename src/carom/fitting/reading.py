@@ -193,6 +193,9 @@ def _check_before(rows: UserTable, before: Mapping[str, Array], responses: Colle
     """Raise InputError if the motion before is missing, said twice, or out of range."""
     ways = [name for name in observables.INCIDENCE if name in before]
     needing = sorted(observables.SCALED & {*before, *responses})
+    if not ways and "speed" in before:
+        head_on = "call the speeds of head-on impacts normal_speed"
+        raise InputError(f"angle: column missing; speed needs it; {head_on}")
     if not ways:
         rows.require("angle")
     if len(ways) > 1:
