@@ -38,7 +38,7 @@ OWN = {  # private to Carom: what its files know of each other's classes, and us
     "verify/entries.py": {"_damped"},
     "verify/errors.py": {"_most_steps", "_why"},
     "verify/pack/writing.py": {"_arguments", "_called"},
-    **{f"explorer/{name}.py": {"_losses"} for name in ("files", "scenes")},
+    "explorer/scenes.py": {"_losses"},
     **{f"fitting/{name}.py": {"_best"} for name in ("advice", "comparison", "datasets", "report")},
     "explorer/uploads.py": {"_best"},
 }

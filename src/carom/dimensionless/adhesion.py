@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
 STICKING = 3.0 / 16.0 * (3.0 + 2.0 ** (-5.0 / 3.0))  # energy that pull-off takes, over b_0^5
 NEWTON = 30  # steps, of which 10 are needed
@@ -111,6 +110,8 @@ def _follow(
         rate[:-1:2], rate[1::2] = state[1::2], -3.75 * chi * z**2 * state[:-1:2]
         pace = np.abs(last - first) * (4.0 * z**3 - thin) / np.sqrt(_left(z, thin))
         return np.ravel(pace * rate)
+
+    from scipy.integrate import solve_ivp  # a quarter of a second, for this alone
 
     at = np.linspace(0.0, 1.0, SAMPLES)
     solved = solve_ivp(rates, (0.0, 1.0), start.ravel(), t_eval=at, **ACCURACY)
