@@ -101,9 +101,10 @@ def worst(program, kind, steps, e=1.0, chis=CHI):
 @pytest.mark.parametrize(
     ("kind", "bounds"),
     [
-        ("32 single", {50: 2.5e-3, 100: 1.3e-3, 200: 1e-3, 400: 1e-3}),
-        ("32 double", {100: 1.3e-3}),
-        ("64 single", {100: 6.5e-4, 200: 3.5e-4, 400: 3.5e-4}),
+        ("16 single", {50: 4e-3, 100: 1.5e-3, 200: 1e-3, 400: 9e-4}),
+        ("32 single", {50: 2.5e-3, 100: 8e-4, 200: 3e-4, 400: 2e-4}),
+        ("32 double", {100: 8e-4}),
+        ("64 single", {100: 6.5e-4, 200: 2e-4, 400: 1e-4}),
     ],
 )
 def test_impacts_are_as_near_as_promised(program, kind, bounds):
@@ -113,8 +114,11 @@ def test_impacts_are_as_near_as_promised(program, kind, bounds):
 
 @pytest.mark.parametrize("e", [0.9, 0.7])
 def test_impacts_with_losses_are_those_of_one_viscoelastic_solid(program, e):
+    assert worst(program, "16 viscous", 100, e) <= 1.5e-3
+    assert worst(program, "16 viscous", 400, e) <= 1e-3
     assert worst(program, "32 viscous", 50, e) <= 4e-3
-    assert worst(program, "32 viscous", 100, e) <= 1.5e-3
+    assert worst(program, "32 viscous", 100, e) <= 1e-3
+    assert worst(program, "32 viscous", 400, e) <= 3e-4
 
 
 @pytest.mark.parametrize(("kind", "e"), [("1024 double", 1.0), ("1024 viscous", 0.7)])
@@ -241,6 +245,24 @@ def impact(contact, psi, chi, steps, v=1.0):
     return psi, -v, work, lost, least
 
 
+@pytest.mark.parametrize("springs", [16, 32])
+def test_no_path_under_constant_load_gives_energy(functions, springs):
+    """In any direction, by slips of any size: what was put in is never less than what came out."""
+    rng = np.random.default_rng(springs)
+    for size in 10.0 ** rng.uniform(-3.0, 0.5, 10):
+        contact, work, dt = Stepped(functions, springs), 0.0, 0.01
+        force = contact.step(0.8, 80.0, 0.0, 0.0, dt)[1:]
+        moved = velocity = np.zeros(2)
+        for noise in rng.normal(0.0, 0.02 * size, (400, 2)):
+            velocity = 0.97 * velocity - 0.003 * moved + noise
+            moved = moved + velocity
+            now = contact.step(0.8, 0.0, *velocity / dt, dt)[1:]
+            work += 0.5 * (force + now) @ velocity
+            force = now
+            assert work > -1e-14 * size
+        assert work > 1e-3 * size**2
+
+
 @pytest.mark.parametrize("alpha", [0.0, 0.2])
 @pytest.mark.parametrize("psi", [0.7, 1.5, 3.0, 7.0])
 def test_the_ledger_closes_to_rounding(functions, psi, alpha):
@@ -250,7 +272,7 @@ def test_the_ledger_closes_to_rounding(functions, psi, alpha):
         Stepped(functions, 64, alpha, alpha, parts), psi, 1.4412, steps=200
     )
     assert work == pytest.approx(lost, abs=1e-13)
-    assert least > (-1e-8 if alpha else -1.5e-3) * work
+    assert least > (-1e-8 if alpha else -1.5e-4) * work
     unit = 0.5 * 0.5 * KAPPA * MASS / 1.4412 * (FRICTION / KAPPA) ** 2
     kinetic = unit * (psi**2 - out**2) + (0.5 * MASS * (1.0 - e**2) if alpha else 0.0)
     assert work == pytest.approx(kinetic, abs=3e-6)
@@ -273,15 +295,15 @@ def test_bodies_that_begin_pressed_lose_what_they_do_not_get_back(functions, alp
 
 
 def test_what_is_booked_too_early_falls_with_the_second_order(functions):
-    """Springs at the edge rub a little too much, which the last step gives back: as 1/N^2."""
+    """Springs at the edge rub a little too much, which the last step gives back: below 1/N^2."""
 
     def booked(springs, psi):
         _, _, work, _, least = impact(Stepped(functions, springs, parts=LEDGER), psi, 1.4412, 800)
         return -least / work
 
     coarse, fine = (max(booked(n, psi) for psi in (0.3, 0.7, 1.5, 3.0, 7.0)) for n in (16, 64))
-    assert fine < 1.5e-3
-    assert 12.0 < coarse / fine < 20.0
+    assert 1e-3 < coarse < 0.01
+    assert fine < coarse / 16.0
 
 
 def test_a_contact_that_is_loaded_again_meets_what_is_left(functions):

@@ -47,7 +47,7 @@ def impacts(steps, rng):
     return text.replace(" 1.0 0.01 ", " 1 0.01 "), normal, aside, step
 
 
-def rebounds(lammps, steps=100, style="springs 32", newton="off", **losses):
+def rebounds(lammps, steps=100, style="springs 16", newton="off", **losses):
     """Return psi_2 and the normal restitution of impacts from psi_1 = 0 to 6."""
     data, normal, aside, step = impacts(steps, np.random.default_rng(3))
     (lammps.folder / "pairs.data").write_text(data)
@@ -67,7 +67,10 @@ def rebounds(lammps, steps=100, style="springs 32", newton="off", **losses):
 
 @pytest.mark.parametrize(
     ("style", "steps", "bound"),
-    [("springs 32", 50, 2.5e-3), ("springs 32", 100, 1.3e-3), ("springs 64", 100, 6.5e-4)],
+    [
+        *(("precision single", 100, 2e-3), ("springs 16", 200, 1.2e-3)),
+        *(("springs 32", 50, 2.5e-3), ("springs 32", 100, 1e-3), ("springs 64", 100, 6.5e-4)),
+    ],
 )
 def test_spheres_leave_as_exactly_as_the_law_promises(lammps, style, steps, bound):
     psi, e = rebounds(lammps, steps, style)
