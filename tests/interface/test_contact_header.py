@@ -3,6 +3,7 @@
 import ctypes
 import re
 import shutil
+import string
 import subprocess
 from itertools import product
 from pathlib import Path
@@ -377,6 +378,49 @@ def test_bad_input_changes_nothing(functions, status, name, value):
     assert "\n" not in text
 
 
+@pytest.mark.parametrize("parts", [ELASTIC, VISCOUS | SINGLE])
+def test_many_contacts_at_once_are_those_one_by_one(functions, parts):
+    """An array of one pair, of which one motion is refused: it stays as it was, others go on."""
+    count, rng = 7, np.random.default_rng(parts)
+    many = ctypes.create_string_buffer(count * functions.carom_contact_size(16, parts))
+    singles = [Stepped(functions, 16, 0.1, 0.1, parts) for _ in range(count)]
+    pair, loads = ctypes.byref(singles[0].pair), (Load * count)()
+    for i in range(20):
+        rows = [(d + 0.4, *v, 0.05) for d, *v in rng.normal(0.0, 0.4, (count, 4))]
+        motions = (Motion * count)(*(Motion(*row) for row in rows))
+        if i == 9:
+            motions[2].slide_y = NAN
+        kind = many, 16, parts, pair
+        status = functions.carom_contact_advance_many(*kind, motions, loads, ctypes.c_size_t(count))
+        assert status == (2 if i == 9 else 0)
+        for k, contact in enumerate(singles):
+            values = map(ctypes.byref, (contact.pair, motions[k], contact.load))
+            functions.carom_contact_advance(contact.memory, 16, parts, *values)
+        assert bytes(many) == b"".join(bytes(contact.memory) for contact in singles)
+        assert bytes(loads) == b"".join(bytes(contact.load) for contact in singles)
+
+
+WORDS = "min max near far small dot cross one two zero half root size count step Real Type PI interface"
+
+
+def test_macros_of_a_program_do_not_matter(folder):
+    """Each letter and common words as macros: the headers compile, and the macros are kept."""
+    names = [*string.ascii_letters, *WORDS.split()]
+    hostile = [f"-D{name}=16" for name in names]
+    check = " || ".join(f"{name} != 16" for name in names)
+    text = f"#if {check}\n#error a macro is gone\n#endif\n"
+    (folder / "c.c").write_text(f"#include <carom_contact.h>\n{text}")
+    (folder / "space.cpp").write_text(f"#include <carom/contact_in_space.hpp>\n{text}")
+    own = "template struct carom::ContactInSpace<>;\n"
+    (folder / "own.cpp").write_text(f"#include <carom/contact_in_space.hpp>\n{own}")
+    include, compiled = f"-I{INCLUDE}", ("-c", "-o", "/dev/null")
+    for source in ("space.cpp", "own.cpp", INCLUDE / "carom/contact.cpp"):
+        words = [COMPILER, "-std=c++17", *STRICT, *hostile, include, folder / source, *compiled]
+        subprocess.run([str(word) for word in words], check=True, capture_output=True, text=True)
+    words = ["cc", "-std=c99", *STRICT, *hostile, include, folder / "c.c", *compiled]
+    subprocess.run([str(word) for word in words], check=True, capture_output=True, text=True)
+
+
 def test_kinds_that_are_not_offered(functions):
     assert functions.carom_contact_size(32, 0) == 8 * (2 + 2 * 32)
     assert functions.carom_contact_size(32, VISCOUS) == 8 * (2 + 3 * 32 + 6)
@@ -447,6 +491,23 @@ def test_the_example_in_space_is_as_near_as_promised(folder, exact):
     )
     flat = exact.max_penetration / 5e-3 * (speeds / 0.6) ** 0.8
     assert off / flat == pytest.approx([-2.0, -2.0, -2.0], rel=0.02)
+
+
+@pytest.mark.parametrize("e", [0.9, 1.0])
+def test_the_example_of_two_impacts_is_what_the_page_promises(folder, e):
+    """A glass ball strikes a steel ball and a steel wall: psi_2, and energies that close."""
+    program = built(folder, ROOT / "examples/cpp/two_impacts.cpp", *FAST, name="two")
+    text = subprocess.run([program, "200", str(e)], capture_output=True, text=True, check=True)
+    bead = carom.Sphere(radius=3e-3, material=carom.Material(young=70e9, poisson=0.22, density=2500))
+    losses = carom.KelvinVoigt(e) if e < 1.0 else None
+    others = (carom.Sphere(radius=5e-3, material="steel"), carom.HalfSpace(material="steel"))
+    for line, other in zip(text.stdout.splitlines(), others, strict=True):
+        psi, lost, friction, viscosity = map(float, re.findall(r"-?\d+\.\d+(?:e-\d+)?", line))
+        pair = carom.Pair(bead, other, friction=0.2)
+        exact = carom.rebound(pair.kappa * 0.5 / 0.2, pair.chi, losses=losses)
+        assert psi == pytest.approx(exact, abs=5e-4)
+        assert lost == pytest.approx(friction + viscosity, rel=1e-3)
+        assert (viscosity > friction) == (e < 1.0)
 
 
 def test_levers_end_where_hertz_puts_the_contact(folder):

@@ -4,11 +4,13 @@
 #ifndef CAROM_MARCHING_HPP
 #define CAROM_MARCHING_HPP
 
-#include <algorithm>
-#include <limits>
-
 #include "lanes.hpp"
 #include "stepping.hpp"
+
+#include "own_names.h"
+
+#include <algorithm>
+#include <limits>
 
 namespace carom {
 namespace springs {
@@ -175,5 +177,7 @@ inline void trim(const Contact<N, Real, P>& c, const Now& now, double edge, doub
 
 }  // namespace springs
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

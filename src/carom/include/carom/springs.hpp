@@ -20,6 +20,8 @@
 #ifndef CAROM_SPRINGS_HPP
 #define CAROM_SPRINGS_HPP
 
+#include "own_names.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -85,5 +87,7 @@ template <class Real> Real cut(Real x, Real y, Real most) {
 
 }  // namespace springs
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

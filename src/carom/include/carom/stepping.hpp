@@ -4,10 +4,12 @@
 #ifndef CAROM_STEPPING_HPP
 #define CAROM_STEPPING_HPP
 
+#include "memory.hpp"
+
+#include "own_names.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "memory.hpp"
 
 namespace carom {
 namespace springs {
@@ -106,5 +108,7 @@ inline double edge_of(const Contact<N, Real, P>& c, const Now& now) {
 
 }  // namespace springs
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif
