@@ -261,7 +261,7 @@ def test_contacts_that_remember_another_kind_stop_the_run(lammps):
     """A restart read with other springs, and losses that begin between runs, are refused."""
     gas(lammps, then="run 400\nwrite_restart x.rst noinit")
     (lammps.folder / "out.txt").unlink()
-    for style in ("springs 16 precision double", "springs 32 precision single"):
+    for style in ("springs 64 precision double", "springs 32 precision single"):
         with pytest.raises(AssertionError, match="contacts remember other springs"):
             gas(lammps, style=style, then="run 10", start="read_restart x.rst\n")
     lossy = words(restitution=0.8, speed=1.0)
