@@ -74,10 +74,11 @@ struct Stage {
 
 /// First: the lattice, and what all springs share.
 template <int N, class Real, unsigned P>
-inline void prepare(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Stage& stage) {
+inline void prepare(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Fading& fading,
+                    Stage& stage) {
     if (!(c.spacing > 0)) begin(c, pair, m);
     fit_lattice(c, pair, m);
-    look(c, pair, m, stage.now);
+    look(c, pair, m, fading, stage.now);
     stage.edge = edge_of(c, stage.now);
     stage.root = std::sqrt(stage.edge);
     stage.scale = 2.0 * pair.modulus * double(c.spacing) * stage.now.unit;
@@ -133,7 +134,8 @@ inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Moti
         return status;
     }
     springs::Stage stage;
-    springs::prepare(contact, pair, motion, stage);
+    springs::Fading fading;
+    springs::prepare(contact, pair, motion, fading, stage);
     springs::march(contact, pair, springs::Numbers<N, Real>{}, stage);
     springs::settle(contact, pair, motion, stage, load);
     return status;

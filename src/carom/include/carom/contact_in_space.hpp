@@ -158,9 +158,11 @@ template <int N, class Real, unsigned P>
 inline void press(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[], Batch& batch,
                   const Numbers<N, Real>& numbers) {
     Stage stages[together];
+    Fading fading;
     const int* const which = batch.pressed;
     for (int i = 0; i < batch.count; ++i)
-        prepare(*contacts[which[i]], pairs[which[i]], batch.motions[which[i]], stages[i]);
+        prepare(*contacts[which[i]], pairs[which[i]], batch.motions[which[i]], fading,
+                stages[i]);
     for (int i = 0; i < batch.count; ++i)
         march(*contacts[which[i]], pairs[which[i]], numbers, stages[i]);
     for (int i = 0; i < batch.count; ++i)
