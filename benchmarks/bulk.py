@@ -33,6 +33,7 @@ STYLES = {
         ("64", "springs 64", ""),
         ("32, double", "springs 32 precision double", ""),
         ("32, ledger", "springs 32 ledger yes", ""),
+        ("16, e = 0.9", "springs 16", "restitution 0.9 speed 0.02"),
         ("32, e = 0.9", "springs 32", "restitution 0.9 speed 0.02"),
     )
 }

@@ -93,6 +93,7 @@ int main() {
     std::printf("32 %.2f\n", exact<32, float, carom::elastic>(paths));
     std::printf("64 %.2f\n", exact<64, float, carom::elastic>(paths));
     std::printf("32,double %.2f\n", exact<32, double, carom::elastic>(paths));
+    std::printf("16,viscous %.2f\n", exact<16, float, carom::viscous>(paths));
     std::printf("32,viscous %.2f\n", exact<32, float, carom::viscous>(paths));
     std::printf("32,ledger %.2f\n", exact<32, float, carom::ledger>(paths));
     if (sum == 42.0) std::puts("");

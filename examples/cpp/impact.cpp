@@ -40,7 +40,7 @@ int main(int count, char** words) {
             if (half == 1) break;
             for (int i = 0; i < 3; ++i) ball.position[i] += step * ball.velocity[i];
             const carom::Body plate{{ball.position[0], ball.position[1], 0}, {}, {}, 0};
-            const auto seen = carom::encounter(ball, plate, step);
+            const auto seen = carom::encounter(ball, plate, step, pair);
             const carom::Status status = carom::advance(contact, pair, seen, action);
             if (status != carom::Status::ok) {
                 std::fprintf(stderr, "%s\n", carom::message(status));

@@ -44,6 +44,7 @@ int main(int count, char** words) {
     if (is("64 single")) return run<64, float, elastic>();
     if (is("32 double")) return run<32, double, elastic>();
     if (is("1024 double")) return run<1024, double, elastic>();
+    if (is("16 viscous")) return run<16, float, viscous>();
     if (is("32 viscous")) return run<32, float, viscous>();
     if (is("1024 viscous")) return run<1024, double, viscous | ledger>();
     return 2;

@@ -1,5 +1,5 @@
-// Contacts stepped several at once and one by one: the same to the bit; one that is refused keeps
-// its memory and disturbs no other. Prints how many steps were compared, and how many touched.
+// Contacts stepped several at once, as an array of one pair and one by one: the same to the bit; one
+// that is refused keeps its memory and disturbs no other. Prints how many touched, of each kind.
 #include <carom/contact_in_space.hpp>
 #include <cstdio>
 #include <cstring>
@@ -44,9 +44,48 @@ template <class Kind> int touched_steps() {
     }
     return touched;
 }
+
+template <class Kind> int touched_in_arrays() {
+    std::mt19937 random(8);
+    std::normal_distribution<double> normal;
+    const Pair pair{1e9, 5e-3, 0.8, 0.3, 1e-3, 1e-6};
+    Kind single[count] = {}, many[count] = {};
+    Contact<16> flat[count] = {}, flats[count] = {};
+    Encounter meetings[count];
+    Motion motions[count];
+    Action actions[count];
+    Load loads[count] = {};
+    int touched = 0;
+    for (int step = 0; step < 100; ++step) {
+        for (int k = 0; k < count; ++k) {
+            const double depth = k == refused && step % 2 ? 1.0 : 1e-5 * (normal(random) + 1.0);
+            meetings[k] = Encounter{{0.0, 0.6, 0.8}, {normal(random), normal(random), normal(random)},
+                                    depth, normal(random), 1e-6, 1e-2, 2e-2};
+            motions[k] = {depth, normal(random), normal(random), normal(random), 1e-6};
+        }
+        const Status first = step % 2 ? Status::bad_motion : Status::ok;
+        if (advance(many, pair, meetings, actions, count) != first) return -1;
+        if (advance(flats, pair, motions, loads, count) != first) return -2;
+        for (int k = 0; k < count; ++k) {
+            Action action{};
+            Load load{};
+            const Status status = advance(single[k], pair, meetings[k], action);
+            if (std::memcmp(single + k, many + k, sizeof(Kind))) return -3;
+            if (std::memcmp(&action, actions + k, sizeof(Action))) return -4;
+            if (advance(flat[k], pair, motions[k], load) != status) return -5;
+            if (std::memcmp(flat + k, flats + k, sizeof(Contact<16>))) return -6;
+            if (status == Status::ok && std::memcmp(&load, loads + k, sizeof(Load))) return -7;
+            touched += many[k].spacing > 0;
+        }
+    }
+    return touched;
+}
+
 }  // namespace
 
 int main() {
-    std::printf("%d %d\n", touched_steps<ContactInSpace<32, float>>(),
-                touched_steps<ContactInSpace<16, double, viscous | ledger>>());
+    std::printf("%d %d %d %d\n", touched_steps<ContactInSpace<32, float>>(),
+                touched_steps<ContactInSpace<16, double, viscous | ledger>>(),
+                touched_in_arrays<ContactInSpace<>>(),
+                touched_in_arrays<ContactInSpace<32, float, viscous>>());
 }

@@ -3,6 +3,7 @@
 import ctypes
 import re
 import shutil
+import string
 import subprocess
 from itertools import product
 from pathlib import Path
@@ -101,9 +102,10 @@ def worst(program, kind, steps, e=1.0, chis=CHI):
 @pytest.mark.parametrize(
     ("kind", "bounds"),
     [
-        ("32 single", {50: 2.5e-3, 100: 1.3e-3, 200: 1e-3, 400: 1e-3}),
-        ("32 double", {100: 1.3e-3}),
-        ("64 single", {100: 6.5e-4, 200: 3.5e-4, 400: 3.5e-4}),
+        ("16 single", {50: 4e-3, 100: 1.5e-3, 200: 1e-3, 400: 9e-4}),
+        ("32 single", {50: 2.5e-3, 100: 8e-4, 200: 3e-4, 400: 2e-4}),
+        ("32 double", {100: 8e-4}),
+        ("64 single", {100: 6.5e-4, 200: 2e-4, 400: 1e-4}),
     ],
 )
 def test_impacts_are_as_near_as_promised(program, kind, bounds):
@@ -113,8 +115,11 @@ def test_impacts_are_as_near_as_promised(program, kind, bounds):
 
 @pytest.mark.parametrize("e", [0.9, 0.7])
 def test_impacts_with_losses_are_those_of_one_viscoelastic_solid(program, e):
+    assert worst(program, "16 viscous", 100, e) <= 1.5e-3
+    assert worst(program, "16 viscous", 400, e) <= 1e-3
     assert worst(program, "32 viscous", 50, e) <= 4e-3
-    assert worst(program, "32 viscous", 100, e) <= 1.5e-3
+    assert worst(program, "32 viscous", 100, e) <= 1e-3
+    assert worst(program, "32 viscous", 400, e) <= 3e-4
 
 
 @pytest.mark.parametrize(("kind", "e"), [("1024 double", 1.0), ("1024 viscous", 0.7)])
@@ -241,6 +246,24 @@ def impact(contact, psi, chi, steps, v=1.0):
     return psi, -v, work, lost, least
 
 
+@pytest.mark.parametrize("springs", [16, 32])
+def test_no_path_under_constant_load_gives_energy(functions, springs):
+    """In any direction, by slips of any size: what was put in is never less than what came out."""
+    rng = np.random.default_rng(springs)
+    for size in 10.0 ** rng.uniform(-3.0, 0.5, 10):
+        contact, work, dt = Stepped(functions, springs), 0.0, 0.01
+        force = contact.step(0.8, 0.0, 0.0, 0.0, dt)[1:]
+        moved = velocity = np.zeros(2)
+        for noise in rng.normal(0.0, 0.02 * size, (400, 2)):
+            velocity = 0.97 * velocity - 0.003 * moved + noise
+            moved = moved + velocity
+            now = contact.step(0.8, 0.0, *velocity / dt, dt)[1:]
+            work += 0.5 * (force + now) @ velocity
+            force = now
+            assert work > -1e-14 * size
+        assert work > 1e-3 * size**2
+
+
 @pytest.mark.parametrize("alpha", [0.0, 0.2])
 @pytest.mark.parametrize("psi", [0.7, 1.5, 3.0, 7.0])
 def test_the_ledger_closes_to_rounding(functions, psi, alpha):
@@ -250,7 +273,7 @@ def test_the_ledger_closes_to_rounding(functions, psi, alpha):
         Stepped(functions, 64, alpha, alpha, parts), psi, 1.4412, steps=200
     )
     assert work == pytest.approx(lost, abs=1e-13)
-    assert least > (-1e-8 if alpha else -1.5e-3) * work
+    assert least > (-1e-8 if alpha else -1.5e-4) * work
     unit = 0.5 * 0.5 * KAPPA * MASS / 1.4412 * (FRICTION / KAPPA) ** 2
     kinetic = unit * (psi**2 - out**2) + (0.5 * MASS * (1.0 - e**2) if alpha else 0.0)
     assert work == pytest.approx(kinetic, abs=3e-6)
@@ -273,15 +296,15 @@ def test_bodies_that_begin_pressed_lose_what_they_do_not_get_back(functions, alp
 
 
 def test_what_is_booked_too_early_falls_with_the_second_order(functions):
-    """Springs at the edge rub a little too much, which the last step gives back: as 1/N^2."""
+    """Springs at the edge rub a little too much, which the last step gives back: below 1/N^2."""
 
     def booked(springs, psi):
         _, _, work, _, least = impact(Stepped(functions, springs, parts=LEDGER), psi, 1.4412, 800)
         return -least / work
 
     coarse, fine = (max(booked(n, psi) for psi in (0.3, 0.7, 1.5, 3.0, 7.0)) for n in (16, 64))
-    assert fine < 1.5e-3
-    assert 12.0 < coarse / fine < 20.0
+    assert 1e-3 < coarse < 0.01
+    assert fine < coarse / 16.0
 
 
 def test_a_contact_that_is_loaded_again_meets_what_is_left(functions):
@@ -355,6 +378,49 @@ def test_bad_input_changes_nothing(functions, status, name, value):
     assert "\n" not in text
 
 
+@pytest.mark.parametrize("parts", [ELASTIC, VISCOUS | SINGLE])
+def test_many_contacts_at_once_are_those_one_by_one(functions, parts):
+    """An array of one pair, of which one motion is refused: it stays as it was, others go on."""
+    count, rng = 7, np.random.default_rng(parts)
+    many = ctypes.create_string_buffer(count * functions.carom_contact_size(16, parts))
+    singles = [Stepped(functions, 16, 0.1, 0.1, parts) for _ in range(count)]
+    pair, loads = ctypes.byref(singles[0].pair), (Load * count)()
+    for i in range(20):
+        rows = [(d + 0.4, *v, 0.05) for d, *v in rng.normal(0.0, 0.4, (count, 4))]
+        motions = (Motion * count)(*(Motion(*row) for row in rows))
+        if i == 9:
+            motions[2].slide_y = NAN
+        kind = many, 16, parts, pair
+        status = functions.carom_contact_advance_many(*kind, motions, loads, ctypes.c_size_t(count))
+        assert status == (2 if i == 9 else 0)
+        for k, contact in enumerate(singles):
+            values = map(ctypes.byref, (contact.pair, motions[k], contact.load))
+            functions.carom_contact_advance(contact.memory, 16, parts, *values)
+        assert bytes(many) == b"".join(bytes(contact.memory) for contact in singles)
+        assert bytes(loads) == b"".join(bytes(contact.load) for contact in singles)
+
+
+WORDS = "min max near far small dot cross one two zero half root size count step Real Type PI pi"
+
+
+def test_macros_of_a_program_do_not_matter(folder):
+    """Each letter and common words as macros: the headers compile, and the macros are kept."""
+    names = [*string.ascii_letters, *WORDS.split()]
+    hostile = [f"-D{name}=16" for name in names]
+    check = " || ".join(f"{name} != 16" for name in names)
+    text = f"#if {check}\n#error a macro is gone\n#endif\n"
+    (folder / "c.c").write_text(f"#include <carom_contact.h>\n{text}")
+    (folder / "space.cpp").write_text(f"#include <carom/contact_in_space.hpp>\n{text}")
+    own = "template struct carom::ContactInSpace<>;\n"
+    (folder / "own.cpp").write_text(f"#include <carom/contact_in_space.hpp>\n{own}")
+    include, compiled = f"-I{INCLUDE}", ("-c", "-o", "/dev/null")
+    for source in ("space.cpp", "own.cpp", INCLUDE / "carom/contact.cpp"):
+        words = [COMPILER, "-std=c++17", *STRICT, *hostile, include, folder / source, *compiled]
+        subprocess.run([str(word) for word in words], check=True, capture_output=True, text=True)
+    words = ["cc", "-std=c99", *STRICT, *hostile, include, folder / "c.c", *compiled]
+    subprocess.run([str(word) for word in words], check=True, capture_output=True, text=True)
+
+
 def test_kinds_that_are_not_offered(functions):
     assert functions.carom_contact_size(32, 0) == 8 * (2 + 2 * 32)
     assert functions.carom_contact_size(32, VISCOUS) == 8 * (2 + 3 * 32 + 6)
@@ -425,6 +491,24 @@ def test_the_example_in_space_is_as_near_as_promised(folder, exact):
     )
     flat = exact.max_penetration / 5e-3 * (speeds / 0.6) ** 0.8
     assert off / flat == pytest.approx([-2.0, -2.0, -2.0], rel=0.02)
+
+
+@pytest.mark.parametrize("e", [0.9, 1.0])
+def test_the_example_of_two_impacts_is_what_the_page_promises(folder, e):
+    """A glass ball strikes a steel ball and a steel wall: psi_2, and energies that close."""
+    program = built(folder, ROOT / "examples/cpp/two_impacts.cpp", *FAST, name="two")
+    text = subprocess.run([program, "200", str(e)], capture_output=True, text=True, check=True)
+    glass = carom.Material(young=70e9, poisson=0.22, density=2500)
+    bead = carom.Sphere(radius=3e-3, material=glass)
+    losses = carom.KelvinVoigt(e) if e < 1.0 else None
+    others = (carom.Sphere(radius=5e-3, material="steel"), carom.HalfSpace(material="steel"))
+    for line, other in zip(text.stdout.splitlines(), others, strict=True):
+        psi, lost, friction, viscosity = map(float, re.findall(r"-?\d+\.\d+(?:e-\d+)?", line))
+        pair = carom.Pair(bead, other, friction=0.2)
+        exact = carom.rebound(pair.kappa * 0.5 / 0.2, pair.chi, losses=losses)
+        assert psi == pytest.approx(exact, abs=5e-4)
+        assert lost == pytest.approx(friction + viscosity, rel=1e-3)
+        assert (viscosity > friction) == (e < 1.0)
 
 
 def test_levers_end_where_hertz_puts_the_contact(folder):

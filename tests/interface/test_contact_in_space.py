@@ -50,7 +50,7 @@ def program(tmp_path_factory):
 def test_contacts_at_once_are_those_one_by_one(tmp_path):
     """21 contacts, one refused in every second step: memories and actions equal to the bit."""
     ran = subprocess.run([built(tmp_path, "together")], capture_output=True, text=True, check=True)
-    assert all(1000 < int(touched) < 4200 for touched in ran.stdout.split())
+    assert all(1000 < int(touched) < 4200 for touched in ran.stdout.split()), ran.stdout
 
 
 def after(program, meeting, mirrored=False):

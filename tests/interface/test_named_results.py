@@ -72,7 +72,7 @@ def test_the_legend_names_code_law_and_error():
     assert labels(score(both(), chi=CHI))[:3] == [
         r"exact, $\chi$ = 1.44",
         r"LAMMPS, mindlin ($\psi_2$ off by 0.58)",
-        r"LAMMPS, exact ($\psi_2$ off by 0.00067)",
+        r"LAMMPS, exact ($\psi_2$ off by 7.7e-05)",
     ]
     assert labels(score(one(), chi=CHI))[1] == r"results ($\psi_2$ off by 0.58)"
     assert labels(score(one(), chi=CHI, law="own"))[1] == r"own ($\psi_2$ off by 0.58)"

@@ -191,7 +191,7 @@ def test_errors_of_contact_laws_are_those_of_the_manual():
         (r"(\S+) with that of MercuryDPM", ("mindlin, 2/3 of the stiffness",)),
         (r"- (\S+) with a linear spring", (r"linear spring, $k_t/k_n = \kappa$",)),
         (r"(\S+) with the ratio 2/7", ("linear spring, $k_t/k_n = 2/7$",)),
-        (r"off by (\S+) in \$\\psi_2\$ with 32 springs", ("exact, 32 springs",)),
+        (r"off by (\S+) in \$\\psi_2\$ with 16 springs", ("exact, 16 springs",)),
     ):
         said = re.search(pattern, WORDS)[1]
         digits = len(said.partition(".")[2])

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import carom
-from carom.adapters import lammps
 from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 
 pytestmark = pytest.mark.skipif(shutil.which("c++") is None, reason="no C++ compiler here")
@@ -121,13 +120,13 @@ def test_short_steps_move_springs_in_single_precision(loads, kind):
         assert along == pytest.approx(-limit * np.expm1(-0.7), rel=5e-4)
 
 
-def test_the_plugin_finds_the_loss_of_any_restitution(folder):
+def test_the_header_finds_the_loss_of_any_restitution(folder):
     """Up to one, nearer than an impact in steps can tell: alpha as Carom's own solver has it."""
     (folder / "loss.cpp").write_text(
-        '#include <cstdio>\n#include "materials.cpp"\nint main() { double e;\n'
-        'while (std::scanf("%lf", &e) == 1) std::printf("%.12g ", LAMMPS_NS::carom_loss(e)); }\n'
+        "#include <carom/impacts.hpp>\n#include <cstdio>\nint main() { double e;\n"
+        'while (std::scanf("%lf", &e) == 1) std::printf("%.12g ", carom::loss_of(e)); }\n'
     )
-    program = built(folder, folder / "loss.cpp", ("-O0", f"-I{lammps.SOURCES}"))
+    program = built(folder, folder / "loss.cpp", ("-O1",))
     values = [0.5, *(1.0 - 10.0**power for power in (-4, -6, -10))]
     actual = printed(program, text=" ".join(map(repr, values)))
     np.testing.assert_allclose(actual, [viscous_loss(e) for e in values], rtol=1e-4)

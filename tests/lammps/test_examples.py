@@ -40,7 +40,7 @@ def test_shear(lammps):
     """The wall's work is what friction and viscosity took, but for what is still stored."""
     line = r"work of the wall (\S+) mJ, lost (\S+) mJ"
     work, lost = printed(lammps, "in.shear", line, layers=5, time=0.15)
-    assert work > 1.0
+    assert 0.7 < work < 1.0  # 0.84 with 64 springs
     assert lost == pytest.approx(work, rel=0.02)
 
 

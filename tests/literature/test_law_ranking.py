@@ -73,7 +73,7 @@ def test_the_best_comes_first(ranking):
     assert errors == sorted(errors)
     labels = [s.entry.label for s in ranking.standings]
     first = ranking.standings[0]
-    assert first.entry.law == dem.ExactContactLaw(32)
+    assert first.entry.law == dem.ExactContactLaw(16)
     assert first.max_error < 1e-3
     assert first.force_error < 5e-3
     order = [labels.index(label) for label in sorted(MEASURED, key=MEASURED.get)]

@@ -170,24 +170,32 @@ def move(memory: Array, springs: int, now: Now, moved: tuple[float, float]) -> N
 
 @kernel
 def pull(memory: Array, springs: int, now: Now, drag: tuple[float, float]) -> tuple[float, float]:
-    """Return the integrals of what springs and dashpots bear, up to the edge."""
-    h, rim, along, across = memory[SPACING], np.sqrt(now.edge), 0.0, 0.0
-    for k in range(springs):
-        x = k * h
-        if x * x >= now.edge:
-            break
-        last = k + 1 == springs or ((k + 1) * h) ** 2 >= now.edge
+    """Return the integrals of what springs and dashpots bear, up to the edge.
+
+    They are sums over springs. Beyond the last one q is linear in s, and there the sum is
+    corrected by -h^2/12 dq/dx (Euler & Maclaurin), with the slope from the spring before to the
+    edge.
+    """
+    if now.edge <= 0.0:
+        return 0.0, 0.0
+    h, rim, last = memory[SPACING], np.sqrt(now.edge), 0
+    while last + 1 < springs and ((last + 1) * h) ** 2 < now.edge:
+        last += 1
+    end = last * h
+    inner = of.share(end, rim)
+    bend = h * h * end / (6.0 * (now.edge - (max(last - 1, 0) * h) ** 2))
+    rest = (rim - end - inner - bend) * length(drag[0], drag[1], max(now.depth - now.edge, 0.0))
+    along, across = rest * drag[0], rest * drag[1]
+    for k in range(last + 1):
         q, r = memory[FIRST + k] + drag[0], memory[FIRST + springs + k] + drag[1]
-        weight = x - (k - 1) * h - of.share(x - h, x) if k > 0 else 0.0
-        weight += of.share(x, rim if last else x + h)
-        part = weight * (length(q, r, now.depth - x * x) if now.fade < 1.0 else 1.0)
+        weight = h if 0 < k < last else 0.5 * h * min(last, 1)
+        if k == last:
+            weight += inner
+        if k == last - 1:
+            weight += bend
+        part = weight * (length(q, r, now.depth - (k * h) ** 2) if now.fade < 1.0 else 1.0)
         along += part * q
         across += part * r
-        if last:
-            rest = rim - x - of.share(x, rim)
-            rest *= length(drag[0], drag[1], max(now.depth - now.edge, 0.0))
-            along += rest * drag[0]
-            across += rest * drag[1]
     return along, across
 
 

@@ -37,9 +37,9 @@ class ExactContactLaw(ContactLaw):
     Parameters
     ----------
     springs : int
-        Number of springs, a multiple of 4 from 8 to 4096. With 16 or more, in small steps, the
-        error of psi_2 is at most 1/N^2 with N springs for chi up to 2.5 (0.001 with 32; solid
-        spheres have chi from 1.17 to 1.75), and at most 8/N^2 for chi up to 10.
+        Number of springs, a multiple of 4 from 8 to 4096. In small steps the error of psi_2 is at
+        most 0.4/N^2 with N springs for chi up to 2.5 (0.001 with 16 for solid spheres, whose chi
+        is from 1.17 to 1.75), and at most 4/N^2 for chi up to 10.
     restitution
     viscous_shear : bool
         Whether shear loses energy, too, as in a solid. If not, Coulomb's law holds for the whole
@@ -48,8 +48,8 @@ class ExactContactLaw(ContactLaw):
     Examples
     --------
     >>> import carom
-    >>> law = carom.dem.ExactContactLaw(springs=32)
-    >>> round(law.rebound(1.5, 1.4412, steps=100), 3), round(carom.rebound(1.5, 1.4412), 3)
+    >>> law = carom.dem.ExactContactLaw(springs=16)
+    >>> round(law.rebound(1.5, 1.4412, steps=200), 3), round(carom.rebound(1.5, 1.4412), 3)
     (-0.428, -0.428)
     """
 
@@ -58,7 +58,7 @@ class ExactContactLaw(ContactLaw):
 
     _default_steps: ClassVar[int | None] = 2000  # which cost less than 2e-6 in psi_2
 
-    springs: int = 32
+    springs: int = 16
     restitution: float = 1.0
     viscous_shear: bool = True
 

@@ -15,6 +15,8 @@
 
 #include <stddef.h>
 
+#include "carom/own_names.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -55,11 +57,20 @@ int carom_contact_advance(void *contact, int springs, unsigned parts,
                           const struct carom_pair *pair, const struct carom_motion *motion,
                           struct carom_load *load);
 
+/* The same for many contacts of one pair, which lie one after the other, carom_contact_size bytes
+ * each, with their motions and loads. Returns 0 or the first status that is not; such a contact and
+ * its load stay as they were. */
+int carom_contact_advance_many(void *contacts, int springs, unsigned parts,
+                               const struct carom_pair *pair, const struct carom_motion *motions,
+                               struct carom_load *loads, size_t count);
+
 /* One line for what was returned. */
 const char *carom_contact_message(int status);
 
 #ifdef __cplusplus
 }
 #endif
+
+#include "carom/own_names.h"
 
 #endif

@@ -5,7 +5,7 @@ Examples
 >>> import carom
 >>> best = carom.verify.rank().standings[0]
 >>> best.entry.label, round(best.max_error, 3)
-('exact, 32 springs', 0.001)
+('exact, 16 springs', 0.001)
 """
 
 from carom.names import attach

@@ -37,7 +37,7 @@ class Entry(NamedTuple):
     used_by: str
 
 
-EXACT = "exact, 32 springs"
+EXACT = "exact, 16 springs"
 OF_PLATE = "laws are compared with impacts on thick walls; take a ReboundLaw without ZenerPlate"
 SHORT_NAMES = {"carom": EXACT}  # as its styles in LAMMPS are called
 
@@ -63,7 +63,7 @@ CATALOGUE = (
     Entry("Stronge, bilinear", dem.StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
     Entry("Walton's hard spheres, 0.4", dem.HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
     Entry("rigid Coulomb", dem.HardSphere(), "impulse-based codes"),
-    Entry(EXACT, dem.ExactContactLaw(32), "LAMMPS, with pair_style carom; any code"),
+    Entry(EXACT, dem.ExactContactLaw(), "LAMMPS, with pair_style carom; any code"),
 )
 
 

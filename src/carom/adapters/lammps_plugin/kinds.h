@@ -14,7 +14,7 @@ namespace LAMMPS_NS {
 
 /// What a style is asked for: springs in a contact, and what it keeps besides.
 struct CaromOptions {
-    int springs = 32;
+    int springs = 16;
     bool single = true, ledger = false, viscous = false;
 };
 

@@ -7,28 +7,6 @@
 #include <cmath>
 
 namespace LAMMPS_NS {
-namespace {
-
-/// Velocity after a normal impact with this alpha: d'' = -(5/4) sqrt(s) (d + alpha d' - ...), the
-/// contact of Hertz's springs with s at the edge where d + alpha d' ends, by the header itself.
-double rebound(double alpha) {
-    carom::Pair pair{1.0, 1e6, 1.0, 0.0, 1.0, alpha};
-    pair.modulus = 0.9375 / std::sqrt(pair.radius);  // so that d_max = V_1 = 1
-    carom::Contact<8, double, carom::viscous> contact{};
-    carom::Load load{};
-    const double step = 2e-4;
-    double depth = 0.0, speed = 1.0;
-    for (int i = 0; i < 1000000; ++i) {
-        speed -= 0.5 * step * load.normal;
-        depth += step * speed;
-        carom::advance(contact, pair, {depth, speed, 0.0, 0.0, step}, load);
-        speed -= 0.5 * step * load.normal;
-        if (speed < 0.0 && load.normal <= 0.0) break;
-    }
-    return -speed;
-}
-
-}  // namespace
 
 std::string carom_read(CaromMaterial &given, const std::string &word, double value) {
     struct Word {
@@ -64,17 +42,6 @@ std::string carom_flaw(const CaromMaterial &given) {
     return "";
 }
 
-double carom_loss(double restitution) {
-    if (restitution > 0.9999) return 1e4 * (1.0 - restitution) * carom_loss(0.9999);
-    double low = 0.0, high = 1.0;
-    while (rebound(high) > restitution) high *= 2.0;
-    for (int i = 0; i < 40; ++i) {
-        const double middle = 0.5 * (low + high);
-        (rebound(middle) > restitution ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
-
 bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const CaromMaterial &both,
                    CaromBodies &found) {
     const auto solid = [&](const CaromMaterial &own) {
@@ -97,14 +64,13 @@ bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const C
     found.pair = carom::pair_of(solid(one), solid(other), {1.0, 1.0}, {1.0, 1.0}, friction,
                                 std::max(mixed.retardation, 0.0));
     found.share = carom::share_of(solid(one), solid(other));
-    found.loss = mixed.restitution >= 0.0 ? carom_loss(mixed.restitution) : 0.0;
+    found.loss = mixed.restitution >= 0.0 ? carom::loss_of(mixed.restitution) : 0.0;
     found.speed = mixed.speed;
     return true;
 }
 
 double carom_retardation(const CaromBodies &bodies, const carom::Pair &pair) {
-    const double natural = 0.9375 * pair.mass / (pair.modulus * std::sqrt(pair.radius));
-    return bodies.loss * std::pow(natural, 0.4) * std::pow(bodies.speed, -0.2);
+    return carom::retardation_of(bodies.loss, pair, bodies.speed);
 }
 
 }  // namespace LAMMPS_NS

@@ -32,9 +32,6 @@ std::string carom_read(CaromMaterial &, const std::string &word, double value);
 /// Return what is wrong with all words together, empty if nothing.
 std::string carom_flaw(const CaromMaterial &);
 
-/// Return alpha = tau V_1/d_max at which spheres of Kelvin and Voigt's solid rebound with e.
-double carom_loss(double restitution);
-
 /// Find what two materials come to, `both` going before their means; false if one loses energy by
 /// restitution and the other does not.
 bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const CaromMaterial &both,

@@ -2,7 +2,7 @@
 //
 // SPDX-License-Identifier: GPL-2.0-only
 //
-//     pair_style gran model hertz tangential carom springs 32
+//     pair_style gran model hertz tangential carom springs 16
 //
 // It is compiled with LIGGGHTS, with the folder `carom` of headers beside it. The normal force is
 // that of the model hertz, with a coefficient of restitution of 1.
@@ -61,7 +61,7 @@ template <> class TangentialModel<TANGENTIAL_CAROM> : public TangentialModelBase
         : TangentialModelBase(lmp, setup, base) {}
 
     void registerSettings(Settings &settings) {
-        settings.registerDoubleSetting("springs", springs, 32.0);
+        settings.registerDoubleSetting("springs", springs, 16.0);
     }
 
     void postSettings(IContactHistorySetup *setup, ContactModelBase *) {
@@ -161,7 +161,7 @@ template <> class TangentialModel<TANGENTIAL_CAROM> : public TangentialModelBase
         error->one(FLERR, (std::string("tangential carom: ") + why).c_str());
     }
 
-    double springs = 32.0;
+    double springs = 16.0;
     CaromKind kind{};
     int side = 0;  ///< place in the history: 1, or -1 if it was the other sphere's; then the contact
     double **modulus = nullptr, **shear_modulus = nullptr, **friction = nullptr;

@@ -3,9 +3,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../carom_contact.h"
 
-#include <type_traits>
-
 #include "contact.hpp"
+
+#include "own_names.h"
+
+#include <type_traits>
 
 namespace {
 
@@ -44,24 +46,36 @@ size_t carom_contact_size(int springs, unsigned parts) {
     return size;
 }
 
-int carom_contact_advance(void* contact, int springs, unsigned parts, const carom_pair* pair,
-                          const carom_motion* motion, carom_load* load) {
-    int status = CAROM_BAD_KIND;
-    with_kind(springs, parts, [&](auto* kind) {
+int carom_contact_advance_many(void* contacts, int springs, unsigned parts, const carom_pair* pair,
+                               const carom_motion* motions, carom_load* loads, size_t count) {
+    int first = CAROM_CONTACT_OK;
+    const bool is_offered = with_kind(springs, parts, [&](auto* kind) {
         using Kind = std::remove_pointer_t<decltype(kind)>;
         const carom::Pair bodies{pair->modulus, pair->radius, pair->stiffness_ratio, pair->friction,
                                  pair->mass, pair->retardation, pair->viscous_shear != 0};
-        const carom::Motion now{motion->penetration, motion->approach, motion->slide_x,
-                                motion->slide_y, motion->step};
-        carom::Load found{};
-        status = static_cast<int>(carom::advance(*static_cast<Kind*>(contact), bodies, now, found));
-        if (status == CAROM_CONTACT_OK)
-            *load = {found.normal, found.x, found.y, found.friction, found.viscosity};
+        for (size_t k = 0; k < count; ++k) {
+            const carom_motion& motion = motions[k];
+            const carom::Motion now{motion.penetration, motion.approach, motion.slide_x,
+                                    motion.slide_y, motion.step};
+            carom::Load load{};
+            const auto status = carom::advance(static_cast<Kind*>(contacts)[k], bodies, now, load);
+            if (status == carom::Status::ok)
+                loads[k] = {load.normal, load.x, load.y, load.friction, load.viscosity};
+            else if (first == CAROM_CONTACT_OK)
+                first = static_cast<int>(status);
+        }
     });
-    return status;
+    return is_offered ? first : CAROM_BAD_KIND;
+}
+
+int carom_contact_advance(void* contact, int springs, unsigned parts, const carom_pair* pair,
+                          const carom_motion* motion, carom_load* load) {
+    return carom_contact_advance_many(contact, springs, parts, pair, motion, load, 1);
 }
 
 const char* carom_contact_message(int status) {
     if (status == CAROM_BAD_KIND) return "springs must be 16, 32 or 64, parts a sum of carom_parts";
     return carom::message(static_cast<carom::Status>(status));
 }
+
+#include "own_names.h"

@@ -6,7 +6,7 @@
 // first touch, and call `advance` in each step with the motion of the contact point:
 //
 //     carom::Pair pair{modulus, radius, stiffness_ratio, friction, mass};
-//     carom::Contact<32> contact{};
+//     carom::Contact<> contact{};
 //     carom::Load load{};
 //     carom::advance(contact, pair, {penetration, approach, slide_x, slide_y, step}, load);
 //
@@ -17,6 +17,8 @@
 #define CAROM_CONTACT_HPP
 
 #include "marching.hpp"
+
+#include "own_names.h"
 
 namespace carom {
 namespace springs {
@@ -72,10 +74,11 @@ struct Stage {
 
 /// First: the lattice, and what all springs share.
 template <int N, class Real, unsigned P>
-inline void prepare(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Stage& stage) {
+inline void prepare(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Fading& fading,
+                    Stage& stage) {
     if (!(c.spacing > 0)) begin(c, pair, m);
     fit_lattice(c, pair, m);
-    look(c, pair, m, stage.now);
+    look(c, pair, m, fading, stage.now);
     stage.edge = edge_of(c, stage.now);
     stage.root = std::sqrt(stage.edge);
     stage.scale = 2.0 * pair.modulus * double(c.spacing) * stage.now.unit;
@@ -131,12 +134,28 @@ inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Moti
         return status;
     }
     springs::Stage stage;
-    springs::prepare(contact, pair, motion, stage);
+    springs::Fading fading;
+    springs::prepare(contact, pair, motion, fading, stage);
     springs::march(contact, pair, springs::Numbers<N, Real>{}, stage);
     springs::settle(contact, pair, motion, stage, load);
     return status;
 }
 
+/// Bring many contacts of one pair to the end of a step. Returns ok, or the first status that is
+/// not; such a contact and its load stay as they were.
+template <int N, class Real, unsigned P>
+inline Status advance(Contact<N, Real, P> contacts[], const Pair& pair, const Motion motions[],
+                      Load loads[], std::size_t count) {
+    Status first = Status::ok;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Status status = advance(contacts[k], pair, motions[k], loads[k]);
+        if (first == Status::ok) first = status;
+    }
+    return first;
+}
+
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

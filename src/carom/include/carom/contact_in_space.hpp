@@ -3,17 +3,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 //     carom::Pair pair = carom::pair_of(steel, glass, {r_1, m_1}, {r_2, m_2}, friction);
-//     carom::ContactInSpace<32> contact{};
+//     carom::ContactInSpace<> contact{};
 //     carom::Action action{};
-//     const double share = carom::share_of(steel, glass);
-//     carom::advance(contact, pair, carom::encounter(one, other, step, share), action);
+//     carom::advance(contact, pair, carom::encounter(one, other, step, pair), action);
 //
-// `action` holds the force on the first sphere, and the torque on either.
+// `action` holds the force on the first body, whose opposite acts on the second, and the torque on
+// either, right-handed: each is added to the spin of its own body.
 #ifndef CAROM_CONTACT_IN_SPACE_HPP
 #define CAROM_CONTACT_IN_SPACE_HPP
 
 #include "contact.hpp"
 #include "encounter.hpp"
+#include "impacts.hpp"
+
+#include "own_names.h"
 
 namespace carom {
 
@@ -28,7 +31,7 @@ struct Size {
 };
 
 /// The memory of a contact in space: that in its plane, and the direction in it that is called x.
-template <int N, class Real = double, unsigned P = elastic>
+template <int N = 16, class Real = double, unsigned P = elastic>
 struct ContactInSpace : Contact<N, Real, P> {
     Real axis[3];
 };
@@ -44,6 +47,13 @@ inline double share_of(Material one, Material other) {
     return springs::soft(one) / (springs::soft(one) + springs::soft(other));
 }
 
+/// Return the pair with bodies of these sizes, in the order of the pair's materials.
+inline Pair with_sizes(Pair pair, Size first, Size second) {
+    pair.radius = 1.0 / (1.0 / first.radius + 1.0 / second.radius);
+    pair.mass = 1.0 / (1.0 / first.mass + 1.0 / second.mass);
+    return pair;
+}
+
 /// Return the pair of two bodies (Hertz 1882; Mindlin 1949).
 inline Pair pair_of(Material one, Material other, Size first, Size second, double friction,
                     double retardation = 0.0) {
@@ -54,11 +64,10 @@ inline Pair pair_of(Material one, Material other, Size first, Size second, doubl
     Pair pair{};
     pair.modulus = 1.0 / (soft(one) + soft(other));
     pair.stiffness_ratio = (soft(one) + soft(other)) / (lax(one) + lax(other));
-    pair.radius = 1.0 / (1.0 / first.radius + 1.0 / second.radius);
-    pair.mass = 1.0 / (1.0 / first.mass + 1.0 / second.mass);
     pair.friction = friction;
     pair.retardation = retardation;
-    return pair;
+    pair.share = share_of(one, other);
+    return with_sizes(pair, first, second);
 }
 
 namespace springs {
@@ -149,9 +158,11 @@ template <int N, class Real, unsigned P>
 inline void press(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[], Batch& batch,
                   const Numbers<N, Real>& numbers) {
     Stage stages[together];
+    Fading fading;
     const int* const which = batch.pressed;
     for (int i = 0; i < batch.count; ++i)
-        prepare(*contacts[which[i]], pairs[which[i]], batch.motions[which[i]], stages[i]);
+        prepare(*contacts[which[i]], pairs[which[i]], batch.motions[which[i]], fading,
+                stages[i]);
     for (int i = 0; i < batch.count; ++i)
         march(*contacts[which[i]], pairs[which[i]], numbers, stages[i]);
     for (int i = 0; i < batch.count; ++i)
@@ -217,6 +228,34 @@ inline void advance(ContactInSpace<N, Real, P>* const contacts[], const Pair pai
                                statuses + k, std::min(count - k, springs::together), numbers);
 }
 
+/// Bring many contacts of one pair to the end of a step, as `advance` does each. Returns ok, or the
+/// first status that is not; such a contact keeps its memory and has no force.
+template <int N, class Real, unsigned P>
+inline Status advance(ContactInSpace<N, Real, P> contacts[], const Pair& pair,
+                      const Encounter meetings[], Action actions[], std::size_t count) {
+    constexpr std::size_t most = springs::together;
+    ContactInSpace<N, Real, P>* which[most];
+    Pair pairs[most];
+    Encounters seen[most / lanes];
+    Actions done[most / lanes];
+    Status statuses[most], first = Status::ok;
+    std::fill_n(pairs, most, pair);
+    for (std::size_t from = 0; from < count; from += most) {
+        const int now = static_cast<int>(std::min(count - from, most));
+        for (int k = 0; k < static_cast<int>(most); ++k) {
+            const std::size_t each = from + static_cast<std::size_t>(std::min(k, now - 1));
+            which[k] = contacts + each;
+            set_one(seen, k, meetings[each]);
+        }
+        advance(which, pairs, seen, done, statuses, now);
+        for (int k = 0; k < now; ++k) {
+            actions[from + static_cast<std::size_t>(k)] = one_of(done, k);
+            if (first == Status::ok) first = statuses[k];
+        }
+    }
+    return first;
+}
+
 /// Make the memory of a contact that of the second body's side, whose normal is the opposite one.
 template <int N, class Real, unsigned P> void mirror(ContactInSpace<N, Real, P>& contact) {
     for (Real& each : contact.axis) each = -each;
@@ -228,5 +267,7 @@ template <int N, class Real, unsigned P> void mirror(ContactInSpace<N, Real, P>&
     if constexpr ((P & ledger) != 0) contact.shear_y = -contact.shear_y;
 }
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

@@ -7,10 +7,13 @@
 #ifndef CAROM_ENCOUNTER_HPP
 #define CAROM_ENCOUNTER_HPP
 
+#include "lanes.hpp"
+#include "pair.hpp"
+
+#include "own_names.h"
+
 #include <array>
 #include <cstring>
-
-#include "lanes.hpp"
 
 namespace carom {
 
@@ -32,7 +35,8 @@ Triple<T> plus(const Triple<T>& a, Factor factor, const Triple<T>& b) {
     return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 
-/// A sphere on its way; of a wall the position is the point of it that is nearest.
+/// A sphere on its way. Of a wall the position is its point that is nearest to the sphere, and the
+/// velocity that of this point.
 template <class T> struct BodyOf {
     Triple<T> position, velocity, spin;
     T radius;  ///< 0 for a wall
@@ -111,6 +115,11 @@ EncounterOf<T> encounter(const BodyOf<T>& one, const BodyOf<T>& other, double st
     return encounter(one, other, step, 0.5 + T{});
 }
 
+/// Return what a contact sees of two bodies whose pair was made of their materials.
+inline Encounter encounter(const Body& one, const Body& other, double step, const Pair& pair) {
+    return encounter(one, other, step, pair.share);
+}
+
 /// Set the torques that a force has on the bodies.
 template <class T> void turn(ActionOf<T>& action, const EncounterOf<T>& e) {
     const Triple<T> side = cross(action.force, e.normal);
@@ -119,5 +128,7 @@ template <class T> void turn(ActionOf<T>& action, const EncounterOf<T>& e) {
 }
 
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

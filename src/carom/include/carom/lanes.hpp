@@ -8,6 +8,8 @@
 #ifndef CAROM_LANES_HPP
 #define CAROM_LANES_HPP
 
+#include "own_names.h"
+
 #include <cmath>
 #include <cstring>
 #include <type_traits>
@@ -83,5 +85,7 @@ template <class Real, int N> struct Lanes {
 
 }  // namespace springs
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

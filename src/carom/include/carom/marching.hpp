@@ -4,11 +4,13 @@
 #ifndef CAROM_MARCHING_HPP
 #define CAROM_MARCHING_HPP
 
-#include <algorithm>
-#include <limits>
-
 #include "lanes.hpp"
 #include "stepping.hpp"
+
+#include "own_names.h"
+
+#include <algorithm>
+#include <limits>
 
 namespace carom {
 namespace springs {
@@ -148,34 +150,34 @@ inline Sums march(Contact<N, Real, P>& c, const Numbers<N, Real>& numbers, const
     return sums;
 }
 
-/// Correct the force for the last cell, which ends at the edge.
+/// End the sum at the edge. From the last spring on q is linear in s; at that spring the sum lacks
+/// -q'(x)/12, the slope of q(s) being that from the spring before it to the edge.
 template <int N, class Real, unsigned P>
 inline void trim(const Contact<N, Real, P>& c, const Now& now, double edge, double beta,
                  Sums& sums) {
-    static constexpr Places<N, Real> places;
+    if (!(beta > 0.0)) return;
     int last = std::min(static_cast<int>(beta), N - 1);
-    if constexpr ((P & viscous) != 0)
-        if (last > 0 && !(double(last) * last < edge)) --last;  // it is not inside
+    if (last > 0 && !(double(last) * last < edge)) --last;  // it is not inside
+    const int before = std::max(last - 1, 0);
     const double width = beta - last;
-    if (!(width > 0.0)) return;
     const double inner = width * (2.0 * beta + last) / (3.0 * (beta + last));  // falling to zero
+    const double bend = last / (6.0 * (edge - double(before) * before));
     if (last == 0) sums.x = sums.y = 0.0;  // nothing is taken from what is equal to rounding
-    const double less = inner - (last == 0 ? 0.0 : places.outer[last]);
-    if constexpr ((P & viscous) == 0) {
-        sums.x += less * c.x[last];
-        sums.y += less * c.y[last];
-    } else {
-        const double x = c.x[last] + now.drag_x, y = c.y[last] + now.drag_y;
-        const double pressed = larger(now.limit - double(last) * last, 0.0);
-        const double part = less * cut(x, y, pressed);
-        const double outer = (width - inner) *
-                             cut(now.drag_x, now.drag_y, larger(now.limit - edge, 0.0));
-        sums.x += part * x + outer * now.drag_x;
-        sums.y += part * y + outer * now.drag_y;
-    }
+    const double less = inner - (last == 0 ? 0.0 : 0.5);
+    const auto add = [&](double weight, double x, double y, double limit) {
+        if constexpr ((P & viscous) != 0)
+            weight *= cut(x += now.drag_x, y += now.drag_y, larger(limit, 0.0));
+        sums.x += weight * x;
+        sums.y += weight * y;
+    };
+    add(less, c.x[last], c.y[last], now.limit - double(last) * last);
+    add(bend, c.x[before], c.y[before], now.limit - double(before) * before);
+    if constexpr ((P & viscous) != 0) add(width - inner - bend, 0.0, 0.0, now.limit - edge);
 }
 
 }  // namespace springs
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

@@ -4,11 +4,13 @@
 #ifndef CAROM_MEMORY_HPP
 #define CAROM_MEMORY_HPP
 
-#include <algorithm>
-#include <cmath>
-
 #include "pair.hpp"
 #include "springs.hpp"
+
+#include "own_names.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace carom {
 
@@ -28,7 +30,7 @@ template <class Real> struct Ledger<Real, true> {
 }  // namespace springs
 
 /// The memory of a contact: N springs; plain numbers, all zeros while the bodies are apart.
-template <int N, class Real = double, unsigned P = elastic>
+template <int N = 16, class Real = double, unsigned P = elastic>
 struct Contact : springs::Recovery<N, Real, (P & viscous) != 0>,
                  springs::Ledger<Real, (P & ledger) != 0> {
     static_assert(N >= 8 && N <= 4096 && N % 4 == 0, "8 to 4096 springs, a multiple of 4");
@@ -91,5 +93,7 @@ inline void fit_lattice(Contact<N, Real, P>& c, const Pair& pair, const Motion& 
 
 }  // namespace springs
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

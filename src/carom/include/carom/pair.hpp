@@ -4,6 +4,8 @@
 #ifndef CAROM_PAIR_HPP
 #define CAROM_PAIR_HPP
 
+#include "own_names.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +21,7 @@ struct Pair {
                              ///< get their places; forces do not depend on it
     double retardation = 0;  ///< time, of a Contact that is viscous
     bool viscous_shear = true;  ///< whether shear loses energy, too; if not, friction is exceeded
+    double share = 0.5;  ///< of the penetration, by which the first body is flattened
 };
 
 /// Motion of the contact in a step: penetration at its end, velocities in its middle (those of
@@ -77,5 +80,7 @@ template <class Real> Status status_of(const Pair& pair, const Motion& motion) {
 }
 
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

@@ -13,10 +13,14 @@
 // on a straight path, off by up to 0.16 friction limits where the load goes round in circles. With
 // losses the bodies are Kelvin & Voigt's: what the springs bear is q + tau q', within D - s,
 // D = d + tau d'. A spring that is let go recovers freely and is met again where the surfaces meet.
-// Springs lie at x = k h. Between them q is taken as linear in s, up to the edge; lengths are in
-// units of h^2/R here, so that s = k^2.
+// Springs lie at x = k h; lengths are in units of h^2/R here, so that s = k^2. The integral is their
+// sum with a correction at the last spring before the edge (Euler & Maclaurin's): exact where q is
+// linear in s. Where q has a corner between springs, as where slip begins, the sum is right in the
+// mean while the corner wanders; a rule that is linear between springs would always give too little.
 #ifndef CAROM_SPRINGS_HPP
 #define CAROM_SPRINGS_HPP
+
+#include "own_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,16 +33,13 @@ enum Parts : unsigned { elastic = 0, viscous = 1, ledger = 2 };
 
 namespace springs {
 
-/// Springs at s = k^2, and their weights in an integral over x of what is linear in s between them.
+/// Springs at s = k^2, and their weights in a sum over x >= 0.
 template <int N, class Real> struct Places {
     Real square[N], weight[N];
-    double outer[N];  ///< part of the cell beyond in that weight
-    constexpr Places() : square(), weight(), outer() {
+    constexpr Places() : square(), weight() {
         for (int k = 0; k < N; ++k) {
-            outer[k] = (3.0 * k + 2.0) / (6.0 * k + 3.0);
-            const double before = k == 0 ? 0.0 : (3.0 * k - 2.0) / (6.0 * k - 3.0);
             square[k] = static_cast<Real>(k * k);
-            weight[k] = static_cast<Real>(outer[k] + before);
+            weight[k] = static_cast<Real>(k == 0 ? 0.5 : 1.0);
         }
     }
 };
@@ -86,5 +87,7 @@ template <class Real> Real cut(Real x, Real y, Real most) {
 
 }  // namespace springs
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif

@@ -4,10 +4,12 @@
 #ifndef CAROM_STEPPING_HPP
 #define CAROM_STEPPING_HPP
 
+#include "memory.hpp"
+
+#include "own_names.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "memory.hpp"
 
 namespace carom {
 namespace springs {
@@ -24,6 +26,18 @@ struct Now {
     double approach;        ///< d' at the end of the step, of viscous bodies
 };
 
+/// The part of a deflection that a free spring loses in a step, which contacts in a row mostly share.
+class Fading {
+    double steps = 0.0, part = 0.0;
+
+  public:
+    /// Return 1 - exp(-steps), of a step in retardation times.
+    double after(double now) {
+        if (now != steps) part = -std::expm1(-(steps = now));
+        return part;
+    }
+};
+
 /// Return the mean of b around the end of a step over b there, the bodies approaching by `half`
 /// in half a step: dashpots bear so much more while b goes like the root of the time. The first
 /// step counts from the touch. No difference of powers is taken: they may be equal to rounding.
@@ -37,7 +51,8 @@ inline double mean_at_end(double depth, double before, double half) {
 
 /// Velocities at the end of the step follow from those of its middle and of the one before.
 template <int N, class Real, unsigned P>
-inline void look(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Now& now) {
+inline void look(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Fading& fading,
+                 Now& now) {
     now.fade = 1.0;
     now.moved_x = now.moved_y = now.drag_x = now.drag_y = 0.0;
     now.unit = double(c.spacing) * c.spacing / pair.radius;
@@ -63,7 +78,7 @@ inline void look(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Now&
             now.approach = mean * approach;
             now.excess = std::min(pair.retardation * now.approach, farthest<Real>);
             now.limit = std::max(now.limit + now.excess, 0.0);
-            now.fade = -std::expm1(-m.step / pair.retardation);
+            now.fade = fading.after(m.step / pair.retardation);
             if (pair.friction > 0.0 && pair.viscous_shear) {
                 const double drag = slope * now.most * pair.retardation * mean;
                 now.drag_x = drag * (1.5 * m.slide_x - 0.5 * c.slide_x);
@@ -106,5 +121,7 @@ inline double edge_of(const Contact<N, Real, P>& c, const Now& now) {
 
 }  // namespace springs
 }  // namespace carom
+
+#include "own_names.h"
 
 #endif
