@@ -68,7 +68,7 @@ DUMP += "format float %.17g\n"
 
 def test_two_of_them_in_one_hybrid_are_each_as_if_alone(lammps):
     """Types 1 and 2 meet by 64 springs, alike spheres of type 1 by 16; and by 16 and 16 alone."""
-    floor = "region w plane 0 0 0.0453 0 0 1\nfix w all wall/carom {} region w\n".format(SOLID)
+    floor = f"region w plane 0 0 0.0453 0 0 1\nfix w all wall/carom {SOLID} region w\n"
     seen = {}
     for name, style in (
         ("both", SEVERAL),

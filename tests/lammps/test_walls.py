@@ -54,7 +54,8 @@ def rebounds(
         text.replace("np.float64(", "").replace(")", "") + "\n"
     )
     lammps(
-        f"{HEAD}read_data fall.data\ntimestep {step!r}\n{pair}variable way equal {sliding!r}*step*dt\n"
+        f"{HEAD}read_data fall.data\ntimestep {step!r}\n{pair}"
+        f"variable way equal {sliding!r}*step*dt\n"
         f"region w {region}\nfix w all wall/carom {wall} {losses} region w\n{beside}"
         f"fix 1 all nve/sphere\nrun {int(1.5 * steps) + 10}\n"
         "write_dump all custom out.txt id vx vz omegay modify sort id format float %.17g\n"
