@@ -104,9 +104,6 @@ void FixWallCarom::init() {
     if (options.tangential && modify->get_fix_by_style("^wall/gran").empty())
         error->all(FLERR, "fix wall/carom part tangential has no normal force; give fix "
                           "wall/gran/region of the same region, or part all");
-    if (options.tangential && options.ledger && lossy())
-        error->all(FLERR, "fix wall/carom part tangential: with losses there is no ledger, as the "
-                          "normal force is another fix's; give ledger no");
     if (lossy() && !options.viscous)
         error->all(FLERR, "fix wall/carom: give pair_coeff, with its losses, before the fix");
     bodies.assign(atom->ntypes + 1, CaromBodies{});

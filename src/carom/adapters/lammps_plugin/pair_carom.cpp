@@ -220,9 +220,6 @@ void PairCarom::init_style() {
     for (Fix *fix : modify->get_fix_list())
         if (fix->rigid_flag) rigid.push_back(fix);
     beside_read = false;
-    if (options.viscous && options.ledger && options.tangential)
-        error->all(FLERR, "pair_style carom part tangential: with losses there is no ledger, as the "
-                          "normal force is another style's; give ledger no");
     if (options.viscous && !options.ledger && !options.tangential && comm->me == 0)
         error->warning(FLERR, "pair_style carom: with losses, energies of contacts are told by "
                               "ledger yes only; pe and compute pair are 0 now");
