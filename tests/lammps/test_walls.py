@@ -37,7 +37,7 @@ def rebounds(
     pair, beside = f"pair_style carom\npair_coeff * * {SOLID} {losses}\n", ""
     if normal_force:
         pair = (
-            "pair_style hybrid/overlay granular carom part tangential\n"
+            "pair_style hybrid/overlay granular carom springs 32 part tangential\n"
             f"pair_coeff * * granular {normal_force}\npair_coeff * * carom {SOLID} {losses}\n"
         )
         beside = f"fix n all wall/gran/region granular {normal_force} region w\n"

@@ -114,7 +114,7 @@ void FixWallCarom::init() {
                                                 CaromMaterial{}, bodies[type]);
         if (!wrong.empty())
             error->all(FLERR, "fix wall/carom: of type {} and the wall {}", type, wrong);
-        if (bodies[type].cohesion.kind != CaromCohesion::none && !options.tangential)
+        if (bodies[type].cohesion && !options.tangential)
             error->all(FLERR, "fix wall/carom: jkr, dmt and pulloff go with part tangential");
         style->check_steps("fix wall/carom", bodies[type].pair.retardation);
     }
@@ -203,11 +203,8 @@ void FixWallCarom::part(double *slot) {
 
 /// Return how far from its centre a sphere meets a wall.
 double FixWallCarom::reach_of(int i) const {
-    const CaromBodies &known = bodies[atom->type[i]];
-    carom::Pair pair = known.pair;
-    pair.radius = atom->radius[i];
-    // a hollow wall is more curved to the sphere, up to twice as far
-    return atom->radius[i] + (pair.modulus > 0.0 ? 4.0 * carom_neck(known.cohesion, pair) : 0.0);
+    // at a hollow wall R* is larger; the neck goes as its third root
+    return atom->radius[i] + 4.0 * carom_neck(bodies[atom->type[i]].cohesion, atom->radius[i]);
 }
 
 void FixWallCarom::act(int i, int k, double *memory) {
@@ -236,8 +233,7 @@ void FixWallCarom::act(int i, int k, double *memory) {
                           "give them by pair_coeff {} {} carom", atom->type[i], atom->type[i],
                    atom->type[i]);
     carom::Encounter now = carom::encounter(sphere, wall, update->dt, known.share);
-    if (known.cohesion.kind != CaromCohesion::none)
-        carom_cohere(known.cohesion, batch.pairs[0], now);
+    if (known.cohesion) carom_cohere(known.cohesion, batch.pairs[0].radius, now);
     for (int lane = 0; lane < carom::lanes; ++lane) carom::set_one(batch.meetings, lane, now);
     carom_step(kind, batch, update->setupflag);
     if (batch.statuses[0] != carom::Status::ok)

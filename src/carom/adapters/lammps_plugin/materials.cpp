@@ -30,17 +30,19 @@ double rebound(double alpha) {
 
 /// Find the cohesion of two materials, by the geometric mean; false if theirs are not of one kind.
 bool cohere(const CaromMaterial &one, const CaromMaterial &other, const CaromMaterial &both,
-            CaromCohesion &cohesion) {
-    const auto of = [](const CaromMaterial &own) -> CaromCohesion {
-        if (own.jkr > 0.0) return {CaromCohesion::jkr, own.jkr};
-        if (own.dmt > 0.0) return {CaromCohesion::dmt, own.dmt};
-        if (own.pulloff > 0.0) return {CaromCohesion::pulloff, own.pulloff};
-        return {};
+            CaromBodies &bodies) {
+    const auto of = [&](const CaromMaterial &own) {
+        const double modulus = bodies.pair.modulus;
+        if (own.jkr > 0.0) return carom_cohesion(CaromCohesion::jkr, own.jkr, modulus);
+        if (own.dmt > 0.0) return carom_cohesion(CaromCohesion::dmt, own.dmt, modulus);
+        if (own.pulloff > 0.0) return carom_cohesion(CaromCohesion::pulloff, own.pulloff, modulus);
+        return CaromCohesion{};
     };
-    cohesion = of(both);
+    bodies.cohesion = of(both);
     if (both.jkr >= 0.0 || both.dmt >= 0.0 || both.pulloff >= 0.0) return true;
     const CaromCohesion first = of(one), second = of(other);
-    cohesion = {first.kind, std::sqrt(first.value) * std::sqrt(second.value)};
+    bodies.cohesion = carom_cohesion(first.kind, std::sqrt(first.value) * std::sqrt(second.value),
+                                     bodies.pair.modulus);
     return first.kind == second.kind;
 }
 
@@ -121,7 +123,7 @@ std::string carom_combine(const CaromMaterial &one, const CaromMaterial &other,
     found.share = carom::share_of(solid(one), solid(other));
     found.loss = mixed.restitution >= 0.0 ? carom_loss(mixed.restitution) : 0.0;
     found.speed = mixed.speed;
-    return cohere(one, other, both, found.cohesion) ? "" : "the cohesion is not of one kind";
+    return cohere(one, other, both, found) ? "" : "the cohesion is not of one kind";
 }
 
 double carom_retardation(const CaromBodies &bodies, const carom::Pair &pair) {

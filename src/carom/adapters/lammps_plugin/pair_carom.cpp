@@ -306,11 +306,7 @@ double PairCarom::init_one(int i, int j) {
     check_steps("pair_style carom", bodies[i][j].pair.retardation);
     bodies[j][i] = bodies[i][j];
     bodies[j][i].share = 1.0 - bodies[i][j].share;
-    carom::Pair largest = bodies[i][j].pair;
-    largest.radius = std::max(radii[i], radii[j]);
-    const double neck =
-        largest.radius > 0.0 ? carom_neck(bodies[i][j].cohesion, largest) : 0.0;
-    return radii[i] + radii[j] + neck;
+    return radii[i] + radii[j] + carom_neck(bodies[i][j].cohesion, std::max(radii[i], radii[j]));
 }
 
 /// Tell every sphere, ghosts too, what it weighs with the rigid body that it is part of.
@@ -415,9 +411,9 @@ void PairCarom::meet(Meetings &met) {
             if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, batch.pairs[k]);
         }
         if (known.loss > 0.0) batch.pairs[k].retardation = memory[RETARDATION];
-        if (known.cohesion.kind != CaromCohesion::none) {
+        if (known.cohesion) {
             carom::Encounter now = carom::one_of(batch.meetings, k);
-            carom_cohere(known.cohesion, batch.pairs[k], now);
+            carom_cohere(known.cohesion, batch.pairs[k].radius, now);
             carom::set_one(batch.meetings, k, now);
         }
     }
