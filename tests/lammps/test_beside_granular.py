@@ -1,6 +1,7 @@
 """pair_style carom part tangential: friction by springs, beside the normal force of granular."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -230,6 +231,19 @@ def test_ranks_and_restarts_keep_what_coherent_contacts_remember(lammps):
     np.testing.assert_allclose(two[:, 3:6], one[:, 3:6], atol=1e-11)
 
 
+def test_the_input_of_the_manual_runs(lammps):
+    page = Path(__file__).parents[2] / "docs" / "how-to" / "lammps.md"
+    section = page.read_text(encoding="utf-8").split("## Beside granular")[1]
+    lammps(
+        section.split("```none\n")[1].split("```")[0]
+        + "write_dump all custom out.txt x y z modify format float %.17g\n"
+    )
+    heap = lammps.dumped()
+    assert len(heap) > 30
+    assert heap[:, 2].min() > 0.0049
+    assert np.ptp(heap[:, 0]) < 0.05
+
+
 JKR = f"jkr {YOUNG} 0.0 {POISSON} 0.05 {NONE} damping velocity"
 OVERLAY = "pair_style hybrid/overlay granular carom {} part tangential\n"
 PLAIN = f"{OVERLAY.format('')}pair_coeff * * granular {hertz()}\n"
@@ -258,6 +272,7 @@ STIFF = hertz(friction="tangential mindlin NULL 0.0 0.3")
         (pair(JKR, "jkr 0.05 pulloff 1"), "give one of jkr, dmt and pulloff"),
         (pair(JKR, "jkr -0.05"), "jkr -0.05 must be from 0 to 1e20"),
         (pair(STIFF), "granular has a friction of its own, mindlin"),
+        (pair(f"{hertz()} twisting marshall"), "granular's twisting marshall has no stiffness"),
         (
             pair(f"hooke 1e4 0.0 {NONE} damping velocity"),
             "normal force is hooke, which has no depth",

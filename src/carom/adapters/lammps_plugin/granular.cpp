@@ -13,7 +13,7 @@
 namespace LAMMPS_NS {
 namespace {
 
-enum { NORMAL, DAMPING, TANGENTIAL, PARTS = 6 };
+enum { NORMAL, DAMPING, TANGENTIAL, ROLLING, TWISTING, HEAT, PARTS };
 
 /// Numbers one after the other, as a file holds them.
 struct Reader {
@@ -76,6 +76,9 @@ std::string refusal_of(const GranularModel &model) {
         (!tangential.numbers.empty() && tangential.numbers[0] != 0.0))
         return fmt::format("granular has a friction of its own, {}; give it tangential "
                            "linear_nohistory 0.0 and the friction coefficient", tangential.name);
+    if (model.parts[TWISTING].name == "marshall")
+        return "granular's twisting marshall has no stiffness without a tangential spring of its own; "
+               "give twisting sds";
     return "";
 }
 
