@@ -231,6 +231,36 @@ def test_ranks_and_restarts_keep_what_coherent_contacts_remember(lammps):
     np.testing.assert_allclose(two[:, 3:6], one[:, 3:6], atol=1e-11)
 
 
+def test_constants_of_unlike_types_are_compared(lammps):
+    """Two materials: granular's line of both has one E* for them, ours may have two moduli."""
+    lines = OVERLAY.format("").replace("granular carom", "granular 0.012 carom")
+    for kinds, young, poisson, gamma in (("1 1", 5e7, 0.2, 0.1), ("2 2", 9e7, 0.3, 0.05)):
+        lines += f"pair_coeff {kinds} granular jkr {young} 0.0 {poisson} {gamma} {NONE} "
+        lines += f"damping velocity\npair_coeff {kinds} carom young {young} poisson {poisson} "
+        lines += f"jkr {gamma} friction {FRICTION}\n"
+    modulus = 1.0 / ((1.0 - 0.2**2) / 5e7 + (1.0 - 0.3**2) / 9e7)
+    gamma = float(np.sqrt(0.1 * 0.05))
+    both = f"pair_coeff 1 2 granular jkr {{:.5g}} 0.0 0.0 {gamma:.5f} {NONE} damping velocity\n"
+    rest = "fix 1 all nve/sphere\ntimestep 1e-6\nrun 1\nrun 1\n"
+    start = f"{HEAD}{TWO.format(0.0599)}set atom 2 type 2\n"
+    ours = f"pair_coeff 1 2 carom friction {FRICTION}\n"
+    lammps(f"{start}{lines}{both.format(2.0 * modulus)}{ours}{rest}")
+    printed = lammps.fails(f"{start}{lines}{both.format(6e7)}{ours}{rest}")
+    assert "types 1 and 2: E*, of young and poisson, is 34" in printed
+
+
+def test_a_restart_file_of_another_version_is_refused(lammps):
+    start = f"{HEAD}{TWO.format(0.0599)}"
+    rest = f"pair_style carom\npair_coeff * * {SOLID}\nfix 1 all nve/sphere\ntimestep 1e-6\nrun 1\n"
+    lammps(f"{start}{rest}write_restart x.rst\n")
+    file = lammps.folder / "x.rst"
+    now = (1000003).to_bytes(4, "little")
+    assert file.read_bytes().count(now) == 1
+    file.write_bytes(file.read_bytes().replace(now, (32).to_bytes(4, "little")))
+    printed = lammps.fails(HEAD[: HEAD.index("region")] + "read_restart x.rst\n")
+    assert "the restart file is of another version of Carom" in printed
+
+
 def test_the_input_of_the_manual_runs(lammps):
     page = Path(__file__).parents[2] / "docs" / "how-to" / "lammps.md"
     section = page.read_text(encoding="utf-8").split("## Beside granular")[1]
@@ -301,6 +331,21 @@ STIFF = hertz(friction="tangential mindlin NULL 0.0 0.3")
         ),
         (pair(hertz()) + ON_WALL.format(SOLID), "fix wall/carom part tangential has no normal"),
         (pair(hertz()) + ON_WALL.format(f"{SOLID} part half"), "part half must be all or tang"),
+        (
+            "pair_style hybrid carom zero 0.01\npair_coeff * * zero\n"
+            f"pair_coeff 1 2 carom {SOLID}\n"
+            + ON_WALL.format(SOLID).replace("0 0 0 0", "0 0 .0451 0"),
+            "spheres of type 1 have no young, poisson or friction",
+        ),
+        (
+            f"{PLAIN}pair_coeff * * carom {SOLID}\npair_coeff 2 2 carom jkr 0.1\n",
+            "of types 1 and 2 the cohesion is not of one kind; say by pair_coeff 1 2",
+        ),
+        (
+            "pair_style hybrid/overlay zero 0.01 carom\npair_coeff * * zero\n"
+            "pair_coeff 1 2 carom young 5e7 poisson 0.3\n",
+            "type 1 has no young, poisson or friction",
+        ),
         (pair(hertz()) + ON_WALL.format(f"part all {SOLID} part all"), "part all is given twice"),
     ],
 )

@@ -28,8 +28,7 @@ class GranularConstants {
     GranularConstants(Pair *, int types);
 
     bool readable = false;
-    /// Whether there is a model of two types, said or mixed.
-    bool has(int i, int j) const { return of(i, j) || (of(i, i) && of(j, j)); }
+    bool has(int i, int j) const { return of(i, j) != nullptr; }
 
     /// Return what differs from what we were given for two types, in a line; empty if nothing.
     std::string difference(int i, int j, const CaromMaterial &own, const CaromBodies &) const;
