@@ -124,6 +124,25 @@ def test_only_asking_for_forces_moves_no_spring(run):
     np.testing.assert_allclose(parts, whole, rtol=1e-9, atol=1e-9)
 
 
+def test_the_tangential_part_beside_other_normal_forces(run):
+    """It is the same beside an elastic one; less is left of the motion beside losses; rolling acts."""
+    model = "hertz tangential carom {}part_tangential on"
+    _, elastic = run()
+    _, same = run(model=model.format(""))
+    np.testing.assert_array_equal(same, elastic)
+    _, lossy = run(model=model.format(""), restitution=0.5)
+    along = [end[1, 0] - end[0, 0] for end in (elastic, lossy)]
+    assert along[1] == pytest.approx(0.5 * along[0], rel=0.03)
+    for cohesion in ("sjkr", "sjkr2"):
+        printed, end = run(model=model.format(f"cohesion {cohesion} "))
+        assert end is not None, printed[-500:]
+    rolling = (
+        "fix m10 all property/global coefficientRollingFriction peratomtypepair 1 0.5\nrun 1000"
+    )
+    _, rolled = run(model=model.format("rolling_friction cdt "), run=rolling)
+    assert (np.abs(rolled[:, 4:]).max() < 0.95 * np.abs(elastic[:, 4:]).max()).all()
+
+
 ELASTIC = "the normal force must be that of elastic spheres"
 
 
@@ -133,10 +152,14 @@ ELASTIC = "the normal force must be that of elastic spheres"
         ({"restitution": 0.9}, ELASTIC),
         ({"model": "hooke/stiffness tangential carom"}, ELASTIC),
         ({"model": "hertz tangential carom cohesion sjkr"}, ELASTIC),
+        (
+            {"model": "hooke/stiffness tangential carom part_tangential on"},
+            "takes the limit of friction from Hertz's depth",
+        ),
         ({"model": "hertz tangential carom springs 20"}, "springs must be 16, 32 or 64"),
         ({"run": "neigh_modify one 5000\nrun 1"}, "neigh_modify one 200"),
     ],
-    ids=["losses", "another normal force", "cohesion", "springs", "pages"],
+    ids=["losses", "another normal force", "cohesion", "no Hertz", "springs", "pages"],
 )
 def test_refuses(run, changes, said):
     printed, end = run(**changes)
