@@ -59,6 +59,24 @@ def test_energy_that_leaves_the_motion_is_what_shear_took(lammps, losses, precis
     assert last[1:].sum() == pytest.approx(first[1:].sum(), rel=2e-4)
 
 
+@pytest.mark.parametrize("losses", ["", "retardation 2e-5"])
+def test_energy_that_a_wall_takes_is_what_shear_took(lammps, losses):
+    start = f"create_atoms 1 single 0.05 0.05 0.005001\n{BALLS}velocity all set 0.05 0.02 -0.1\n"
+    printed = lammps(
+        f"{HEAD}{start}{pair(hertz(), losses, 'springs 64 ledger yes')}"
+        f"region w plane 0 0 0 0 0 1\nfix n all wall/gran/region granular {hertz()} region w\n"
+        f"fix t all wall/carom {SOLID} {losses} region w\nfix 1 all nve/sphere\ntimestep 1e-6\n"
+        "compute k all ke\ncompute r all erotate/sphere\n"
+        "thermo_style custom step c_k c_r f_t[4] f_t[5] f_t[6]\n"
+        "thermo_modify norm no format float %.15g\nrun 2000\n"
+    )
+    first, last = rows(printed, 6)
+    assert last[3] == 0.0
+    assert last[4] > 0.01 * first[1]
+    assert (last[5] > 0.003 * first[1]) == (losses != "")
+    assert last[1:].sum() == pytest.approx(first[1:].sum(), rel=2e-4)
+
+
 @pytest.mark.parametrize(("theory", "factor"), [("jkr", 3.0), ("dmt", 4.0)])
 def test_friction_of_coherent_spheres_is_mu_times_normal_force_and_two_pulloff_forces(
     lammps, theory, factor

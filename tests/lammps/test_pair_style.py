@@ -115,7 +115,7 @@ def test_the_tangential_part_damps_as_granular_does_along_the_normal(lammps, new
     loss = viscous_loss(0.8) * PAIR.scales(SPEED).time
     modulus, mass = 210e9 / (2.0 * (1.0 - 0.3**2)), 7850.0 * 2.0 / 3.0 * np.pi * RADIUS**3
     normal = f"{GRANULAR.format(2.0 * modulus * loss / mass)} viscoelastic limit_damping"
-    psi, e = rebounds(lammps, 400, newton=newton, normal_force=normal, retardation=loss)
+    psi, e = rebounds(lammps, 400, "springs 32", newton, normal, retardation=loss)
     np.testing.assert_allclose(e, 0.8, atol=7e-3)
     exact = carom.rebound(PSI, PAIR.chi, losses=carom.KelvinVoigt(0.8))
     assert np.abs(psi - exact).max() < 2.5e-3
