@@ -273,8 +273,8 @@ void PairCarom::read_granular() {
         error->all(FLERR, "pair_style carom part tangential: no other style gives a normal force; "
                           "give pair_style hybrid/overlay granular carom part tangential");
     if (beside.empty() && comm->me == 0)
-        error->warning(FLERR, "pair_style carom: only the constants of granular are compared with "
-                              "those of carom; see to it that they agree");
+        error->warning(FLERR, "pair_style carom: only constants of granular are compared with ours; see "
+                              "to it that those of the other style agree, and its friction is 0");
     beside_read = true;
 }
 
