@@ -44,14 +44,52 @@ def rows(printed, width):
         (f"{PLAIN}{OVERLAY}pair_coeff * * carom {SOLID}\npair_coeff * * zero\n", 2),
         (f"{PLAIN}{BESIDE}lj/cut 1e-6\n{OF_ONE}pair_coeff * 2 lj/cut 0.0 1e-6\n", 1),
         (f"{PLAIN}{BESIDE}zero 0.01\n{OF_ONE}{OF_TWO}pair_coeff 1 2 zero\n", 1),
+        (f"{PLAIN}{BESIDE}zero 0.01\npair_coeff * * zero\npair_coeff 1 2 carom {SOLID}\n", 1),
     ],
-    ids=["plain", "some excluded", "all excluded", "overlay", "other types", "hybrid"],
+    ids=["plain", "some excluded", "all excluded", "overlay", "other types", "hybrid", "unlike"],
 )
 def test_who_meets_whom(lammps, newton, start, contacts):
     """Elastic energy and pressure are those of so many Hertzian contacts."""
     ((_, pe, elastic, pxx, pyy),) = rows(lammps(HEAD + f"newton {newton}\n" + start + TELL), 5)
     np.testing.assert_allclose([pe, elastic], contacts * ENERGY, rtol=1e-9)
     np.testing.assert_allclose([pxx, pyy], [contacts * FORCE * 0.0095 / 1e-3, 0.0], rtol=1e-9)
+
+
+SEVERAL = (
+    "pair_style hybrid carom springs 16 precision double carom springs 64 precision double\n"
+    f"pair_coeff 1 1 carom 1 {SOLID}\npair_coeff 2 2 carom 2 {SOLID}\n"
+    f"pair_coeff 1 2 carom 2 {SOLID}\n"
+)
+TELL_FIRST = TELL.replace("pair carom", "pair carom 1")  # of two
+MOVES = "velocity all set 0 0.1 0.05\ngroup two type 2\nvelocity two set 0 -0.1 0\nrun 60\n"
+DUMP = "write_dump all custom out.txt id x y z vx vy vz omegax omegay omegaz modify sort id "
+DUMP += "format float %.17g\n"
+
+
+def test_two_of_them_in_one_hybrid_are_each_as_if_alone(lammps):
+    """Types 1 and 2 meet by 64 springs, alike spheres of type 1 by 16; and by 16 and 16 alone."""
+    floor = f"region w plane 0 0 0.0453 0 0 1\nfix w all wall/carom {SOLID} region w\n"
+    seen = {}
+    for name, style in (
+        ("both", SEVERAL),
+        ("same", SEVERAL.replace("64", "16")),
+        ("alone", CAROM.replace("32", "16")),
+    ):
+        tell = TELL if name == "alone" else TELL_FIRST
+        lammps(f"{HEAD}newton off\n{PLAIN}{style}{floor}{tell}{MOVES}{DUMP}")
+        seen[name] = lammps.dumped()
+    np.testing.assert_allclose(seen["same"], seen["alone"], rtol=1e-9, atol=1e-15)
+    off = np.abs(seen["both"] - seen["alone"])[:, 7:].max()
+    assert 1e-4 < off / np.abs(seen["alone"][:, 7:]).max() < 0.05
+
+
+def test_two_of_them_go_on_from_a_restart_to_the_bit(lammps):
+    started = f"{HEAD}newton off\n{PLAIN}{SEVERAL}{TELL_FIRST}"
+    lammps(f"{started}{MOVES}write_restart x.rst noinit\nrun 60\n{DUMP}")
+    once = lammps.dumped()
+    again = f"{SEVERAL}fix 1 all nve/sphere\ntimestep 1e-6\nrun 60\n{DUMP}"
+    lammps(f"{HEAD}newton off\nread_restart x.rst\n{again}")
+    np.testing.assert_array_equal(lammps.dumped(), once)
 
 
 def test_bonded_spheres_meet_only_if_special_bonds_says_so(lammps):

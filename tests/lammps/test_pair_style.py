@@ -47,13 +47,22 @@ def impacts(steps, rng):
     return text.replace(" 1.0 0.01 ", " 1 0.01 "), normal, aside, step
 
 
-def rebounds(lammps, steps=100, style="springs 16", newton="off", **losses):
-    """Return psi_2 and the normal restitution of impacts from psi_1 = 0 to 6."""
+def rebounds(lammps, steps=100, style="springs 16", newton="off", normal_force="", **losses):
+    """Return psi_2 and the normal restitution of impacts from psi_1 = 0 to 6.
+
+    With a `normal_force`, words of pair_style granular, carom gives the tangential part alone.
+    """
+    pair = f"pair_style carom {style}\npair_coeff * * "
+    if normal_force:
+        pair = (
+            f"pair_style hybrid/overlay granular carom {style} part tangential\n"
+            f"pair_coeff * * granular {normal_force}\npair_coeff * * carom "
+        )
     data, normal, aside, step = impacts(steps, np.random.default_rng(3))
     (lammps.folder / "pairs.data").write_text(data)
     lammps(
         f"{HEAD}boundary s s s\nnewton {newton}\nneighbor 0.001 bin\nread_data pairs.data\n"
-        f"pair_style carom {style}\npair_coeff * * {words(**SOLID, **losses)}\n"
+        f"{pair}{words(**SOLID, **losses)}\n"
         f"fix 1 all nve/sphere\ntimestep {step!r}\nrun {int(1.5 * steps) + 10}\n"
         "write_dump all custom out.txt id vx vy vz omegax omegay omegaz "
         "modify sort id format float %.17g\n"
@@ -87,6 +96,32 @@ def test_losses_by_restitution_at_a_speed_and_by_time(lammps):
     loss = viscous_loss(0.8)
     by_time, _ = rebounds(lammps, retardation=loss * PAIR.scales(SPEED).time)
     np.testing.assert_allclose(by_time, by_e, atol=1e-6)
+
+
+GRANULAR = f"hertz/material 210e9 {{}} 0.3 tangential linear_nohistory 0.0 {FRICTION} damping "
+
+
+@pytest.mark.parametrize(
+    ("style", "steps", "bound"),
+    [("springs 32", 50, 2.5e-3), ("springs 32", 100, 1.3e-3), ("springs 64", 100, 6.5e-4)],
+)
+def test_the_tangential_part_is_as_exact_beside_granular(lammps, style, steps, bound):
+    psi, e = rebounds(lammps, steps, style, normal_force=f"{GRANULAR.format(0.0)} velocity")
+    assert np.abs(psi - carom.rebound(PSI, PAIR.chi)).max() < bound
+    np.testing.assert_allclose(e, 1.0, atol=1e-4)
+
+
+@pytest.mark.parametrize("newton", ["off", "on"])
+def test_the_tangential_part_damps_as_granular_does_along_the_normal(lammps, newton):
+    """Granular's viscoelastic damping with eta = 2 E* tau/m is a Kelvin-Voigt solid's until the
+    contact shrinks, which changes e by 0.006; it is of first order in the step."""
+    loss = viscous_loss(0.8) * PAIR.scales(SPEED).time
+    modulus, mass = 210e9 / (2.0 * (1.0 - 0.3**2)), 7850.0 * 2.0 / 3.0 * np.pi * RADIUS**3
+    normal = f"{GRANULAR.format(2.0 * modulus * loss / mass)} viscoelastic limit_damping"
+    psi, e = rebounds(lammps, 400, "springs 32", newton, normal, retardation=loss)
+    np.testing.assert_allclose(e, 0.8, atol=7e-3)
+    exact = carom.rebound(PSI, PAIR.chi, losses=carom.KelvinVoigt(0.8))
+    assert np.abs(psi - exact).max() < 2.5e-3
 
 
 UNLIKE = """boundary f f f

@@ -20,9 +20,27 @@ HEAD = "units si\natom_style sphere\ncomm_modify vel yes\nboundary f f f\nneighb
 
 
 def rebounds(
-    lammps, region, bottom=0.0, steps=100, sliding=0.0, losses="", speed=SPEED, wall=SOLID
+    lammps,
+    region,
+    bottom=0.0,
+    steps=100,
+    sliding=0.0,
+    losses="",
+    speed=SPEED,
+    wall=SOLID,
+    normal_force="",
 ):
-    """Return psi_2 and e of spheres that fall on the bottom of a region, which slides along x."""
+    """Return psi_2 and e of spheres that fall on the bottom of a region, which slides along x.
+
+    With a `normal_force`, words of granular, carom gives the tangential part alone.
+    """
+    pair, beside = f"pair_style carom\npair_coeff * * {SOLID} {losses}\n", ""
+    if normal_force:
+        pair = (
+            "pair_style hybrid/overlay granular carom springs 32 part tangential\n"
+            f"pair_coeff * * granular {normal_force}\npair_coeff * * carom {SOLID} {losses}\n"
+        )
+        beside = f"fix n all wall/gran/region granular {normal_force} region w\n"
     step = DURATION * PAIR.scales(speed).time / steps
     gap = speed * step * (2.0 + np.arange(PSI.size) % 4 / 4.0)
     along = PSI * FRICTION * speed / PAIR.kappa + sliding
@@ -36,9 +54,9 @@ def rebounds(
         text.replace("np.float64(", "").replace(")", "") + "\n"
     )
     lammps(
-        f"{HEAD}read_data fall.data\ntimestep {step!r}\npair_style carom\n"
-        f"pair_coeff * * {SOLID} {losses}\nvariable way equal {sliding!r}*step*dt\n"
-        f"region w {region}\nfix w all wall/carom {wall} {losses} region w\n"
+        f"{HEAD}read_data fall.data\ntimestep {step!r}\n{pair}"
+        f"variable way equal {sliding!r}*step*dt\n"
+        f"region w {region}\nfix w all wall/carom {wall} {losses} region w\n{beside}"
         f"fix 1 all nve/sphere\nrun {int(1.5 * steps) + 10}\n"
         "write_dump all custom out.txt id vx vz omegay modify sort id format float %.17g\n"
     )
@@ -53,6 +71,15 @@ def rebounds(
 )
 def test_spheres_leave_walls_as_exactly_as_the_law_promises(lammps, region, bottom):
     psi, e = rebounds(lammps, region, bottom)
+    assert np.abs(psi - carom.rebound(PSI, PAIR.chi)).max() < 1.3e-3
+    np.testing.assert_allclose(e, 1.0, atol=1e-4)
+
+
+@pytest.mark.parametrize(("region", "sliding"), [("", 0.0), ("move v_way NULL NULL", 2.0 * SPEED)])
+def test_the_tangential_part_at_walls_is_as_exact_beside_granular(lammps, region, sliding):
+    normal = f"hertz/material 210e9 0.0 0.3 tangential linear_nohistory 0.0 {FRICTION}"
+    plane = f"plane 0 0 0 0 0 1 {region}"
+    psi, e = rebounds(lammps, plane, sliding=sliding, normal_force=f"{normal} damping velocity")
     assert np.abs(psi - carom.rebound(PSI, PAIR.chi)).max() < 1.3e-3
     np.testing.assert_allclose(e, 1.0, atol=1e-4)
 

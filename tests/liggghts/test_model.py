@@ -124,6 +124,26 @@ def test_only_asking_for_forces_moves_no_spring(run):
     np.testing.assert_allclose(parts, whole, rtol=1e-9, atol=1e-9)
 
 
+def test_the_tangential_part_beside_other_normal_forces(run):
+    """The same beside an elastic one; losses, cohesion and rolling friction act as they do."""
+    model = "hertz tangential carom {}part_tangential on"
+    _, elastic = run()
+    _, same = run(model=model.format(""))
+    np.testing.assert_array_equal(same, elastic)
+    _, lossy = run(model=model.format(""), restitution=0.5)
+    along = [end[1, 0] - end[0, 0] for end in (elastic, lossy)]
+    assert along[1] == pytest.approx(0.5 * along[0], rel=0.03)
+    for cohesion in ("sjkr", "sjkr2"):
+        printed, end = run(model=model.format(f"cohesion {cohesion} "))
+        assert end is not None, printed[-500:]
+    spins = "fix m10 all property/global coefficientRollingFriction peratomtypepair 1 0.5\n"
+    spins += "set atom 1 omegay 200.0\nrun 1000"  # of one sphere alone, which rolls on the other
+    _, free = run(model=model.format(""), run=spins)
+    _, rolled = run(model=model.format("rolling_friction cdt "), run=spins)
+    differ = [np.ptp(end[:, 4]) for end in (free, rolled)]
+    assert differ[1] < 0.95 * differ[0]
+
+
 ELASTIC = "the normal force must be that of elastic spheres"
 
 
@@ -133,10 +153,14 @@ ELASTIC = "the normal force must be that of elastic spheres"
         ({"restitution": 0.9}, ELASTIC),
         ({"model": "hooke/stiffness tangential carom"}, ELASTIC),
         ({"model": "hertz tangential carom cohesion sjkr"}, ELASTIC),
+        (
+            {"model": "hooke/stiffness tangential carom part_tangential on"},
+            "takes the limit of friction from Hertz's depth",
+        ),
         ({"model": "hertz tangential carom springs 20"}, "springs must be 16, 32 or 64"),
         ({"run": "neigh_modify one 5000\nrun 1"}, "neigh_modify one 200"),
     ],
-    ids=["losses", "another normal force", "cohesion", "springs", "pages"],
+    ids=["losses", "another normal force", "cohesion", "no Hertz", "springs", "pages"],
 )
 def test_refuses(run, changes, said):
     printed, end = run(**changes)

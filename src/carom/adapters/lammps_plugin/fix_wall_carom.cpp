@@ -11,6 +11,7 @@
 #include "error.h"
 #include "force.h"
 #include "memory.h"
+#include "modify.h"
 #include "region.h"
 #include "update.h"
 
@@ -21,20 +22,18 @@ enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
 }  // namespace
 
 FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), kind{}, followed(-2), style(nullptr), region(nullptr), memories(nullptr), sums{} {
+    : Fix(lmp, narg, arg), kind{}, followed(-2), region(nullptr), memories(nullptr), sums{} {
     if (narg < 7 || std::string(arg[narg - 2]) != "region" || narg % 2 == 0)
         error->all(FLERR, "fix wall/carom: give young, poisson, friction and what else the material "
                           "has, each with a value, and at last region ID");
     name = arg[narg - 1];
-    material = carom_material(lmp, "fix wall/carom", narg - 5, arg + 3);
-    if (!material.complete())
-        error->all(FLERR, "fix wall/carom: the wall needs young, poisson and friction");
+    find_styles();
+    if (!styles.empty()) options = styles.front()->options;
+    read_words(narg - 5, arg + 3);
     region = domain->get_region_by_id(name);
     if (!region) error->all(FLERR, "fix wall/carom: there is no region {}", name);
-    style = dynamic_cast<PairCarom *>(force->pair_match("^carom", 0));
-    if (!style)
+    if (styles.empty())
         error->all(FLERR, "fix wall/carom needs pair_style carom before it, for the spheres");
-    options = style->options;
     options.viscous = lossy();
     kind = carom_kind(options);
     slots = std::max(region->tmax, 1);
@@ -58,6 +57,40 @@ FixWallCarom::~FixWallCarom() {
     memory->destroy(memories);
 }
 
+/// Read the words of the material; the part is that of pair_style carom if none is said.
+void FixWallCarom::read_words(int narg, char **arg) {
+    std::vector<char *> words;
+    bool said = false;
+    for (int i = 0; i < narg; i += 2) {
+        const std::string word = arg[i], value = arg[i + 1];
+        if (word != "part") {
+            words.insert(words.end(), {arg[i], arg[i + 1]});
+            continue;
+        }
+        if (said) error->all(FLERR, "fix wall/carom: part {} is given twice", value);
+        if (value != "all" && value != "tangential")
+            error->all(FLERR, "fix wall/carom: part {} must be all or tangential", value);
+        said = true;
+        options.tangential = value == "tangential";
+    }
+    material = carom_material(lmp, "fix wall/carom", static_cast<int>(words.size()), words.data());
+    if (!material.complete())
+        error->all(FLERR, "fix wall/carom: the wall needs young, poisson and friction");
+}
+
+void FixWallCarom::find_styles() {
+    styles.clear();
+    for (Pair *style : carom_styles(force, "^carom"))
+        if (PairCarom *ours = dynamic_cast<PairCarom *>(style)) styles.push_back(ours);
+}
+
+/// Return the style that knows the material of a type, nullptr if none does.
+PairCarom *FixWallCarom::style_of(int type) const {
+    for (PairCarom *style : styles)
+        if (style->materials.size() > 1 && style->materials[type][type].complete()) return style;
+    return nullptr;
+}
+
 int FixWallCarom::setmask() { return FixConst::POST_FORCE; }
 
 void FixWallCarom::init() {
@@ -66,24 +99,33 @@ void FixWallCarom::init() {
     if (region->nregion > 1 && (region->dynamic || region->varshape))
         error->all(FLERR, "fix wall/carom: LAMMPS has no velocity of region {}, which joins others "
                           "that move; give each of them a fix of its own", name);
-    style = dynamic_cast<PairCarom *>(force->pair_match("^carom", 0));
-    if (!style) error->all(FLERR, "fix wall/carom needs pair_style carom, for the spheres");
+    find_styles();
+    if (styles.empty()) error->all(FLERR, "fix wall/carom needs pair_style carom, for the spheres");
+    if (options.tangential && modify->get_fix_by_style("^wall/gran").empty())
+        error->all(FLERR, "fix wall/carom part tangential has no normal force; give fix "
+                          "wall/gran/region of the same region, or part all");
     if (lossy() && !options.viscous)
         error->all(FLERR, "fix wall/carom: give pair_coeff, with its losses, before the fix");
     bodies.assign(atom->ntypes + 1, CaromBodies{});
     for (int type = 1; type <= atom->ntypes; ++type) {
-        if (style->materials[type][type].complete() &&
-            !carom_combine(style->materials[type][type], material, CaromMaterial{}, bodies[type]))
-            error->all(FLERR, "fix wall/carom: of type {} and the wall one has a restitution, the "
-                              "other none", type);
+        const PairCarom *style = style_of(type);
+        if (!style) continue;
+        const std::string wrong = carom_combine(style->materials[type][type], material,
+                                                CaromMaterial{}, bodies[type]);
+        if (!wrong.empty())
+            error->all(FLERR, "fix wall/carom: of type {} and the wall {}", type, wrong);
+        if (bodies[type].cohesion && !options.tangential)
+            error->all(FLERR, "fix wall/carom: jkr, dmt and pulloff go with part tangential");
         style->check_steps("fix wall/carom", bodies[type].pair.retardation);
     }
 }
 
 /// Whether the wall or any sphere loses energy to viscosity.
 bool FixWallCarom::lossy() const {
-    for (size_t type = 1; type < style->materials.size(); ++type)
-        if (style->materials[type][type].lossy()) return true;
+    for (int type = 1; type <= atom->ntypes; ++type) {
+        const PairCarom *style = style_of(type);
+        if (style && style->materials[type][type].lossy()) return true;
+    }
     return material.lossy();
 }
 
@@ -106,7 +148,7 @@ carom::Pair FixWallCarom::pair_of(int i, double curved, double *memory) const {
     carom::Pair pair = known.pair;
     const double radius = atom->radius[i];
     pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
-    pair.mass = style->mass_of(i);
+    pair.mass = styles.front()->mass_of(i);
     if (known.loss > 0.0) {
         if (!kind.touches(memory + SPRINGS)) memory[RETARDATION] = carom_retardation(known, pair);
         pair.retardation = memory[RETARDATION];
@@ -124,10 +166,13 @@ void FixWallCarom::post_force(int) {
         const double *x = atom->x[i];
         if (!region->match(x[0], x[1], x[2]))
             error->one(FLERR, "fix wall/carom: atom {} is outside region {}", atom->tag[i], name);
-        const int count = region->surface(x[0], x[1], x[2], atom->radius[i]);
+        const int count = region->surface(x[0], x[1], x[2], reach_of(i));
         touched.clear();
         for (int k = 0; k < count; ++k) {
             double *slot = slot_of(i, region->contact[k].iwall);
+            if (region->contact[k].r >= atom->radius[i] &&
+                !(slot && slot[0] != 0.0 && kind.touches(slot + 1 + SPRINGS)))
+                continue;  // a neck is only drawn out by spheres that have touched
             if (!slot) error->one(FLERR, "fix wall/carom: atom {} meets too many walls", atom->tag[i]);
             slot[0] = region->contact[k].iwall + 1.0;
             touched.push_back(slot);
@@ -156,6 +201,12 @@ void FixWallCarom::part(double *slot) {
     std::fill(slot, slot + length, 0.0);
 }
 
+/// Return how far from its centre a sphere meets a wall.
+double FixWallCarom::reach_of(int i) const {
+    // at a hollow wall R* is larger; the neck goes as its third root
+    return atom->radius[i] + 4.0 * carom_neck(bodies[atom->type[i]].cohesion, atom->radius[i]);
+}
+
 void FixWallCarom::act(int i, int k, double *memory) {
     const Region::Contact &met = region->contact[k];
     carom::Body wall{};
@@ -176,20 +227,27 @@ void FixWallCarom::act(int i, int k, double *memory) {
     batch.count = 1;
     batch.memories[0] = memory;
     batch.pairs[0] = pair_of(i, met.radius, memory);
-    const carom::Encounter now = carom::encounter(sphere, wall, update->dt, bodies[atom->type[i]].share);
+    const CaromBodies &known = bodies[atom->type[i]];
+    if (!(known.pair.modulus > 0.0))
+        error->one(FLERR, "fix wall/carom: spheres of type {} have no young, poisson or friction; "
+                          "give them by pair_coeff {} {} carom", atom->type[i], atom->type[i],
+                   atom->type[i]);
+    carom::Encounter now = carom::encounter(sphere, wall, update->dt, known.share);
+    if (known.cohesion) carom_cohere(known.cohesion, batch.pairs[0].radius, now);
     for (int lane = 0; lane < carom::lanes; ++lane) carom::set_one(batch.meetings, lane, now);
     carom_step(kind, batch, update->setupflag);
     if (batch.statuses[0] != carom::Status::ok)
         error->one(FLERR, "fix wall/carom: atom {}: {}", atom->tag[i],
                    carom::message(batch.statuses[0]));
-    const carom::Action action = carom::one_of(batch.actions, 0);
+    carom::Action action = carom::one_of(batch.actions, 0);
+    if (options.tangential) action.force = carom_aside(action.force, now.normal);
     carom_keep(memory, action.force, now.penetration);
     memory[KIND] = kind.number;
     carom_add(atom->f[i], 1.0, action.force);
     carom_add(atom->torque[i], 1.0, action.torque);
     carom_add(sums + FORCE_X, -1.0, action.force);
     sums[ELASTIC] += kind.stored(memory + SPRINGS);
-    if (!options.viscous)
+    if (!options.viscous && !options.tangential)
         sums[ELASTIC] += carom_pressed(batch.pairs[0], now.penetration);
     sums[FRICTION] += action.friction;
     sums[VISCOSITY] += action.viscosity;

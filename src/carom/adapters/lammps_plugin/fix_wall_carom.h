@@ -33,10 +33,14 @@ class FixWallCarom : public Fix {
     int maxsize_restart() override;
 
   private:
+    void read_words(int, char **);
+    void find_styles();
     bool lossy() const;
     double *slot_of(int, int);
+    PairCarom *style_of(int) const;
     carom::Pair pair_of(int, double, double *) const;
     void follow();
+    double reach_of(int) const;
     void act(int, int, double *);
     void part(double *);
 
@@ -46,7 +50,7 @@ class FixWallCarom : public Fix {
     CaromOptions options;
     CaromKind kind;
     bigint followed;  ///< last step at which the region was asked for its velocity
-    PairCarom *style;
+    std::vector<PairCarom *> styles;  ///< of the spheres: several in a hybrid
     class Region *region;
     double **memories;  ///< slots of each atom: the wall's number and 1, then a contact
     int slots, length;

@@ -4,13 +4,62 @@
 #include "kinds.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace LAMMPS_NS {
 namespace {
 
 template <class Kind> Kind &seen(double *memory) { return *reinterpret_cast<Kind *>(memory); }
 
-template <int N, class Real, unsigned P> CaromKind kind_of() {
+/// What the ledger of a viscous contact has entered for compression.
+template <class Kind> struct Compression {
+    double normal, power, stored = 0.0;
+
+    /// Of a contact as it is before a step: one that begins pressed has the energy of Hertz.
+    Compression(const Kind &contact, const carom::Pair &pair, double from)
+        : normal(contact.normal), power(contact.power) {
+        if (!(contact.spacing > 0))
+            stored = carom_pressed(pair, std::min(std::max(from, 0.0), pair.radius));
+    }
+
+    /// Take what a step has entered out of the ledger: the normal force is another style's.
+    void leave(Kind &contact, double approach, double step, carom::Action &action) const {
+        const bool parted = !(contact.spacing > 0);
+        const double lost = parted ? 0.0 : 0.5 * step * (contact.power + power);
+        const double work = 0.5 * step * (contact.normal + normal) * approach + stored;
+        if (!parted) contact.stored -= work - lost;
+        action.viscosity -= parted ? work : lost;
+    }
+};
+
+/// Step contacts whose ledger is that of the tangential part alone.
+template <class Kind> void advance_aside(CaromBatch &batch, void (*advance)(CaromBatch &)) {
+    std::vector<Compression<Kind>> before;
+    const auto approach_of = [](const carom::Encounter &now) {
+        return -carom::dot(now.velocity, now.normal);
+    };
+    for (int k = 0; k < batch.count; ++k) {
+        const carom::Encounter now = carom::one_of(batch.meetings, k);
+        before.emplace_back(seen<Kind>(batch.memories[k] + SPRINGS), batch.pairs[k],
+                            now.penetration - approach_of(now) * now.step);
+    }
+    advance(batch);
+    for (int k = 0; k < batch.count; ++k) {
+        if (batch.statuses[k] != carom::Status::ok) continue;
+        const carom::Encounter now = carom::one_of(batch.meetings, k);
+        carom::Action action = carom::one_of(batch.actions, k);
+        before[k].leave(seen<Kind>(batch.memories[k] + SPRINGS), approach_of(now), now.step, action);
+        carom::set_one(batch.actions, k, action);
+    }
+}
+
+template <class Kind> void advance_all(CaromBatch &batch) {
+    Kind *contacts[CaromBatch::most];
+    for (int k = 0; k < batch.count; ++k) contacts[k] = &seen<Kind>(batch.memories[k] + SPRINGS);
+    carom::advance(contacts, batch.pairs, batch.meetings, batch.actions, batch.statuses, batch.count);
+}
+
+template <int N, class Real, unsigned P> CaromKind kind_of(bool tangential) {
     using Kind = carom::ContactInSpace<N, Real, P>;
     static_assert(alignof(Kind) <= alignof(double), "it lies in doubles");
     CaromKind kind{};
@@ -24,21 +73,21 @@ template <int N, class Real, unsigned P> CaromKind kind_of() {
             return reinterpret_cast<const Kind *>(memory)->stored;
         return static_cast<void>(memory), 0.0;
     };
-    kind.advance = [](CaromBatch &batch) {
-        Kind *contacts[CaromBatch::most];
-        for (int k = 0; k < batch.count; ++k) contacts[k] = &seen<Kind>(batch.memories[k] + SPRINGS);
-        carom::advance(contacts, batch.pairs, batch.meetings, batch.actions, batch.statuses,
-                       batch.count);
-    };
+    kind.advance = advance_all<Kind>;
+    if constexpr (P == (carom::viscous | carom::ledger))
+        if (tangential)
+            kind.advance = [](CaromBatch &batch) { advance_aside<Kind>(batch, advance_all<Kind>); };
     kind.mirror = [](double *memory) { carom::mirror(seen<Kind>(memory)); };
     return kind;
 }
 
 template <int N, class Real> CaromKind of_parts(const CaromOptions &options) {
     using namespace carom;
+    const bool part = options.tangential;
     if (options.viscous)
-        return options.ledger ? kind_of<N, Real, viscous | ledger>() : kind_of<N, Real, viscous>();
-    return options.ledger ? kind_of<N, Real, ledger>() : kind_of<N, Real, elastic>();
+        return options.ledger ? kind_of<N, Real, viscous | ledger>(part)
+                              : kind_of<N, Real, viscous>(part);
+    return options.ledger ? kind_of<N, Real, ledger>(part) : kind_of<N, Real, elastic>(part);
 }
 
 template <int N> CaromKind of_precision(const CaromOptions &options) {

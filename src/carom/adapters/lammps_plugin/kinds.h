@@ -16,6 +16,7 @@ namespace LAMMPS_NS {
 struct CaromOptions {
     int springs = 16;
     bool single = true, ledger = false, viscous = false;
+    bool tangential = false;  ///< friction alone, beside a normal force of LAMMPS' own
 };
 
 // A contact in a history: the force on the first body and the penetration then, the retardation
@@ -61,6 +62,11 @@ CaromKind carom_kind(const CaromOptions &);
 /// Bring contacts to the end of a step. While LAMMPS sets up a run nothing moves: a contact that is
 /// as it was has the force that it had.
 void carom_step(const CaromKind &, CaromBatch &, bool setup);
+
+/// Return the part of a force along the surface.
+inline carom::Vector carom_aside(const carom::Vector &force, const carom::Vector &normal) {
+    return carom::plus(force, -carom::dot(force, normal), normal);
+}
 
 /// Keep what the next setup needs.
 inline void carom_keep(double *memory, const carom::Vector &force, double depth) {

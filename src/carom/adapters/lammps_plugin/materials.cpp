@@ -7,6 +7,27 @@
 #include <cmath>
 
 namespace LAMMPS_NS {
+namespace {
+
+/// Find the cohesion of two materials, by the geometric mean; false if theirs are not of one kind.
+bool cohere(const CaromMaterial &one, const CaromMaterial &other, const CaromMaterial &both,
+            CaromBodies &bodies) {
+    const auto of = [&](const CaromMaterial &own) {
+        const double modulus = bodies.pair.modulus;
+        if (own.jkr > 0.0) return carom_cohesion(CaromCohesion::jkr, own.jkr, modulus);
+        if (own.dmt > 0.0) return carom_cohesion(CaromCohesion::dmt, own.dmt, modulus);
+        if (own.pulloff > 0.0) return carom_cohesion(CaromCohesion::pulloff, own.pulloff, modulus);
+        return CaromCohesion{};
+    };
+    bodies.cohesion = of(both);
+    if (both.jkr >= 0.0 || both.dmt >= 0.0 || both.pulloff >= 0.0) return true;
+    const CaromCohesion first = of(one), second = of(other);
+    bodies.cohesion = carom_cohesion(first.kind, std::sqrt(first.value) * std::sqrt(second.value),
+                                     bodies.pair.modulus);
+    return first.kind == second.kind;
+}
+
+}  // namespace
 
 std::string carom_read(CaromMaterial &given, const std::string &word, double value) {
     struct Word {
@@ -23,6 +44,9 @@ std::string carom_read(CaromMaterial &given, const std::string &word, double val
         {"retardation", &CaromMaterial::retardation, within(0.0, 1e20), "must be from 0 to 1e20"},
         {"restitution", &CaromMaterial::restitution, within(0.01, 1.0), "must be from 0.01 to 1"},
         {"speed", &CaromMaterial::speed, within(1e-20, 1e20), "must be from 1e-20 to 1e20"},
+        {"jkr", &CaromMaterial::jkr, within(0.0, 1e20), "must be from 0 to 1e20"},
+        {"dmt", &CaromMaterial::dmt, within(0.0, 1e20), "must be from 0 to 1e20"},
+        {"pulloff", &CaromMaterial::pulloff, within(0.0, 1e20), "must be from 0 to 1e20"},
     };
     const CaromMaterial nothing;
     for (const Word &each : known)
@@ -31,7 +55,8 @@ std::string carom_read(CaromMaterial &given, const std::string &word, double val
             given.*each.place = value;
             return each.good ? "" : each.allowed;
         }
-    return "is not known; young, poisson, friction, retardation, restitution and speed are";
+    return "is not known; young, poisson, friction, retardation, restitution, speed, jkr, dmt and "
+           "pulloff are";
 }
 
 std::string carom_flaw(const CaromMaterial &given) {
@@ -39,11 +64,13 @@ std::string carom_flaw(const CaromMaterial &given) {
         return "give restitution and the speed at which it holds";
     if (given.restitution >= 0.0 && given.retardation >= 0.0)
         return "give retardation or restitution, not both";
+    if ((given.jkr >= 0.0) + (given.dmt >= 0.0) + (given.pulloff >= 0.0) > 1)
+        return "give one of jkr, dmt and pulloff";
     return "";
 }
 
-bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const CaromMaterial &both,
-                   CaromBodies &found) {
+std::string carom_combine(const CaromMaterial &one, const CaromMaterial &other,
+                          const CaromMaterial &both, CaromBodies &found) {
     const auto solid = [&](const CaromMaterial &own) {
         return carom::Material{both.young > 0.0 ? both.young : own.young,
                                both.poisson > -1.0 ? both.poisson : own.poisson};
@@ -52,7 +79,7 @@ bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const C
         both.friction >= 0.0 ? both.friction : std::sqrt(one.friction) * std::sqrt(other.friction);
     CaromMaterial mixed = both;
     if (both.retardation < 0.0 && both.restitution < 0.0) {
-        if ((one.restitution >= 0.0) != (other.restitution >= 0.0)) return false;
+        if ((one.restitution >= 0.0) != (other.restitution >= 0.0)) return "one has a restitution, the other none";
         if (one.restitution >= 0.0) {
             mixed.restitution = std::sqrt(one.restitution * other.restitution);
             mixed.speed = std::sqrt(one.speed * other.speed);
@@ -66,7 +93,7 @@ bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const C
     found.share = carom::share_of(solid(one), solid(other));
     found.loss = mixed.restitution >= 0.0 ? carom::loss_of(mixed.restitution) : 0.0;
     found.speed = mixed.speed;
-    return true;
+    return cohere(one, other, both, found) ? "" : "the cohesion is not of one kind";
 }
 
 double carom_retardation(const CaromBodies &bodies, const carom::Pair &pair) {

@@ -26,6 +26,8 @@ namespace {
 
 enum { ELASTIC, FRICTION, VISCOSITY, LOSSES };
 
+constexpr int restart_format = 1000003;  // raised when what a restart file holds changes
+
 /// Spheres as LAMMPS keeps them.
 struct Spheres {
     double **x, **v, **omega, *radius, *mass;
@@ -68,7 +70,17 @@ CaromMaterial LAMMPS_NS::carom_material(LAMMPS *lmp, const char *where, int narg
     return given;
 }
 
-PairCarom::PairCarom(LAMMPS *lmp) : Pair(lmp), kind{}, history(nullptr), dt(0.0) {
+std::vector<Pair *> LAMMPS_NS::carom_styles(Force *force, const char *name) {
+    std::vector<Pair *> styles;
+    for (int n = 1;; ++n) {
+        Pair *style = force->pair_match(name, 0, n);
+        if (!style || (!styles.empty() && style == styles.back())) return styles;
+        styles.push_back(style);
+    }
+}
+
+PairCarom::PairCarom(LAMMPS *lmp)
+    : Pair(lmp), kind{}, history_id("NEIGH_HISTORY_CAROM"), history(nullptr), dt(0.0) {
     single_enable = 1;
     single_extra = 4;
     svector = new double[single_extra];
@@ -82,14 +94,17 @@ PairCarom::PairCarom(LAMMPS *lmp) : Pair(lmp), kind{}, history(nullptr), dt(0.0)
     nextra = LOSSES;
     pvector = new double[LOSSES]();
     // holds the place of the history among the fixes, as it must come before those that move atoms
-    modify->add_fix("NEIGH_HISTORY_CAROM_DUMMY all DUMMY");
+    for (int n = 2; modify->get_fix_by_id(history_id) || modify->get_fix_by_id(history_id + "_DUMMY");
+         ++n)
+        history_id = fmt::format("NEIGH_HISTORY_CAROM_{}", n);  // of another carom in a hybrid
+    modify->add_fix(history_id + "_DUMMY all DUMMY");
 }
 
 PairCarom::~PairCarom() {
     delete[] svector;
     delete[] pvector;
     if (copymode) return;
-    modify->delete_fix(history ? "NEIGH_HISTORY_CAROM" : "NEIGH_HISTORY_CAROM_DUMMY");
+    modify->delete_fix(history ? history_id : history_id + "_DUMMY");
     if (allocated) {
         memory->destroy(setflag);
         memory->destroy(cutsq);
@@ -121,10 +136,12 @@ void PairCarom::settings(int narg, char **arg) {
             options.single = value == "single";
         } else if (name == "ledger") {
             options.ledger = utils::logical(FLERR, arg[i + 1], false, lmp);
+        } else if (name == "part" && (value == "all" || value == "tangential")) {
+            options.tangential = value == "tangential";
         } else {
             error->all(FLERR,
                        "pair_style carom: {} {} is not known; springs 16, 32 or 64, precision "
-                       "single or double, ledger yes or no",
+                       "single or double, ledger yes or no, part all or tangential",
                        name, value);
         }
     }
@@ -142,6 +159,10 @@ void PairCarom::coeff(int narg, char **arg) {
     utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
     utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
     const CaromMaterial given = carom_material(lmp, "pair_coeff of carom", narg - 2, arg + 2);
+    const bool coheres = given.jkr >= 0.0 || given.dmt >= 0.0 || given.pulloff >= 0.0;
+    if (coheres && !options.tangential)
+        error->all(FLERR, "pair_coeff of carom: jkr, dmt and pulloff go with part tangential, beside "
+                          "a pair_style that has such a normal force");
     for (int i = ilo; i <= ihi; ++i)
         for (int j = std::max(jlo, i); j <= jhi; ++j) {
             CaromMaterial &now = materials[i][j];
@@ -152,6 +173,11 @@ void PairCarom::coeff(int narg, char **arg) {
                 now.retardation = given.retardation;
                 now.restitution = given.restitution;
                 now.speed = given.speed;
+            }
+            if (coheres) {
+                now.jkr = given.jkr;
+                now.dmt = given.dmt;
+                now.pulloff = given.pulloff;
             }
             setflag[i][j] = 1;
         }
@@ -165,6 +191,9 @@ void PairCarom::require() const {
     const std::string units = update->unit_style;
     if (units != "si" && units != "cgs" && units != "lj" && units != "micro" && units != "nano")
         error->all(FLERR, "pair_style carom needs units si, cgs, lj, micro or nano, not {}", units);
+    if (options.tangential && force->pair == this)
+        error->all(FLERR, "pair_style carom part tangential has no normal force; give pair_style "
+                          "hybrid/overlay granular carom part tangential");
     for (int i = 1; force->pair == this && i <= atom->ntypes; ++i) require_material(i);
 }
 
@@ -190,7 +219,8 @@ void PairCarom::init_style() {
     rigid.clear();
     for (Fix *fix : modify->get_fix_list())
         if (fix->rigid_flag) rigid.push_back(fix);
-    if (options.viscous && !options.ledger && comm->me == 0)
+    beside_read = false;
+    if (options.viscous && !options.ledger && !options.tangential && comm->me == 0)
         error->warning(FLERR, "pair_style carom: with losses, energies of contacts are told by "
                               "ledger yes only; pe and compute pair are 0 now");
     if (history && stored_doubles != kind.doubles)
@@ -199,9 +229,9 @@ void PairCarom::init_style() {
     stored_doubles = kind.doubles;
     if (!history) {
         const auto command =
-            fmt::format("NEIGH_HISTORY_CAROM all NEIGH_HISTORY {}", SPRINGS + kind.doubles);
-        history = static_cast<NeighHistory *>(
-            modify->replace_fix("NEIGH_HISTORY_CAROM_DUMMY", command, 1));
+            fmt::format("{} all NEIGH_HISTORY {}", history_id, SPRINGS + kind.doubles);
+        history =
+            static_cast<NeighHistory *>(modify->replace_fix(history_id + "_DUMMY", command, 1));
         history->pair = this;
         history->use_bit_flag = 0;
     }
@@ -230,18 +260,53 @@ void PairCarom::check_steps(const char *where, double retardation) const {
                           "give pair_style carom precision double", where, retardation);
 }
 
+/// Read what granular styles say of the constants of both.
+void PairCarom::read_granular() {
+    beside.clear();
+    for (Pair *style : carom_styles(force, "^granular"))
+        beside.emplace_back(style, atom->ntypes);
+    for (const GranularConstants &each : beside)
+        if (!each.readable && comm->me == 0)
+            error->warning(FLERR, "pair_style carom: this LAMMPS writes the constants of granular in "
+                                  "another way, they are not compared with those of carom");
+    if (beside.empty() && carom_styles(force, "^gran").empty())
+        error->all(FLERR, "pair_style carom part tangential: no other style gives a normal force; "
+                          "give pair_style hybrid/overlay granular carom part tangential");
+    if (beside.empty() && comm->me == 0)
+        error->warning(FLERR, "pair_style carom: only constants of granular are compared with ours; see "
+                              "to it that those of the other style agree, and its friction is 0");
+    beside_read = true;
+}
+
+/// Stop LAMMPS if what stands in two pair_coeff lines differs.
+void PairCarom::compare(int i, int j) const {
+    std::string wrong;
+    for (const GranularConstants &each : beside) {
+        wrong = each.readable ? each.difference(i, j, materials[i][j], bodies[i][j]) : "";
+        if (wrong.empty() || each.has(i, j)) break;
+    }
+    if (!wrong.empty())
+        error->all(FLERR, "pair_style carom part tangential: types {} and {}: {}", i, j, wrong);
+}
+
 double PairCarom::init_one(int i, int j) {
-    require_material(i);
-    require_material(j);
-    if (!carom_combine(materials[i][i], materials[j][j], materials[i][j], bodies[i][j]))
-        error->all(FLERR,
-                   "pair_style carom: of types {} and {} one has a restitution, the other none; give "
-                   "pair_coeff {} {} a restitution and speed, or a retardation",
-                   i, j, i, j);
+    if (i == j || !materials[i][j].complete()) {
+        require_material(i);
+        require_material(j);
+    }
+    const std::string wrong =
+        carom_combine(materials[i][i], materials[j][j], materials[i][j], bodies[i][j]);
+    if (!wrong.empty())
+        error->all(FLERR, "pair_style carom: of types {} and {} {}; say by pair_coeff {} {} what "
+                          "holds for both", i, j, wrong, i, j);
+    if (options.tangential) {
+        if (!beside_read) read_granular();
+        compare(i, j);
+    }
     check_steps("pair_style carom", bodies[i][j].pair.retardation);
     bodies[j][i] = bodies[i][j];
     bodies[j][i].share = 1.0 - bodies[i][j].share;
-    return radii[i] + radii[j];
+    return radii[i] + radii[j] + carom_neck(bodies[i][j].cohesion, std::max(radii[i], radii[j]));
 }
 
 /// Tell every sphere, ghosts too, what it weighs with the rigid body that it is part of.
@@ -346,6 +411,11 @@ void PairCarom::meet(Meetings &met) {
             if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, batch.pairs[k]);
         }
         if (known.loss > 0.0) batch.pairs[k].retardation = memory[RETARDATION];
+        if (known.cohesion) {
+            carom::Encounter now = carom::one_of(batch.meetings, k);
+            carom_cohere(known.cohesion, batch.pairs[k].radius, now);
+            carom::set_one(batch.meetings, k, now);
+        }
     }
 }
 
@@ -361,8 +431,10 @@ void PairCarom::apply(Meetings &met) {
         const bool both = newton || j < nlocal;
         const int lane = k % carom::lanes;
         const carom::Actions &actions = batch.actions[k / carom::lanes];
-        const carom::Vector force = carom::in_lane(actions.force, lane);
-        const double depth = carom::in_lane(batch.meetings[k / carom::lanes].penetration, lane);
+        const carom::Encounters &meetings = batch.meetings[k / carom::lanes];
+        carom::Vector force = carom::in_lane(actions.force, lane);
+        if (options.tangential) force = carom_aside(force, carom::in_lane(meetings.normal, lane));
+        const double depth = carom::in_lane(meetings.penetration, lane);
         carom_keep(batch.memories[k], force, depth);
         carom_add(atom->f[i], 1.0, force);
         carom_add(atom->torque[i], 1.0, carom::in_lane(actions.torque, lane));
@@ -370,14 +442,14 @@ void PairCarom::apply(Meetings &met) {
             carom_add(atom->f[j], -1.0, force);
             carom_add(atom->torque[j], 1.0, carom::in_lane(actions.other_torque, lane));
         }
-        if (evflag || options.ledger) tally(met, k, both ? 1.0 : 0.5);
+        if (evflag || options.ledger) tally(met, k, force, both ? 1.0 : 0.5);
         *met.touches[k] = depth > 0.0;
         if (!*met.touches[k]) std::fill_n(batch.memories[k], SPRINGS + kind.doubles, 0.0);
     }
 }
 
 /// Enter energies and the virial; of a pair that two processors compute each has half.
-void PairCarom::tally(const Meetings &met, int k, double share) {
+void PairCarom::tally(const Meetings &met, int k, const carom::Vector &f, double share) {
     const carom::Action action = carom::one_of(met.batch.actions, k);
     const double depth = carom::one_of(met.batch.meetings, k).penetration;
     losses[FRICTION] += share * action.friction;
@@ -385,9 +457,8 @@ void PairCarom::tally(const Meetings &met, int k, double share) {
     if (!evflag || depth <= 0.0) return;
     const int i = met.one[k], j = met.other[k];
     double energy = kind.stored(met.batch.memories[k] + SPRINGS);
-    if (!options.viscous) energy += carom_pressed(met.batch.pairs[k], depth);
+    if (presses()) energy += carom_pressed(met.batch.pairs[k], depth);
     pvector[ELASTIC] += share * energy;
-    const carom::Vector &f = action.force;
     const double *one = atom->x[i], *other = atom->x[j];
     ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0.0, f[0], f[1], f[2],
                  one[0] - other[0], one[1] - other[1], one[2] - other[2]);
@@ -422,7 +493,7 @@ double PairCarom::single(int i, int j, int, int, double rsq, double, double, dou
     svector[3] = std::sqrt(carom::dot(aside, aside));
     carom::Pair pair = bodies[atom->type[i]][atom->type[j]].pair;
     pair.radius = spheres.radius_of(i, j);
-    return kind.stored(memory + SPRINGS) + (options.viscous ? 0.0 : carom_pressed(pair, now.penetration));
+    return kind.stored(memory + SPRINGS) + (presses() ? carom_pressed(pair, now.penetration) : 0.0);
 }
 
 void PairCarom::transfer_history(double *source, double *target, int, int) {
@@ -458,10 +529,18 @@ void PairCarom::read_restart(FILE *file) {
 }
 
 void PairCarom::write_restart_settings(FILE *file) {
+    fwrite(&restart_format, sizeof(int), 1, file);
     fwrite(&options, sizeof(CaromOptions), 1, file);
 }
 
-void PairCarom::read_restart_settings(FILE *file) { read(file, &options, sizeof(CaromOptions)); }
+void PairCarom::read_restart_settings(FILE *file) {
+    int format = 0;
+    read(file, &format, sizeof(int));
+    if (format != restart_format)
+        error->all(FLERR, "pair_style carom: the restart file is of another version of Carom; go on "
+                          "from it with that version, or from a data file");
+    read(file, &options, sizeof(CaromOptions));
+}
 
 /// Read on the first processor, and tell all.
 void PairCarom::read(FILE *file, void *target, int size) {

@@ -4,10 +4,12 @@
 #ifndef CAROM_PAIR_CAROM_H
 #define CAROM_PAIR_CAROM_H
 
+#include <string>
 #include <vector>
 
 #include "atom.h"
 #include "fix.h"
+#include "granular.h"
 #include "kinds.h"
 #include "materials.h"
 #include "pair.h"
@@ -24,6 +26,9 @@ class NeighHistory : public Fix {
 };
 
 CaromMaterial carom_material(class LAMMPS *, const char *where, int, char **);
+
+/// Return all pair styles of a name, of a hybrid or alone.
+std::vector<class Pair *> carom_styles(class Force *, const char *name);
 
 class PairCarom : public Pair {
   public:
@@ -62,14 +67,17 @@ class PairCarom : public Pair {
     void allocate();
     void require() const;
     void require_material(int) const;
+    void read_granular();
+    void compare(int, int) const;
     void find_radii();
     void find_masses();
     void find_met(int, Meetings &);
     void step(Meetings &);
     void meet(Meetings &);
     void apply(Meetings &);
-    void tally(const Meetings &, int, double);
+    void tally(const Meetings &, int, const carom::Vector &, double);
     const double *remembered(int, int) const;
+    bool presses() const { return !options.viscous && !options.tangential; }
     void read(FILE *, void *, int);
 
     CaromKind kind;
@@ -77,6 +85,9 @@ class PairCarom : public Pair {
     std::vector<double> radii, masses;
     std::vector<class Fix *> rigid;
     double losses[3] = {0.0, 0.0, 0.0};
+    std::vector<GranularConstants> beside;  ///< of the styles that give the normal force
+    bool beside_read = false;
+    std::string history_id;
     NeighHistory *history;
     int stored_doubles = 0;  ///< of a contact, as the history was made
     double dt;

@@ -5,7 +5,8 @@
 //     pair_style gran model hertz tangential carom springs 16
 //
 // It is compiled with LIGGGHTS, with the folder `carom` of headers beside it. The normal force is
-// that of the model hertz, with a coefficient of restitution of 1.
+// that of the model hertz, with a coefficient of restitution of 1; or, with `part_tangential on`,
+// with any damping, cohesion and rolling friction: these leave the limit of friction as it is.
 #ifdef TANGENTIAL_MODEL
 TANGENTIAL_MODEL(TANGENTIAL_CAROM,carom,20)
 #else
@@ -62,6 +63,7 @@ template <> class TangentialModel<TANGENTIAL_CAROM> : public TangentialModelBase
 
     void registerSettings(Settings &settings) {
         settings.registerDoubleSetting("springs", springs, 16.0);
+        settings.registerOnOff("part_tangential", part_tangential, false);
     }
 
     void postSettings(IContactHistorySetup *setup, ContactModelBase *) {
@@ -102,9 +104,11 @@ template <> class TangentialModel<TANGENTIAL_CAROM> : public TangentialModelBase
         // what the models before this one have added; cohesion may leave met.Fn as it was
         const carom::Vector added = {one.delta_F[0], one.delta_F[1], one.delta_F[2]};
         const double excess = carom::dot(added, now.normal) - share * normal;
-        if (!(std::fabs(excess) <= 1e-4 * share * normal))
+        if (!part_tangential && !(std::fabs(excess) <= 1e-4 * share * normal))
             fail("the normal force must be that of elastic spheres: model hertz, without cohesion, "
-                 "coefficientRestitution 1");
+                 "coefficientRestitution 1; or give part_tangential on");
+        if (part_tangential && !(std::fabs(met.kn * met.deltan - normal) <= 1e-4 * normal))
+            fail("part_tangential on takes the limit of friction from Hertz's depth: model hertz");
         const carom::Vector force = carom::plus(action.force, -normal, now.normal);
         add(one, share, force, action.torque);
         if (!met.is_wall) add(other, 1.0, carom::times(-1.0, force), action.other_torque);
@@ -162,6 +166,7 @@ template <> class TangentialModel<TANGENTIAL_CAROM> : public TangentialModelBase
     }
 
     double springs = 16.0;
+    bool part_tangential = false;
     CaromKind kind{};
     int side = 0;  ///< place in the history: 1, or -1 if it was the other sphere's; then the contact
     double **modulus = nullptr, **shear_modulus = nullptr, **friction = nullptr;
