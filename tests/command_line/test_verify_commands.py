@@ -125,7 +125,61 @@ def test_tune_a_case_between_angles(verify, pair):
     table = verify("tune", "ball.toml", *options)[1]
     micro = 1e6 * record["duration"]
     assert f"normal speed of {speed:.4g} m/s the contact lasts {micro:.4g} µs; " in table
-    assert all(text in table for text in record["inputs"].values())
+    lines = [line for text in record["inputs"].values() for line in text.splitlines()]
+    assert all(line in table for line in lines)
+
+
+BALL = """friction = 0.2
+speed = "1 m/s"
+angle = "10 deg"
+[first]
+radius = "5 mm"
+material = "steel"
+"""
+
+
+def test_laws_say_how_ones_own_ball_leaves(verify):
+    """With `mindlin` at 9.5 degrees instead of 7.3, with 18 % of the spin, as the README says."""
+    Path("ball.toml").write_text(BALL)
+    code, out, _ = verify("laws", "--case", "ball.toml", "--law", "mindlin", "--json")
+    own = json.loads(out)["own_impact"]
+    steel = {"material": "steel"}
+    ball = carom.Sphere(radius="5 mm", **steel)
+    hit = carom.impact(
+        carom.Pair(ball, carom.HalfSpace(**steel), friction=0.2), speed=1.0, angle="10 deg"
+    )
+    exact, (mindlin,) = own["exact"], own["laws"]
+    assert code == 0
+    assert exact == pytest.approx(
+        {name: getattr(hit, name) for name in ("psi_out", "rebound_angle", "spin_out")}
+    )
+    assert np.degrees([hit.rebound_angle, mindlin["rebound_angle"]]).round(1).tolist() == [7.3, 9.5]
+    assert mindlin["spin_out"] / hit.spin_out == pytest.approx(0.18, abs=0.005)
+    table = verify("laws", "--case", "ball.toml", "--law", "mindlin")[1].splitlines()
+    assert table[2].split()[:2] == ["exact", "7.25"]
+    assert table[3].split()[:2] == ["mindlin", "9.51"]
+
+
+@pytest.mark.parametrize("losses", ["", "restitution = 0.8\n"])
+def test_laws_of_a_case_are_those_of_its_numbers(verify, losses):
+    """Damped for its restitution; two balls with spins leave as momentum and psi_2 have it."""
+    second = '[second]\nkind = "sphere"\nradius = "3 mm"\nmaterial = "steel"\n'
+    Path("ball.toml").write_text(f"{losses}spin = 100\nspin2 = -30\n{BALL}{second}")
+    record = json.loads(verify("laws", "--case", "ball.toml", *ONE, "--json")[1])
+    e = 0.8 if losses else 1.0
+    one, two = (carom.Sphere(radius=radius, material="steel") for radius in ("5 mm", "3 mm"))
+    pair = carom.Pair(one, two, friction=0.2)
+    wanted = {} if e == 1.0 else {"restitution": e}
+    bare = rank([carom.dem.LammpsMindlin("mindlin")], chi=pair.chi, kappa=pair.kappa, **wanted)
+    assert record["laws"][0]["max_error"] == bare.standings[0].max_error
+    losing = None if e == 1.0 else carom.KelvinVoigt(restitution=e)
+    hit = carom.impact(pair, speed=1.0, angle="10 deg", spin=100, spin2=-30, losses=losing)
+    own = record["own_impact"]
+    assert own["exact"]["spin_out"] == pytest.approx(hit.spin_out, rel=1e-12)
+    (law,) = own["laws"]
+    share = (law["psi_out"] - hit.psi_in) / (hit.psi_out - hit.psi_in)  # of the impulse
+    spin = hit.spin + share * (hit.spin_out - hit.spin)
+    assert law["spin_out"] == pytest.approx(spin, rel=1e-9)
 
 
 @pytest.mark.usefixtures("few_laws")

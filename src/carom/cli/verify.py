@@ -27,14 +27,18 @@ app = Commands(
 )
 
 LAWS_OPTIONS = {
-    "chi": "Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; the default is "
-    "that of solid spheres with Poisson's ratio 0.3.",
+    "case": file_option(
+        "Case file, as for carom impact, with your bodies; if it has a speed, each law also says "
+        "how they would leave."
+    ),
+    "chi": "Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive (default: that of "
+    "the case, or of solid spheres with Poisson's ratio 0.3).",
     "kappa": "Stiffness ratio kappa = G*/E* (default: that of solid spheres, 4 chi/7).",
     "psi": "Incidence psi_1 = kappa V_x/(mu V_1) at which laws are compared (default: 15 from 0.1 "
     "to 6). You can repeat this option.",
     "law": "Rank only this law, e.g. mindlin_rescale.",
     "restitution": "Give all laws the damping for this normal coefficient of restitution, e.g. "
-    "0.9 (default: no damping).",
+    "0.9 (default: that of the case, or no damping).",
     "output": "Store the ranking: .csv or .nc.",
     "error_map": typer.Option(
         "--map",
@@ -46,7 +50,8 @@ LAWS_OPTIONS = {
 
 @described(LAWS_OPTIONS)
 def laws_command(
-    chi: str = "1.4412",
+    case: str | None = None,
+    chi: str | None = None,
     kappa: str | None = None,
     psi: list[str] | None = None,
     law: str | None = None,
@@ -64,28 +69,45 @@ def laws_command(
 
     \b
     Example: carom verify laws
+    How far off am I: carom verify laws --case glass.toml
     Damped laws, compared at equal restitution: carom verify laws --restitution 0.7
     Thin shells on a wall: carom verify laws --chi 1.0294 --kappa 0.8235 --plot laws.png
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
     from carom.dem.damping import damped_restitution
     from carom.verify.entries import named
-    from carom.verify.errors import INCIDENCES
+    from carom.verify.errors import INCIDENCES, SOLID_CHI
+    from carom.verify.own_impact import own_impact
+    from carom.verify.tuning import setting_of
 
     if error_map is not None and law is None:
         raise InputError("map: it shows one law; give --law, e.g. --law mindlin")
     if error_map is not None and (kappa is not None or psi):
         raise InputError("map: it shows solid spheres at all psi_1; leave --kappa and --psi out")
-    check_outputs({"plot": plot, "output": output, "map": error_map})
+    check_outputs({"plot": plot, "output": output, "map": error_map}, case=case)
     incidences = [finite("psi_in", value) for value in psi or INCIDENCES]
-    ratio = None if kappa is None else positive("kappa", kappa)
-    e = None if restitution is None else damped_restitution("restitution", restitution)
-    size = positive("chi", chi)
+    own = None
+    if case is None:
+        ratio = None if kappa is None else positive("kappa", kappa)
+        size = SOLID_CHI if chi is None else positive("chi", chi)
+        e = None if restitution is None else damped_restitution("restitution", restitution)
+    else:
+        content = read_case_file(case, losses=True)
+        setting = setting_of(content, chi, kappa, "0", None, restitution)
+        size, ratio, own = setting.chi, setting.kappa, own_impact(content, setting.restitution)
+        e = None if setting.restitution == 1.0 else setting.restitution
     ranking = carom.verify.rank(named(law), chi=size, kappa=ratio, psi_1=incidences, restitution=e)
     store(ranking, output, plot)
     if error_map is not None:
         stored(_store_map(ranking.standings[0].entry.law, error_map))
-    typer.echo(json.dumps(ranking.to_dict(), indent=2) if as_json else str(ranking))
+    if as_json:
+        laws = [(each.entry.label, each.entry.law) for each in ranking.standings]
+        told = {} if own is None else {"own_impact": own.to_dict(laws)}
+        typer.echo(json.dumps(ranking.to_dict() | told, indent=2))
+    elif own is None:
+        typer.echo(str(ranking))
+    else:
+        typer.echo(f"{own.of_ranking(ranking)}\nWhat to do about it: carom verify tune {case}")
 
 
 def _store_map(law: "Law", path: str) -> Path:
@@ -311,6 +333,8 @@ def tune_command(
     Example: carom verify tune examples/steel_ball.toml --from "5 deg" --to "60 deg"
     Without bodies: carom verify tune --chi 1.4412
     """
+    from carom.verify.entries import called
+    from carom.verify.own_impact import own_impact
     from carom.verify.tuning import setting_of
 
     content = None if case is None else read_case_file(case, losses=True)
@@ -323,8 +347,12 @@ def tune_command(
         "exact_law": _exact_law(setting.restitution),
     }
     scales = {"normal_speed": setting.normal_speed, "duration": setting.duration}
+    own = None if content is None else own_impact(content, setting.restitution)
     record = tuning.to_dict() | inputs | scales
-    typer.echo(json.dumps(record, indent=2) if as_json else _advice(tuning, record))
+    if own is not None:
+        record["own_impact"] = own.to_dict([(called(one.law), one.law) for one in tuning.advice])
+    table = str(tuning) if own is None else own.of_tuning(tuning)
+    typer.echo(json.dumps(record, indent=2) if as_json else _advice(table, record))
 
 
 def _inputs_of_codes(setting: "Setting", tuning: "Tuning") -> dict[str, str]:
@@ -347,8 +375,14 @@ def _exact_law(restitution: float) -> dict[str, str]:
     return {"LAMMPS": "pair_style carom", **elastic, "C++": "carom/contact.hpp"}
 
 
-def _advice(tuning: "Tuning", record: dict[str, Any]) -> str:
-    lines = [str(tuning)]
+def _advice(table: str, record: dict[str, Any]) -> str:
+    """Return what to do: the exact law where it can be had, then the closest of the others."""
+    inputs = dict(record["inputs"])
+    exact = ", ".join(f"{law} in {code}" for code, law in record["exact_law"].items())
+    lines = [f"The exact law itself needs no tuning: {exact}."]
+    if words := inputs.pop("LAMMPS, exact law", ""):
+        lines += [f"  {line}" for line in words.splitlines()]
+    lines.append(table)
     speed, duration = record["normal_speed"], record["duration"]
     if duration is not None:
         lines.append(
@@ -357,9 +391,7 @@ def _advice(tuning: "Tuning", record: dict[str, Any]) -> str:
             " steps."
         )
         lines.append("Inputs of DEM codes with these stiffnesses:")
-        lines += [f"  {code:26s} {text}" for code, text in record["inputs"].items()]
-    exact = ", ".join(f"{law} in {code}" for code, law in record["exact_law"].items())
-    lines.append(f"The exact law itself needs no tuning: {exact}.")
+        lines += [f"  {code:26s} {text}" for code, text in inputs.items()]
     return "\n".join(lines)
 
 

@@ -231,7 +231,7 @@ def recipes(
     Returns
     -------
     dict
-        Text by the name of the code and of its contact model.
+        Text by the name of the code and of its contact model; the exact law first, several lines.
 
     Raises
     ------
@@ -260,6 +260,7 @@ def recipes(
         loss, sideways, rule = e, mindlin.tangential_damping, "coeff_restitution"
     beta = damping_from_restitution(e, "thornton")
     return {
+        **_exact_law(pair, normal_speed, e),
         "LAMMPS Hertz": f"hertz {k.hertz:.4e} {loss:g} tangential {mindlin.variant}"
         f" {mindlin.stiffness * k.mindlin:.4e} {sideways:g} {mu:g} damping {rule}",
         "LAMMPS Hooke": f"hooke {k_n:.4e} {dashpot:.4e} tangential linear_history"
@@ -275,3 +276,19 @@ def recipes(
         f" slidingStiffness {k_t:.4e}",
         "MFiX linear": f"KN {k_n:.4e} KT_FAC {ratio:.4f} DES_EN_INPUT {e:g}",
     }
+
+
+def _exact_law(pair: Pair, normal_speed: float, restitution: float) -> dict[str, str]:
+    """Return the lines of LAMMPS with the exact law, unless a body is rigid; types are 1 and 2."""
+    one, two = pair.first.material, pair.second.material
+    if one.is_rigid or two.is_rigid:
+        return {}
+    friction = f"friction {pair.friction:g}"
+    damped = f" restitution {restitution:g} speed {normal_speed:.4g}" if restitution < 1.0 else ""
+    stuff = [f"young {each.young:.6g} poisson {each.poisson:g} " for each in (one, two)]
+    lines = ["pair_style carom", f"pair_coeff 1 1 {stuff[0]}{friction}{damped}"]
+    if len(pair.moving) == 1:
+        lines.append(f"fix walls all wall/carom {stuff[1]}{friction}{damped} region WALL")
+    elif stuff[0] != stuff[1]:
+        lines.append(f"pair_coeff 2 2 {stuff[1]}{friction}{damped}")
+    return {"LAMMPS, exact law": "\n".join(lines)}
