@@ -190,7 +190,7 @@ def test_all_commands_are_found():
     text = "impact curve fit sweep explore materials verify"
     of_verify = "laws lammps liggghts yade pack score tune"
     names = {command.split()[-1] for command in commands()}
-    assert names == {*text.split(), *of_verify.split(), "build"}
+    assert names == {*text.split(), *of_verify.split(), "build", "examples"}
 
 
 @pytest.mark.parametrize("command", list(commands()))
@@ -219,3 +219,15 @@ def test_a_sweep_of_which_nothing_is_solved_is_a_failure(run):
     assert code == 1
     assert "not solved as" in out
     assert err.splitlines()[-1].startswith("carom: 0 of 3 points are solved")
+
+
+def test_inputs_for_lammps_are_written_whole_into_a_new_folder(run):
+    code, out, _ = run("lammps", "examples", "inputs", "--json")
+    names = sorted(path.name for path in Path("inputs").iterdir())
+    assert (code, json.loads(out)) == (0, {"folder": "inputs", "files": names})
+    assert names == ["in.hopper", "in.impact", "in.settling", "in.shear"]
+    assert all("pair_style" in Path("inputs", name).read_text() for name in names)
+    code, _, err = run("lammps", "examples", "inputs")
+    assert code == 2
+    assert err == "carom: folder: 'inputs' cannot be used; it is not empty; give a new folder\n"
+    assert "lmp -in new/in.impact" in run("lammps", "examples", "new")[1]

@@ -1,15 +1,14 @@
-"""The inputs in `examples/lammps`, small: what they print is what physics says."""
+"""The inputs that `carom lammps examples` writes, small: what they print is what physics says."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import carom
+from carom.adapters.lammps import EXAMPLES
 
 pytestmark = pytest.mark.engine
-EXAMPLES = Path(__file__).parents[2] / "examples" / "lammps"
 STEEL = carom.Material(young=210e9, poisson=0.3, density=7850.0)
 
 

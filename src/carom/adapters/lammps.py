@@ -13,13 +13,22 @@ from typing import NamedTuple
 
 from carom.adapters import building
 from carom.adapters.building import Built
+from carom.io.paths import write_folder
 from carom.quantities.refusals import InputError, refusal, refuse
 
 SOURCES = building.HERE / "lammps_plugin"
+EXAMPLES = building.HERE / "lammps_examples"
 FLAGS = ("-std=c++17", "-O3", *building.MATH_FLAGS, "-fPIC", "-shared", "-fvisibility=hidden")
 SIZES = ("smallbig", "bigbig")  # of integers, as LAMMPS was built
 NAME = "caromplugin.so"  # LAMMPS loads *plugin.so
 COMMAND = "lammps build"
+
+
+def write_examples(folder: str | Path) -> list[str]:
+    """Write the inputs of the manual into a new or empty folder, and return their names."""
+    files = {path.name: path.read_bytes() for path in sorted(EXAMPLES.glob("in.*"))}
+    write_folder(folder, files)
+    return [*files]
 
 
 class Lammps(NamedTuple):

@@ -1,4 +1,4 @@
-"""`carom lammps build`, `carom liggghts build`: the exact contact law in DEM programs."""
+"""`carom lammps`, `carom liggghts build`: the exact contact law in DEM programs."""
 
 import json
 from pathlib import Path
@@ -10,15 +10,16 @@ from carom.cli.options import Commands, described
 
 lammps_app = Commands(
     "lammps",
-    "Use the exact contact law in LAMMPS, as pair_style carom.\n\n\b\nExample: carom lammps build",
+    "Use the exact contact law in LAMMPS, as pair_style carom.\n\n\b\n"
+    "Example: carom lammps build\n"
+    "Inputs to begin with: carom lammps examples inputs",
 )
 liggghts_app = Commands(
     "liggghts",
     "Use the exact contact law in LIGGGHTS, as tangential carom.\n\n\b\n"
     "Example: carom liggghts build --source liggghts_3.8.0.orig.tar.xz",
 )
-for app in (lammps_app, liggghts_app):  # `build` stays a command, although it is the only one
-    app.callback()(lambda: None)
+liggghts_app.callback()(lambda: None)  # `build` stays a command, although it is the only one
 
 LAMMPS = {
     "include": typer.Option(
@@ -28,6 +29,10 @@ LAMMPS = {
     ),
     "sizes": "Integer sizes with which you compiled your own LAMMPS: smallbig or bigbig.",
     "folder": "Folder for the plugin (default: the folder in which LAMMPS finds it by itself).",
+}
+EXAMPLES = {
+    "folder": typer.Argument(help="New or empty folder for the inputs."),
+    "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
 }
 LIGGGHTS = {
     "source": typer.Option(metavar="PATH", help="Folder or tarball of LIGGGHTS-PUBLIC 3.8.0."),
@@ -67,6 +72,27 @@ def lammps_command(
     if include or folder is not None:
         lines.append(f"Write this into the input: plugin load {built.path.resolve()}")
     _tell(built, as_json, lines)
+
+
+@lammps_app.command("examples")
+@described(EXAMPLES)
+def examples_command(folder: str, as_json: bool = False) -> None:
+    """Write inputs for LAMMPS that use the exact law.
+
+    They are an impact, spheres that settle in a box, a packing that is sheared, and a hopper. Each
+    prints what physics says of it.
+
+    \b
+    Example: carom lammps examples inputs
+    """
+    from carom.adapters import lammps as adapter
+
+    files = adapter.write_examples(folder)
+    if as_json:
+        typer.echo(json.dumps({"folder": folder, "files": files}, indent=2))
+        return
+    typer.echo(f"Carom has written {', '.join(files)} into {folder}.")
+    typer.echo(f"Run them after carom lammps build: lmp -in {folder}/{files[1]}")
 
 
 @liggghts_app.command("build")

@@ -9,7 +9,7 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
@@ -66,6 +66,29 @@ def checked_folder(folder: str | Path) -> tuple[Path, Path]:
     locked = not os.access(there, os.W_OK)
     refuse(locked and refusal("folder", str(target), f"{which} cannot be written to"))
     return target, real
+
+
+def write_folder(folder: str | Path, files: Mapping[str, bytes]) -> None:
+    """Write files into a new or empty folder, which appears whole or not at all.
+
+    Raises InputError if there is something in the folder, or it cannot be written.
+    """
+    _, target = checked_folder(folder)
+    full = target.is_dir() and any(target.iterdir())
+    refuse(full and refusal("folder", str(folder), "it is not empty; give a new folder"))
+    with accessing("folder", folder, "written"):
+        temporary = Path(tempfile.mkdtemp(prefix=".carom-", dir=target.parent))
+        try:
+            inner = temporary / target.name
+            for name, content in files.items():
+                path = inner / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(content)
+            if target.exists():
+                target.rmdir()
+            os.replace(inner, target)
+        finally:
+            shutil.rmtree(temporary, ignore_errors=True)
 
 
 def opened(path: Path, mode: str = "r", **how: Any) -> Any:

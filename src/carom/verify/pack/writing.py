@@ -2,9 +2,6 @@
 
 import hashlib
 import json
-import os
-import shutil
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -14,8 +11,7 @@ import numpy as np
 from carom.bodies.cases import pair_of
 from carom.dem import LammpsMindlin, LiggghtsHertz
 from carom.dem.base import ContactLaw
-from carom.io.paths import accessing, checked_folder
-from carom.quantities.refusals import refusal, refuse
+from carom.io.paths import write_folder
 from carom.verify.engines.arrangement import template
 from carom.verify.engines.experiments import Experiment
 from carom.verify.engines.lammps import Lammps
@@ -64,24 +60,8 @@ def write_pack(folder: str | Path) -> tuple[str, ...]:
     >>> "wall/reference.csv" in files
     True
     """
-    _, target = checked_folder(folder)
-    full = target.is_dir() and any(target.iterdir())
-    allowed = "it is not empty; give a new folder, or empty it"
-    refuse(full and refusal("folder", str(folder), allowed))
     files = pack_files()
-    with accessing("folder", folder, "written"):
-        temporary = Path(tempfile.mkdtemp(prefix=".carom-", dir=target.parent))
-        try:
-            inner = temporary / target.name
-            for name, text in files.items():
-                path = inner / name
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_bytes(text.encode("utf-8"))
-            if target.exists():
-                target.rmdir()
-            os.replace(inner, target)
-        finally:
-            shutil.rmtree(temporary, ignore_errors=True)
+    write_folder(folder, {name: text.encode("utf-8") for name, text in files.items()})
     return tuple(files)
 
 
