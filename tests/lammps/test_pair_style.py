@@ -98,6 +98,18 @@ def test_losses_by_restitution_at_a_speed_and_by_time(lammps):
     np.testing.assert_allclose(by_time, by_e, atol=1e-6)
 
 
+@pytest.mark.parametrize("asked", [False, True])
+def test_energies_that_losses_leave_untold_are_warned_of_where_they_are_asked_for(lammps, asked):
+    compute = "compute energies all pair carom\n" * asked
+    printed = lammps(
+        f"{HEAD}region box block -1 1 -1 1 -1 1\ncreate_box 1 box\ncreate_atoms 1 single 0 0 0\n"
+        f"set group all diameter 0.01 density 1000\npair_style carom\npair_coeff * * "
+        f"{words(**SOLID, restitution=0.8, speed=SPEED)}\n{compute}run 0\n"
+    )
+    assert ("told by ledger yes only" in printed) == asked
+    assert ("WARNING: pair_style carom" in printed) == asked
+
+
 GRANULAR = f"hertz/material 210e9 {{}} 0.3 tangential linear_nohistory 0.0 {FRICTION} damping "
 
 

@@ -220,7 +220,8 @@ void PairCarom::init_style() {
     for (Fix *fix : modify->get_fix_list())
         if (fix->rigid_flag) rigid.push_back(fix);
     beside_read = false;
-    if (options.viscous && !options.ledger && !options.tangential && comm->me == 0)
+    const bool asked = !modify->get_compute_by_style("^pair$").empty();
+    if (asked && options.viscous && !options.ledger && !options.tangential && comm->me == 0)
         error->warning(FLERR, "pair_style carom: with losses, energies of contacts are told by "
                               "ledger yes only; pe and compute pair are 0 now");
     if (history && stored_doubles != kind.doubles)
