@@ -10,6 +10,10 @@
 //
 // prints the force on spheres that slide in one step, pressed and at each rate of approach, against
 // the slide and in parts of Coulomb's limit.
+//
+//     in_liggghts SPRINGS part COHESION
+//
+// prints that force on spheres that slide, with `part_tangential on`.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -34,12 +38,12 @@ struct Impact {
     IContactHistorySetup setup;
     TangentialModel<TANGENTIAL_CAROM> model{&lammps, &setup, nullptr};
     double tables[3] = {modulus, 0.25 * kappa * modulus, friction};
+    PropertyRegistry registry{{&tables[0], &tables[1], &tables[2]}};
     std::vector<double> memory;
     double cohesion;
 
-    Impact(double springs, double share) : cohesion(share) {
-        Settings settings{springs};
-        PropertyRegistry registry{{&tables[0], &tables[1], &tables[2]}};
+    Impact(double springs, double share, bool part = false) : cohesion(share) {
+        Settings settings{springs, part};
         model.registerSettings(settings);
         model.postSettings(&setup, nullptr);
         model.connectToProperties(registry);
@@ -68,6 +72,7 @@ struct Impact {
         for (std::size_t k = 0; k < 3; ++k) met.en[k] = normal[k];
         const double hertz =
             4.0 / 3.0 * modulus * std::sqrt(0.5 * radius) * std::pow(met.deltan, 1.5);
+        met.kn = hertz / met.deltan;
         ForceData one, other;
         for (std::size_t k = 0; k < 3; ++k) {
             one.delta_F[k] = (1.0 - cohesion) * hertz * normal[k];
@@ -120,6 +125,10 @@ int main(int, char **given) try {
     if (std::strcmp(given[2], "held") == 0) {
         for (char **rate = given + 4; *rate; ++rate)
             std::printf("%.17g\n", Impact(springs, 0.0).held(std::atof(given[3]), std::atof(*rate)));
+        return 0;
+    }
+    if (std::strcmp(given[2], "part") == 0) {
+        std::printf("%.17g\n", Impact(springs, std::atof(given[3]), true).held(1e9, 0.0));
         return 0;
     }
     const double cohesion = std::atof(given[4]);

@@ -42,7 +42,9 @@ inline void createCoeffFrict() {}
 
 struct Settings {
     double given;
+    bool on;
     void registerDoubleSetting(const std::string &, double &value, double) { value = given; }
+    void registerOnOff(const std::string &, bool &value, bool) { value = on; }
 };
 
 struct PropertyRegistry {
@@ -76,7 +78,7 @@ struct SurfacesCloseData {
     double *omega_i, *omega_j;
 };
 struct SurfacesIntersectData : SurfacesCloseData {
-    double en[3], vn, deltan, cri, crj, vtr1, vtr2, vtr3, meff;
+    double en[3], vn, kn, deltan, cri, crj, vtr1, vtr2, vtr3, meff;
 };
 struct ForceData {
     double delta_F[3] = {0, 0, 0}, delta_torque[3] = {0, 0, 0};

@@ -75,6 +75,13 @@ def test_model_refuses_other_springs_and_cohesion(model):
     assert "the normal force must be that of elastic spheres" in model(32, 100, 0, 1e-3, 1.0)
 
 
+@compiles
+@pytest.mark.parametrize("share", [0.0, 0.3, -0.5])
+def test_the_tangential_part_limits_friction_by_the_depth_alone(model, share):
+    """Whatever cohesion or damping do to the normal force; the force stays on the tangent."""
+    assert float(model(16, "part", share)) == pytest.approx(1.0, rel=1e-6)
+
+
 @pytest.fixture
 def sources(tmp_path):
     """A LIGGGHTS of one file, which prints what it was told, and what C++17 refuses of it."""
