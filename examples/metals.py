@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 import carom
-from carom.bodies.losses import yield_velocity
+from carom.bodies.strengths import yield_velocity
 from carom.plots.legends import legend_above
 from carom.plots.style import (
     BLACK,

@@ -2,20 +2,18 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from functools import lru_cache, partial, reduce
-from math import pi
+from functools import lru_cache, partial
 from typing import Any, ClassVar
 
 import numpy as np
 
 from carom.bodies.materials import set_fields
 from carom.bodies.pairs import Pair, Scales
+from carom.bodies.strengths import lowest_strength, yield_velocity, yielding_modulus
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.springs.metal import YIELD_PRESSURE
 from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.io.citations import PLATE, VISCOUS
 from carom.quantities.arrays import numbers
-from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import Value, not_negative, positive, within
@@ -34,7 +32,6 @@ READERS: dict[str, Callable[[str, Any], float]] = {
     "inelasticity": partial(within, least=0.0, most=LARGEST_INELASTICITY),
 }
 LARGEST_STRAIN = 0.05  # Y/E' of a metal, twice that of the strongest glasses
-NO_STRENGTH = "{}: missing; give it, or a yield_strength of a material"
 
 _viscous_loss: Callable[[float], float] = lru_cache(maxsize=4096)(viscous_loss)
 
@@ -373,39 +370,6 @@ class ZenerPlate(LossLaw):
         many = np.ndim(self.inelasticity) and "give one, or use carom.sweep"
         refuse(many and refusal("losses", self, many))
         return LossNumbers(Loss.PLATE, float(self.inelasticity) / ZENER)
-
-
-def yield_velocity(pair: Pair, strength: Any = None) -> float:
-    """Return the normal velocity in m/s at which the largest pressure is 1.6 yield strengths.
-
-    p_0 = (2 E*/pi) sqrt(d_max/R*) = 1.6 Y, V_y^2 = (16/15) E* sqrt(R*) d_max^(5/2)/m_n.
-
-    Johnson (1985), (11.21); Thornton (1997).
-    """
-    if strength is None:
-        strength = lowest_strength(pair, "yield_velocity")
-    ratio = pi * YIELD_PRESSURE * strength / (2.0 * pair.effective_modulus)
-    length = pair.effective_radius * ratio**2
-    stiffness = 16.0 / 15.0 * pair.effective_modulus * sqrt(pair.effective_radius)
-    return sqrt(stiffness * length**2.5 / pair.normal_mass)
-
-
-def lowest_strength(pair: Pair, wanted: str) -> Any:
-    """Return the lower yield strength in Pa; `wanted` is what may be given in its place."""
-    bodies = (pair.first.material, pair.second.material)
-    strengths = [body.yield_strength for body in bodies if body.yield_strength is not None]
-    refuse(not strengths and NO_STRENGTH.format(wanted))
-    return reduce(np.fmin, strengths)
-
-
-def yielding_modulus(pair: Pair) -> Any:
-    """Return E/(1 - nu^2) in Pa of the body of lower strength, or else the lower one."""
-    bodies = (pair.first.material, pair.second.material)
-    one, other = (body.young / (1.0 - body.poisson**2) for body in bodies)
-    known = [np.nan if body.yield_strength is None else body.yield_strength for body in bodies]
-    weak, strong = np.nan_to_num(known[0], nan=np.inf), np.nan_to_num(known[1], nan=np.inf)
-    lower = np.where(strong < weak, other, np.fmin(one, other))
-    return np.where(weak < strong, one, lower)[()]
 
 
 def _alphas(restitution: Any) -> Any:
