@@ -80,7 +80,7 @@ std::vector<Pair *> LAMMPS_NS::carom_styles(Force *force, const char *name) {
 }
 
 PairCarom::PairCarom(LAMMPS *lmp)
-    : Pair(lmp), kind{}, history_id("NEIGH_HISTORY_CAROM"), history(nullptr), dt(0.0) {
+    : Pair(lmp), watch(lmp, "pair_style carom"), kind{}, history_id("NEIGH_HISTORY_CAROM"), history(nullptr), dt(0.0) {
     single_enable = 1;
     single_extra = 4;
     svector = new double[single_extra];
@@ -214,6 +214,7 @@ void PairCarom::init_style() {
             if (one.lossy()) options.viscous = true;
     kind = carom_kind(options);
     computed = false;
+    watch.begin();
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     dt = update->dt;
     rigid.clear();
@@ -407,6 +408,7 @@ void PairCarom::meet(Meetings &met) {
         batch.pairs[k].radius = spheres.radius_of(i, j);
         if (!*met.touches[k]) {  // what matters at the first touch
             batch.pairs[k].mass = spheres.mass_of(i, j);
+            watch.meet(batch.pairs[k], carom::one_of(batch.meetings, k), atom->tag[i], atom->tag[j]);
             memory[KIND] = kind.number;
             if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, batch.pairs[k]);
         }
@@ -416,6 +418,9 @@ void PairCarom::meet(Meetings &met) {
             carom_cohere(known.cohesion, batch.pairs[k].radius, now);
             carom::set_one(batch.meetings, k, now);
         }
+        if (watch.is_soft())
+            watch.soften(batch.pairs[k], carom::one_of(batch.meetings, k).penetration, atom->tag[i],
+                         atom->tag[j]);
     }
 }
 
@@ -426,8 +431,8 @@ void PairCarom::apply(Meetings &met) {
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
         if (batch.statuses[k] != carom::Status::ok)
-            error->one(FLERR, "pair_style carom: atoms {} and {}: {}", atom->tag[i], atom->tag[j],
-                       carom::message(batch.statuses[k]));
+            watch.check(batch.statuses[k], batch.pairs[k],
+                        carom::one_of(batch.meetings, k).penetration, atom->tag[i], atom->tag[j]);
         const bool both = newton || j < nlocal;
         const int lane = k % carom::lanes;
         const carom::Actions &actions = batch.actions[k / carom::lanes];
