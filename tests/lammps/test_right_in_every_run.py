@@ -1,12 +1,11 @@
-"""What inputs do to spheres between and in runs: coarse steps, deep overlap, groups, moved walls."""
+"""What inputs do in and between runs: coarse steps, deep overlap, groups, displaced walls."""
 
 import numpy as np
 import pytest
+from tests.lammps.test_walls import HEAD, on_the_floor
 
 import carom
 from carom.dimensionless.numerics.hertz import DURATION
-
-from tests.lammps.test_walls import HEAD, on_the_floor
 
 pytestmark = pytest.mark.engine
 RADIUS, SPEED = 5e-3, 0.1
@@ -14,9 +13,7 @@ SOLID = "young 5e7 poisson 0.3 friction 0.3"
 BALL = carom.Sphere(radius=RADIUS, material=carom.Material(young=5e7, poisson=0.3, density=2500.0))
 PAIR = carom.Pair(BALL, BALL, friction=0.3)
 WALL = carom.Pair(BALL, carom.HalfSpace(material=BALL.material), friction=0.3)
-BOX = (
-    f"{HEAD}newton off\natom_modify map array\nregion b block 0 0.1 0 0.1 0 0.1\ncreate_box 1 b\n"
-)
+BOX = f"{HEAD}newton off\natom_modify map array\nregion b block 0 0.1 0 0.1 0 0.1\ncreate_box 1 b\n"
 STYLE = f"pair_style carom precision double\npair_coeff * * {SOLID}\n"
 
 
@@ -47,12 +44,12 @@ def test_steps_too_coarse_for_a_contact_are_told_once_a_run(lammps, ranks):
             f"{BOX}{balls(*places)}{moves}{STYLE}fix 1 all nve/sphere\ntimestep {step!r}\n{run}",
             ranks,
         )
-        told = warnings(printed, "time steps")
-        assert len(told) == times, printed
-        if told:
-            assert "pair_style carom" in told[0]
-            assert f"lasts {steps}.0 time steps" in told[0]
-            assert "at least 20" in told[0]
+        lines = warnings(printed, "time steps")
+        assert len(lines) == times, printed
+        if lines:
+            assert "pair_style carom" in lines[0]
+            assert f"lasts {steps}.0 time steps" in lines[0]
+            assert "at least 20" in lines[0]
 
 
 def test_steps_too_coarse_for_a_wall_are_told_once_a_run(lammps):
@@ -65,9 +62,9 @@ def test_steps_too_coarse_for_a_wall_are_told_once_a_run(lammps):
             f"region w plane 0 0 0 0 0 1\nfix w all wall/carom {SOLID} region w\n"
             f"fix 1 all nve/sphere\ntimestep {step!r}\n{run}velocity all set 0 0 {-SPEED}\n{run}"
         )
-        told = warnings(printed, "time steps")
-        assert len(told) == times, printed
-        assert all("fix wall/carom" in line and f"lasts {steps}.0" in line for line in told)
+        lines = warnings(printed, "time steps")
+        assert len(lines) == times, printed
+        assert all("fix wall/carom" in line and f"lasts {steps}.0" in line for line in lines)
 
 
 DEEP = balls((0.05, 0.05, 0.05), (0.0565, 0.05, 0.05))  # by 0.7 R, R* is R/2
@@ -80,28 +77,54 @@ def test_overlap_above_the_radius_stops_lammps_with_what_to_do(lammps):
         assert words in line
 
 
+MINIMIZE = "min_modify dmax 1e-4 line backtrack\nminimize 0 1e-9 2000 20000\n"
+
+
 @pytest.mark.parametrize("coeff", ["", " retardation 1e-5", " restitution 0.8 speed 0.1"])
 @pytest.mark.parametrize(
-    "start",
+    ("start", "times"),
     [
-        "fix s all nve/limit 1e-5\nrun 2000\nunfix s\n",
-        "minimize 0 1e-9 2000 20000\n",
-        "min_style quickmin\nminimize 0 1e-9 2000 20000\n",
+        ("fix s all nve/limit 1e-5\nrun 2000\nunfix s\n", 1),
+        (MINIMIZE, 0),
+        (f"min_style fire\n{MINIMIZE}", 0),
     ],
-    ids=["limit", "cg", "quickmin"],
+    ids=["limit", "cg", "fire"],
 )
 @pytest.mark.parametrize("apart", [0.0065, 0.0085])
-def test_soft_starts_run_from_any_overlap(lammps, start, coeff, apart):
+def test_soft_starts_part_spheres_from_any_overlap(lammps, start, times, coeff, apart):
+    """Without a speed; the next run is without a force that minimize or nve/limit has left."""
     places = balls((0.05, 0.05, 0.05), (0.05 + apart, 0.05, 0.05))
     printed = lammps(
         f"{BOX}{places}{STYLE.strip()}{coeff}\ntimestep 1e-6\n{start}velocity all set 0 0 0\n"
-        "fix 1 all nve/sphere\nrun 1\nrun 1000\n"
+        "fix 1 all nve/sphere\nrun 1000\n"
         "write_dump all custom out.txt id x vx modify sort id format float %.17g\n"
     )
     (_, x, v), (_, other, w) = lammps.dumped()
-    assert other - x > 0.00995
-    assert abs(w - v) < 0.05
-    assert len(warnings(printed, "R*")) == (apart < 0.0075)
+    assert other - x > 0.00999
+    assert abs(w - v) < 5e-3
+    assert len(warnings(printed, "R* = 0.0025")) == times * (apart < 0.0075)
+
+
+@pytest.mark.parametrize("coeff", ["", " retardation 1e-5"])
+def test_minimize_finds_the_balance_and_the_next_run_begins_anew(lammps, coeff):
+    """A row between two fixed spheres ends with equal overlaps, energy and force of Hertz."""
+    places = [(0.02 + x, 0.05, 0.05) for x in (0.0, 0.0092, 0.0188, 0.0285)]
+    lammps(
+        f"{BOX}{balls(*places)}{STYLE.strip()}{coeff}\ngroup ends id 1 4\n"
+        f"fix e ends setforce 0 0 0\nmin_style fire\nmin_modify dmax 1e-5\n"
+        "timestep 1e-6\nminimize 0 1e-7 20000 200000\n"
+        "variable e equal pe\nprint $e file pe.txt\nvelocity all set 0 0 0\nunfix e\nrun 0\n"
+        "write_dump all custom out.txt id x fx modify sort id format float %.17g\n"
+    )
+    _, x, force = lammps.dumped().T
+    np.testing.assert_allclose(np.diff(x), 0.0095, atol=1e-9)
+    modulus, depth = 5e7 / (2.0 * (1.0 - 0.3**2)), 5e-4
+    energy = 8.0 / 15.0 * modulus * np.sqrt(0.5 * RADIUS) * depth**2.5
+    np.testing.assert_allclose(
+        force[[0, 3]], [-2.5 * energy / depth, 2.5 * energy / depth], rtol=1e-5
+    )
+    printed = float((lammps.folder / "pe.txt").read_text())
+    assert printed == pytest.approx(3.0 * energy, rel=1e-4)
 
 
 def test_a_sphere_that_leaves_the_group_of_a_wall_forgets_it(lammps):
@@ -115,7 +138,9 @@ def test_a_sphere_that_leaves_the_group_of_a_wall_forgets_it(lammps):
         "velocity all set 0 0 0\nset group all omega 0 0 0\ngroup in id 1\nrun 0\n"
     )
     lines = [line.split() for line in printed.splitlines()]
-    table = [[float(word) for word in line] for line in lines if len(line) == 3 and line[0].isdigit()]
+    table = [
+        [float(word) for word in line] for line in lines if len(line) == 3 and line[0].isdigit()
+    ]
     (_, along, _), (_, aside, force) = table[1], table[-1]
     assert abs(along) > 1e-4 * abs(force) > 0.0
     assert abs(aside) < 1e-9 * abs(force)

@@ -22,7 +22,8 @@ enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
 }  // namespace
 
 FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), kind{}, watch(lmp, "fix wall/carom"), followed(-2), region(nullptr), memories(nullptr), sums{} {
+    : Fix(lmp, narg, arg), kind{}, watch(lmp, "fix wall/carom"), followed(-2), region(nullptr),
+      memories(nullptr), sums{} {
     if (narg < 7 || std::string(arg[narg - 2]) != "region" || narg % 2 == 0)
         error->all(FLERR, "fix wall/carom: give young, poisson, friction and what else the material "
                           "has, each with a value, and at last region ID");

@@ -221,7 +221,8 @@ void PairCarom::init_style() {
     for (Fix *fix : modify->get_fix_list())
         if (fix->rigid_flag) rigid.push_back(fix);
     beside_read = false;
-    if (options.viscous && !options.ledger && !options.tangential && comm->me == 0)
+    if (options.viscous && !options.ledger && !options.tangential && !watch.minimizes() &&
+        comm->me == 0)
         error->warning(FLERR, "pair_style carom: with losses, energies of contacts are told by "
                               "ledger yes only; pe and compute pair are 0 now");
     if (history && stored_doubles != kind.doubles)
@@ -376,7 +377,10 @@ void PairCarom::find_met(int i, Meetings &met) {
 /// Bring contacts to the end of the step.
 void PairCarom::step(Meetings &met) {
     meet(met);
-    carom_step(kind, met.batch, update->setupflag);
+    if (watch.minimizes())
+        carom_press(met.batch);
+    else
+        carom_step(kind, met.batch, update->setupflag);
     apply(met);
     met.batch.count = 0;
 }
@@ -418,7 +422,7 @@ void PairCarom::meet(Meetings &met) {
             carom_cohere(known.cohesion, batch.pairs[k].radius, now);
             carom::set_one(batch.meetings, k, now);
         }
-        if (watch.is_soft())
+        if (watch.limits())
             watch.soften(batch.pairs[k], carom::one_of(batch.meetings, k).penetration, atom->tag[i],
                          atom->tag[j]);
     }
@@ -448,7 +452,7 @@ void PairCarom::apply(Meetings &met) {
             carom_add(atom->torque[j], 1.0, carom::in_lane(actions.other_torque, lane));
         }
         if (evflag || options.ledger) tally(met, k, force, both ? 1.0 : 0.5);
-        *met.touches[k] = depth > 0.0;
+        *met.touches[k] = depth > 0.0 && !watch.minimizes();
         if (!*met.touches[k]) std::fill_n(batch.memories[k], SPRINGS + kind.doubles, 0.0);
     }
 }
@@ -462,7 +466,8 @@ void PairCarom::tally(const Meetings &met, int k, const carom::Vector &f, double
     if (!evflag || depth <= 0.0) return;
     const int i = met.one[k], j = met.other[k];
     double energy = kind.stored(met.batch.memories[k] + SPRINGS);
-    if (presses()) energy += carom_pressed(met.batch.pairs[k], depth);
+    if (presses() || (watch.minimizes() && !options.tangential))
+        energy += carom_pressed(met.batch.pairs[k], depth);
     pvector[ELASTIC] += share * energy;
     const double *one = atom->x[i], *other = atom->x[j];
     ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0.0, f[0], f[1], f[2],

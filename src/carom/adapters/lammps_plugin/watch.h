@@ -15,19 +15,20 @@ class CaromWatch : protected Pointers {
   public:
     CaromWatch(class LAMMPS *lmp, const char *style) : Pointers(lmp), style(style) {}
 
-    /// Begin a run, which is soft if minimize or fix nve/limit moves the spheres.
+    /// Begin a run: spheres are moved as far as their forces say, by fix nve/limit, or by minimize.
     void begin();
 
     /// See bodies that touch for the first time: by too few steps they gain energy.
     void meet(const carom::Pair &, const carom::Encounter &, tagint one, tagint other);
 
-    /// Let bodies overlap by more than R* in a soft start: they are taken to be flatter then.
+    /// Let bodies overlap by more than R* under fix nve/limit: they are taken to be flatter then.
     void soften(carom::Pair &, double depth, tagint one, tagint other);
 
     /// Stop LAMMPS if a contact could not be brought to the end of a step.
     void check(carom::Status, const carom::Pair &, double depth, tagint one, tagint other) const;
 
-    bool is_soft() const { return soft; }
+    bool limits() const { return limit; }
+    bool minimizes() const { return minimize; }
 
     static constexpr tagint wall = 0;  ///< in place of the other atom
 
@@ -35,7 +36,7 @@ class CaromWatch : protected Pointers {
     std::string who(tagint one, tagint other) const;
 
     const char *style;
-    bool soft = false, coarse = false, deep = false;
+    bool limit = false, minimize = false, coarse = false, deep = false;
 };
 
 }  // namespace LAMMPS_NS
