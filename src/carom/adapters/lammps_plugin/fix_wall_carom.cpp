@@ -22,7 +22,8 @@ enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
 }  // namespace
 
 FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), kind{}, followed(-2), region(nullptr), memories(nullptr), sums{} {
+    : Fix(lmp, narg, arg), kind{}, watch(lmp, "fix wall/carom"), followed(-2), region(nullptr),
+      memories(nullptr), sums{} {
     if (narg < 7 || std::string(arg[narg - 2]) != "region" || narg % 2 == 0)
         error->all(FLERR, "fix wall/carom: give young, poisson, friction and what else the material "
                           "has, each with a value, and at last region ID");
@@ -106,6 +107,7 @@ void FixWallCarom::init() {
                           "wall/gran/region of the same region, or part all");
     if (lossy() && !options.viscous)
         error->all(FLERR, "fix wall/carom: give pair_coeff, with its losses, before the fix");
+    watch.begin();
     bodies.assign(atom->ntypes + 1, CaromBodies{});
     for (int type = 1; type <= atom->ntypes; ++type) {
         const PairCarom *style = style_of(type);
@@ -162,7 +164,10 @@ void FixWallCarom::post_force(int) {
     if (region->dynamic || region->varshape) follow();
     std::vector<double *> touched;
     for (int i = 0; i < atom->nlocal; ++i) {
-        if (!(atom->mask[i] & groupbit)) continue;
+        if (!(atom->mask[i] & groupbit)) {
+            part_all_but({}, i);
+            continue;
+        }
         const double *x = atom->x[i];
         if (!region->match(x[0], x[1], x[2]))
             error->one(FLERR, "fix wall/carom: atom {} is outside region {}", atom->tag[i], name);
@@ -178,21 +183,27 @@ void FixWallCarom::post_force(int) {
             touched.push_back(slot);
             act(i, k, slot + 1);
         }
-        for (int k = 0; k < slots; ++k) {
-            double *slot = memories[i] + k * length;
-            if (slot[0] != 0.0 && std::find(touched.begin(), touched.end(), slot) == touched.end())
-                part(slot);
-        }
+        part_all_but(touched, i);
     }
 }
 
 /// Let LAMMPS find the velocity of the wall from where it was a step before. Where nobody has looked
-/// then, it would take the way since step 0 for that of a step; a wall starts from rest instead.
+/// then, or the wall was displaced between runs, it would take this way for that of a step; a wall
+/// starts from rest instead.
 void FixWallCarom::follow() {
     const bigint now = update->ntimestep;
-    if (now != followed && now != followed + 1) update->ntimestep = 0;
+    if (update->setupflag || now != followed + 1) update->ntimestep = 0;
     region->set_velocity();
     update->ntimestep = followed = now;
+}
+
+/// Let a sphere go from walls that it does not touch.
+void FixWallCarom::part_all_but(const std::vector<double *> &touched, int i) {
+    for (int k = 0; k < slots; ++k) {
+        double *slot = memories[i] + k * length;
+        if (slot[0] != 0.0 && std::find(touched.begin(), touched.end(), slot) == touched.end())
+            part(slot);
+    }
 }
 
 /// Let a sphere go; what was still stored is lost at last.
@@ -233,12 +244,13 @@ void FixWallCarom::act(int i, int k, double *memory) {
                           "give them by pair_coeff {} {} carom", atom->type[i], atom->type[i],
                    atom->type[i]);
     carom::Encounter now = carom::encounter(sphere, wall, update->dt, known.share);
+    if (!kind.touches(memory + SPRINGS))
+        watch.meet(batch.pairs[0], now, atom->tag[i], CaromWatch::wall);
     if (known.cohesion) carom_cohere(known.cohesion, batch.pairs[0].radius, now);
+    watch.soften(batch.pairs[0], now.penetration, atom->tag[i], CaromWatch::wall);
     for (int lane = 0; lane < carom::lanes; ++lane) carom::set_one(batch.meetings, lane, now);
     carom_step(kind, batch, update->setupflag);
-    if (batch.statuses[0] != carom::Status::ok)
-        error->one(FLERR, "fix wall/carom: atom {}: {}", atom->tag[i],
-                   carom::message(batch.statuses[0]));
+    watch.check(batch.statuses[0], batch.pairs[0], now.penetration, atom->tag[i], CaromWatch::wall);
     carom::Action action = carom::one_of(batch.actions, 0);
     if (options.tangential) action.force = carom_aside(action.force, now.normal);
     carom_keep(memory, action.force, now.penetration);

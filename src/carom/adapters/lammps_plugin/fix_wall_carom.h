@@ -42,6 +42,7 @@ class FixWallCarom : public Fix {
     void follow();
     double reach_of(int) const;
     void act(int, int, double *);
+    void part_all_but(const std::vector<double *> &, int);
     void part(double *);
 
     std::string name;  ///< of the region
@@ -49,6 +50,7 @@ class FixWallCarom : public Fix {
     std::vector<CaromBodies> bodies;
     CaromOptions options;
     CaromKind kind;
+    CaromWatch watch;
     bigint followed;  ///< last step at which the region was asked for its velocity
     std::vector<PairCarom *> styles;  ///< of the spheres: several in a hybrid
     class Region *region;

@@ -144,4 +144,16 @@ void carom_step(const CaromKind &kind, CaromBatch &batch, bool setup) {
         kind.advance(batch);
 }
 
+void carom_press(CaromBatch &batch) {
+    for (int k = 0; k < batch.count; ++k) {
+        const carom::Encounter now = carom::one_of(batch.meetings, k);
+        const double depth = std::max(now.penetration, 0.0);
+        const double stiffness = 4.0 / 3.0 * batch.pairs[k].modulus * std::sqrt(batch.pairs[k].radius);
+        carom::Action action{};
+        action.force = carom::times(stiffness * depth * std::sqrt(depth), now.normal);
+        carom::set_one(batch.actions, k, action);
+        batch.statuses[k] = carom::Status::ok;
+    }
+}
+
 }  // namespace LAMMPS_NS

@@ -63,6 +63,9 @@ CaromKind carom_kind(const CaromOptions &);
 /// as it was has the force that it had.
 void carom_step(const CaromKind &, CaromBatch &, bool setup);
 
+/// Give contacts the force of Hertz alone: while LAMMPS minimizes no time passes.
+void carom_press(CaromBatch &);
+
 /// Return the part of a force along the surface.
 inline carom::Vector carom_aside(const carom::Vector &force, const carom::Vector &normal) {
     return carom::plus(force, -carom::dot(force, normal), normal);

@@ -80,7 +80,7 @@ std::vector<Pair *> LAMMPS_NS::carom_styles(Force *force, const char *name) {
 }
 
 PairCarom::PairCarom(LAMMPS *lmp)
-    : Pair(lmp), kind{}, history_id("NEIGH_HISTORY_CAROM"), history(nullptr), dt(0.0) {
+    : Pair(lmp), watch(lmp, "pair_style carom"), kind{}, history_id("NEIGH_HISTORY_CAROM"), history(nullptr), dt(0.0) {
     single_enable = 1;
     single_extra = 4;
     svector = new double[single_extra];
@@ -214,13 +214,14 @@ void PairCarom::init_style() {
             if (one.lossy()) options.viscous = true;
     kind = carom_kind(options);
     computed = false;
+    watch.begin();
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     dt = update->dt;
     rigid.clear();
     for (Fix *fix : modify->get_fix_list())
         if (fix->rigid_flag) rigid.push_back(fix);
     beside_read = false;
-    const bool asked = !modify->get_compute_by_style("^pair$").empty();
+    const bool asked = !modify->get_compute_by_style("^pair$").empty() && !watch.minimizes();
     if (asked && options.viscous && !options.ledger && !options.tangential && comm->me == 0)
         error->warning(FLERR, "pair_style carom: with losses, energies of contacts are told by "
                               "ledger yes only; pe and compute pair are 0 now");
@@ -376,7 +377,10 @@ void PairCarom::find_met(int i, Meetings &met) {
 /// Bring contacts to the end of the step.
 void PairCarom::step(Meetings &met) {
     meet(met);
-    carom_step(kind, met.batch, update->setupflag);
+    if (watch.minimizes())
+        carom_press(met.batch);
+    else
+        carom_step(kind, met.batch, update->setupflag);
     apply(met);
     met.batch.count = 0;
 }
@@ -408,6 +412,7 @@ void PairCarom::meet(Meetings &met) {
         batch.pairs[k].radius = spheres.radius_of(i, j);
         if (!*met.touches[k]) {  // what matters at the first touch
             batch.pairs[k].mass = spheres.mass_of(i, j);
+            watch.meet(batch.pairs[k], carom::one_of(batch.meetings, k), atom->tag[i], atom->tag[j]);
             memory[KIND] = kind.number;
             if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, batch.pairs[k]);
         }
@@ -417,6 +422,9 @@ void PairCarom::meet(Meetings &met) {
             carom_cohere(known.cohesion, batch.pairs[k].radius, now);
             carom::set_one(batch.meetings, k, now);
         }
+        if (watch.limits())
+            watch.soften(batch.pairs[k], carom::one_of(batch.meetings, k).penetration, atom->tag[i],
+                         atom->tag[j]);
     }
 }
 
@@ -427,8 +435,8 @@ void PairCarom::apply(Meetings &met) {
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
         if (batch.statuses[k] != carom::Status::ok)
-            error->one(FLERR, "pair_style carom: atoms {} and {}: {}", atom->tag[i], atom->tag[j],
-                       carom::message(batch.statuses[k]));
+            watch.check(batch.statuses[k], batch.pairs[k],
+                        carom::one_of(batch.meetings, k).penetration, atom->tag[i], atom->tag[j]);
         const bool both = newton || j < nlocal;
         const int lane = k % carom::lanes;
         const carom::Actions &actions = batch.actions[k / carom::lanes];
@@ -444,7 +452,7 @@ void PairCarom::apply(Meetings &met) {
             carom_add(atom->torque[j], 1.0, carom::in_lane(actions.other_torque, lane));
         }
         if (evflag || options.ledger) tally(met, k, force, both ? 1.0 : 0.5);
-        *met.touches[k] = depth > 0.0;
+        *met.touches[k] = depth > 0.0 && !watch.minimizes();
         if (!*met.touches[k]) std::fill_n(batch.memories[k], SPRINGS + kind.doubles, 0.0);
     }
 }
@@ -458,7 +466,8 @@ void PairCarom::tally(const Meetings &met, int k, const carom::Vector &f, double
     if (!evflag || depth <= 0.0) return;
     const int i = met.one[k], j = met.other[k];
     double energy = kind.stored(met.batch.memories[k] + SPRINGS);
-    if (presses()) energy += carom_pressed(met.batch.pairs[k], depth);
+    if (presses() || (watch.minimizes() && !options.tangential))
+        energy += carom_pressed(met.batch.pairs[k], depth);
     pvector[ELASTIC] += share * energy;
     const double *one = atom->x[i], *other = atom->x[j];
     ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0.0, f[0], f[1], f[2],

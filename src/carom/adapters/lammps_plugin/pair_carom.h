@@ -13,6 +13,7 @@
 #include "kinds.h"
 #include "materials.h"
 #include "pair.h"
+#include "watch.h"
 
 namespace LAMMPS_NS {
 
@@ -80,6 +81,7 @@ class PairCarom : public Pair {
     bool presses() const { return !options.viscous && !options.tangential; }
     void read(FILE *, void *, int);
 
+    CaromWatch watch;
     CaromKind kind;
     std::vector<std::vector<CaromBodies>> bodies;
     std::vector<double> radii, masses;
