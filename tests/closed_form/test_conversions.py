@@ -138,7 +138,12 @@ def test_recipes_hold_the_stiffnesses(name, e):
     dashpot = 2 * damping_from_restitution(e) * sqrt(k.normal * mass)
     beta, hertz = damping_from_restitution(e, "thornton"), (4 / 3 * modulus, 0.0 if e == 1.0 else e)
     kn, kt, mu = k.normal, k.tangential, pair.friction
+    losses = [] if e == 1.0 else [e, SPEED]
+    stuff = pair.first.material, pair.second.material
+    one, two = ([each.young, each.poisson, mu, *losses] for each in stuff)
+    plane = len(pair.moving) == 1
     expected = {
+        "LAMMPS, exact law": [1, 1, *one, *(two if plane else [2, 2, *two] if one != two else [])],
         "LAMMPS Hertz": [*hertz, 2 * shear, 0.0, mu],
         "LAMMPS Hooke": [kn, dashpot, kt, 0.0, mu],
         "LIGGGHTS hooke/stiffness": [kn, kt, dashpot / mass, 0.0],
