@@ -58,10 +58,11 @@ COMMANDS = (
     "carom sweep sweep.toml",
     "carom fit kharaz2001.csv",
     "carom materials",
-    "carom verify laws",
+    "carom verify laws --case steel_ball.toml",
     "carom verify tune steel_ball.toml",
     "carom verify score results.csv --chi 1.44",
     "carom verify pack bench",
+    "carom lammps examples inputs",
 )
 SHOWN = 2  # entries of a list
 

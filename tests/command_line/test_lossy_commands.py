@@ -167,7 +167,8 @@ def test_a_key_of_the_case_does_what_the_flag_does(run, monkeypatch, path, key):
     few = partial(carom.verify.tune, [carom.dem.LinearSpring(), carom.dem.HardSphere(0.4)])
     monkeypatch.setattr(carom.verify, "tune", few)
     Path("data.csv").write_text("psi_in,psi_out\n1,-0.2\n2,-0.8\n3,-1.3\n")
-    words = ("data.csv", "--case", "case.toml") if path[-1] == "score" else ("case.toml",)
+    options = {"score": ("data.csv", "--case"), "laws": ("--law", "mindlin", "--case")}
+    words = (*options.get(path[-1], ()), "case.toml")
     others = [name for name in WITH.get(key, ("friction", "speed", "angle")) if name != key]
     lines = [f'{name} = "{VALUES[name]}"\n' for name in others]
     Path("case.toml").write_text("".join(lines) + FIRST)
