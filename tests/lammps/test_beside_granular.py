@@ -41,6 +41,15 @@ def rows(printed, width):
     return np.array([line.split() for line in table], dtype=float)
 
 
+def check_account(printed, losses):
+    """Nothing stays stored, friction and viscosity take their parts, and the sum stays the same."""
+    first, last = rows(printed, 6)
+    assert last[3] == 0.0
+    assert last[4] > 0.01 * first[1]
+    assert (last[5] > 0.003 * first[1]) == (losses != "")
+    assert last[1:].sum() == pytest.approx(first[1:].sum(), rel=2e-4)
+
+
 @pytest.mark.parametrize(("losses", "precision"), [("", "double"), ("retardation 2e-5", "single")])
 def test_energy_that_leaves_the_motion_is_what_shear_took(lammps, losses, precision):
     """Along the normal granular is elastic; friction and, with losses, viscosity act in shear."""
@@ -52,11 +61,7 @@ def test_energy_that_leaves_the_motion_is_what_shear_took(lammps, losses, precis
         "compute p all pair carom\nthermo_style custom step c_k c_r c_p[1] c_p[2] c_p[3]\n"
         "thermo_modify norm no format float %.15g\nrun 1500\n"
     )
-    first, last = rows(printed, 6)
-    assert last[3] == 0.0
-    assert last[4] > 0.01 * first[1]
-    assert (last[5] > 0.003 * first[1]) == (losses != "")
-    assert last[1:].sum() == pytest.approx(first[1:].sum(), rel=2e-4)
+    check_account(printed, losses)
 
 
 @pytest.mark.parametrize("losses", ["", "retardation 2e-5"])
@@ -70,11 +75,7 @@ def test_energy_that_a_wall_takes_is_what_shear_took(lammps, losses):
         "thermo_style custom step c_k c_r f_t[4] f_t[5] f_t[6]\n"
         "thermo_modify norm no format float %.15g\nrun 2000\n"
     )
-    first, last = rows(printed, 6)
-    assert last[3] == 0.0
-    assert last[4] > 0.01 * first[1]
-    assert (last[5] > 0.003 * first[1]) == (losses != "")
-    assert last[1:].sum() == pytest.approx(first[1:].sum(), rel=2e-4)
+    check_account(printed, losses)
 
 
 @pytest.mark.parametrize(("theory", "factor"), [("jkr", 3.0), ("dmt", 4.0)])
