@@ -33,12 +33,10 @@ int main(int count, char** words) {
     carom::Action action{};
     do {
         for (int half = 0; half < 2; ++half) {
-            for (int i = 0; i < 3; ++i) {
-                ball.velocity[i] += 0.5 * step * action.force[i] / mass;
-                ball.spin[i] += 0.5 * step * action.torque[i] / inertia;
-            }
+            ball.velocity = carom::plus(ball.velocity, 0.5 * step / mass, action.force);
+            ball.spin = carom::plus(ball.spin, 0.5 * step / inertia, action.torque);
             if (half == 1) break;
-            for (int i = 0; i < 3; ++i) ball.position[i] += step * ball.velocity[i];
+            ball.position = carom::plus(ball.position, step, ball.velocity);
             const carom::Body plate{{ball.position[0], ball.position[1], 0}, {}, {}, 0};
             const auto seen = carom::encounter(ball, plate, step, pair);
             const carom::Status status = carom::advance(contact, pair, seen, action);

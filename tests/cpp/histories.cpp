@@ -80,16 +80,18 @@ template <class Kind> double excess(unsigned seed, int steps) {
     return most / (whole + weight * rests);
 }
 
-template <class Kind> void print(unsigned seed, int count, int steps) {
+template <class Kind> void print(unsigned seed, unsigned count, int steps) {
     double largest = 0.0;
-    for (int n = 0; n < count; ++n) largest = std::max(largest, excess<Kind>(seed + n, steps));
+    for (unsigned n = 0; n < count; ++n) largest = std::max(largest, excess<Kind>(seed + n, steps));
     std::printf("%.3g\n", largest);
 }
 
 }  // namespace
 
 int main(int, char** words) {
-    const int seed = std::atoi(words[1]), count = std::atoi(words[2]), steps = std::atoi(words[3]);
+    const auto seed = static_cast<unsigned>(std::atoi(words[1]));
+    const auto count = static_cast<unsigned>(std::atoi(words[2]));
+    const int steps = std::atoi(words[3]);
     print<Contact<32, float, viscous>>(seed, count, steps);
     print<Contact<32, double, viscous>>(seed, count, steps);
     print<Contact<16, float, viscous | ledger>>(seed, count, steps);

@@ -83,7 +83,7 @@ struct SurfacesIntersectData : SurfacesCloseData {
 struct ForceData {
     double delta_F[3] = {0, 0, 0}, delta_torque[3] = {0, 0, 0};
 };
-struct ContactModelBase {};
+class ContactModelBase {};
 
 struct TangentialModelBase : Pointers {
     TangentialModelBase(LAMMPS *all, IContactHistorySetup *, ContactModelBase *) : Pointers(all) {}

@@ -20,6 +20,7 @@ COMPILER = shutil.which("c++")
 pytestmark = pytest.mark.skipif(COMPILER is None, reason="no C++ compiler on this machine")
 ROOT = Path(__file__).parents[2]
 INCLUDE = Path(carom.get_include())
+PROGRAMS = [ROOT / "tests/cpp/together.cpp", *sorted((ROOT / "examples/cpp").glob("*.cpp"))]
 STRICT = ("-Wall", "-Wextra", "-pedantic", "-Werror")
 FAST = ("-O2", "-fno-math-errno")
 ELASTIC, VISCOUS, LEDGER, SINGLE = 0, 1, 2, 4
@@ -182,14 +183,15 @@ def test_single_precision_differs_by_its_rounding(functions, alpha):
 
 @pytest.mark.parametrize("compiler", ["g++", "clang++"])
 def test_compilers_have_nothing_to_say(compiler):
-    """In vectors, and without them; what they say of optimized code, the other tests would hear."""
+    """In vectors, and without them, also of what tests and examples make of the templates; what
+    they say of optimized code, the other tests would hear."""
     actual = shutil.which(compiler)
     if actual is None:
         pytest.skip(f"no {compiler} on this machine")
     for lanes in ("-UCAROM_ONE_BY_ONE", "-DCAROM_ONE_BY_ONE"):
         options = ("-fsyntax-only", "-Wconversion", "-Wshadow", lanes)
         words = [actual, "-std=c++17", *STRICT, *options, f"-I{INCLUDE}"]
-        words += [INCLUDE / "carom/contact.cpp"]
+        words += [INCLUDE / "carom/contact.cpp", *PROGRAMS]
         subprocess.run([str(word) for word in words], check=True, capture_output=True)
 
 

@@ -26,7 +26,7 @@ template <class T> T dot(const Triple<T>& a, const Triple<T>& b) {
 template <class T> Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-template <class T> Triple<T> times(T factor, const Triple<T>& a) {
+template <class T, class Factor> Triple<T> times(Factor factor, const Triple<T>& a) {
     return {factor * a[0], factor * a[1], factor * a[2]};
 }
 /// a + factor b
@@ -77,7 +77,8 @@ inline Vector in_lane(const Triple<Wide::Type>& all, int lane) {
 /// Return number k of several.
 template <template <class> class Of> Of<double> one_of(const Of<Wide::Type>* all, int k) {
     Of<double> one;
-    const char* lane = reinterpret_cast<const char*>(all + k / lanes) + k % lanes * sizeof(double);
+    const auto place = static_cast<std::size_t>(k % lanes);
+    const char* lane = reinterpret_cast<const char*>(all + k / lanes) + place * sizeof(double);
     for (std::size_t i = 0; i < sizeof one; i += sizeof(double))
         std::memcpy(reinterpret_cast<char*>(&one) + i, lane + i * lanes, sizeof(double));
     return one;
@@ -85,7 +86,8 @@ template <template <class> class Of> Of<double> one_of(const Of<Wide::Type>* all
 
 /// Make one number k of several.
 template <template <class> class Of> void set_one(Of<Wide::Type>* all, int k, const Of<double>& one) {
-    char* lane = reinterpret_cast<char*>(all + k / lanes) + k % lanes * sizeof(double);
+    const auto place = static_cast<std::size_t>(k % lanes);
+    char* lane = reinterpret_cast<char*>(all + k / lanes) + place * sizeof(double);
     for (std::size_t i = 0; i < sizeof one; i += sizeof(double))
         std::memcpy(lane + i * lanes, reinterpret_cast<const char*>(&one) + i, sizeof(double));
 }
