@@ -233,8 +233,8 @@ def cluster(lammps, then, ranks=1, start=""):
     head = HEAD[: HEAD.index("region")].replace("boundary f f f", "boundary p p p")
     jkr = f"jkr {YOUNG} 1e5 {POISSON} 0.5 {NONE} damping viscoelastic rolling sds 1e3 0.01 0.1"
     lammps(
-        f"{head}{start or made}neigh_modify one 400 page 40000\n"
-        f"{pair(jkr, 'jkr 0.5 retardation 1e-6')}fix 1 all nve/sphere\ntimestep 4e-6\n{then}\n"
+        f"{head}{start or made}{pair(jkr, 'jkr 0.5 retardation 1e-6')}"
+        f"fix 1 all nve/sphere\ntimestep 4e-6\n{then}\n"
         "write_dump all custom out.txt x y z vx vy vz omegax omegay omegaz modify sort id "
         "format float %.17g\n",
         ranks,
@@ -278,6 +278,17 @@ def test_a_restart_file_of_another_version_is_refused(lammps):
     file.write_bytes(file.read_bytes().replace(now, (32).to_bytes(4, "little")))
     printed = lammps.fails(HEAD[: HEAD.index("region")] + "read_restart x.rst\n")
     assert "the restart file is of another version of Carom" in printed
+
+
+def test_what_the_tangential_part_remembers_is_not_taken_for_the_whole(lammps):
+    """Its last force has no normal part, and would be that of the first step."""
+    rest = "fix 1 all nve/sphere\ntimestep 1e-6\nrun 5\n"
+    start = f"{HEAD}{TWO.format(0.0599)}"
+    lammps(f"{start}{pair(hertz())}{rest}write_restart x.rst noinit\n")
+    whole = "pair_style hybrid/overlay zero 0.012 nocoeff carom precision double\n"
+    whole += f"pair_coeff * * zero\npair_coeff * * carom {SOLID}\n"
+    printed = lammps.fails(f"{HEAD[: HEAD.index('region')]}read_restart x.rst\n{whole}{rest}")
+    assert "other springs, another precision, part, ledger or losses" in printed, printed[-900:]
 
 
 def test_the_input_of_the_manual_runs(lammps):

@@ -1,4 +1,6 @@
-"""What inputs do in and between runs: coarse steps, deep overlap, groups, displaced walls."""
+"""What inputs do in and between runs: steps, deep overlap, memory, groups, displaced walls."""
+
+import re
 
 import numpy as np
 import pytest
@@ -75,6 +77,24 @@ def test_overlap_above_the_radius_stops_lammps_with_what_to_do(lammps):
     (line,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
     for words in ("atoms 1 and 2", "overlap 0.0035 ", "R* = 0.0025", "minimize", "fix nve/limit"):
         assert words in line
+
+
+@pytest.mark.parametrize(
+    ("modify", "least", "most"),
+    [("", 5, 15), ("one 5000", 20, 30), ("one 10000", 35, 45), ("one 400 page 8000", 5, 10)],
+)
+def test_a_few_spheres_take_little_memory_however_many_neighbours_are_allowed(
+    lammps, modify, least, most
+):
+    """In MB, as LAMMPS counts: histories for ten times `one`, which stays 2000."""
+    told = f"neigh_modify {modify}\n" if modify else ""
+    for before, after in ((told, ""), ("", told)):
+        printed = lammps(
+            f"{BOX}{balls((0.05, 0.05, 0.05))}{before}pair_style carom\npair_coeff * * {SOLID}\n"
+            f"{after}fix 1 all nve/sphere\ntimestep 1e-6\nrun 1\n"
+        )
+        (taken,) = re.findall(r"Per MPI rank memory allocation .* = ([\d.]+) ", printed)
+        assert least < float(taken.split()[0]) < most
 
 
 MINIMIZE = "min_modify dmax 1e-4 line backtrack\nminimize 0 1e-9 2000 20000\n"

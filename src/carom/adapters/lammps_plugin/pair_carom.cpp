@@ -98,6 +98,7 @@ PairCarom::PairCarom(LAMMPS *lmp)
          ++n)
         history_id = fmt::format("NEIGH_HISTORY_CAROM_{}", n);  // of another carom in a hybrid
     modify->add_fix(history_id + "_DUMMY all DUMMY");
+    fit_pages();
 }
 
 PairCarom::~PairCarom() {
@@ -215,6 +216,7 @@ void PairCarom::init_style() {
     kind = carom_kind(options);
     computed = false;
     watch.begin();
+    if (force->pair == this) fit_pages();  // in a hybrid others have made theirs
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     dt = update->dt;
     rigid.clear();
@@ -238,6 +240,15 @@ void PairCarom::init_style() {
         history->use_bit_flag = 0;
     }
     find_radii();
+}
+
+/// Keep histories in small pages unless the input says how large: each is made whole, also for few
+/// spheres. A sphere may have `one` neighbours, as always, and LAMMPS wants ten times that.
+void PairCarom::fit_pages() {
+    constexpr int usual = 100000, small = 20000;  // LAMMPS' default, and what its `one` needs
+    int &page = neighbor->pgsize;
+    if (page == usual || page == small)
+        page = std::min(std::max(10 * neighbor->oneatom, small), usual);
 }
 
 void PairCarom::find_radii() {
@@ -405,8 +416,8 @@ void PairCarom::meet(Meetings &met) {
         double *memory = batch.memories[k];
         if (*met.touches[k] && memory[KIND] != kind.number)
             error->one(FLERR, "pair_style carom: contacts remember other springs, another "
-                              "precision, ledger or losses; give pair_style and pair_coeff as "
-                              "they were");
+                              "precision, part, ledger or losses; give pair_style and pair_coeff "
+                              "as they were");
         const CaromBodies &known = known_of(k);
         batch.pairs[k] = known.pair;
         batch.pairs[k].radius = spheres.radius_of(i, j);

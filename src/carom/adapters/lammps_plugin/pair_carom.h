@@ -70,6 +70,7 @@ class PairCarom : public Pair {
     void require_material(int) const;
     void read_granular();
     void compare(int, int) const;
+    void fit_pages();
     void find_radii();
     void find_masses();
     void find_met(int, Meetings &);
