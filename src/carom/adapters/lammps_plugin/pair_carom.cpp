@@ -216,7 +216,8 @@ void PairCarom::init_style() {
     kind = carom_kind(options);
     computed = false;
     watch.begin();
-    if (force->pair == this) fit_pages();  // in a hybrid others have made theirs
+    if (force->pair == this || modify->nfix_restart_peratom == 0)
+        fit_pages();  // what others of a hybrid have restarted lies in theirs
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     dt = update->dt;
     rigid.clear();
