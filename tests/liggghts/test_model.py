@@ -158,7 +158,7 @@ ELASTIC = "the normal force must be that of elastic spheres"
             "takes the limit of friction from Hertz's depth",
         ),
         ({"model": "hertz tangential carom springs 20"}, "springs must be 16, 32 or 64"),
-        ({"run": "neigh_modify one 5000\nrun 1"}, "neigh_modify one 200"),
+        ({"run": "neigh_modify one 9000\nrun 1"}, "neigh_modify one 200"),
     ],
     ids=["losses", "another normal force", "cohesion", "no Hertz", "springs", "pages"],
 )
