@@ -152,3 +152,34 @@ def test_steps_that_are_too_long_are_not_solved(e, chi):
     assert solved == sorted(solved)
     assert solved[-1]
     assert solved[0] == (e >= 0.9 and chi < 2.0)
+
+
+def lost_in_a_cycle(springs, part, depth, steps=200):
+    """Return what a pressed contact loses as the shear force goes to and fro by a part of mu P,
+    over 8 int_0^u (1 - (1 - u)^(3/2) - part/2) du of Mindlin & Deresiewicz (1953), u of the part.
+    """
+    memory, load, rate = np.zeros(lattice.places(springs)), np.empty(3), depth / steps
+    pressed = np.array([1.0, 0.0, 0.0])
+    for i in range(steps):
+        lattice.step(memory, springs, (i + 1) * rate, pressed, rate, 0.0, 0.0, load)
+    largest = 1.0 - (1.0 - part) ** (2.0 / 3.0)
+    for way in (0.5, -1.0, 1.0, -1.0, 1.0):
+        lost = 0.0 if way < 1.0 else lost
+        shear = np.array([0.0, 2.0 * way * depth * largest / steps, 0.0])
+        for _ in range(steps):
+            before = load[1]
+            lattice.step(memory, springs, depth, shear, 1.0, 0.0, 0.0, load)
+            lost += 0.5 * (before + load[1]) * shear[1]
+    exact = largest - 0.4 * (1.0 - (1.0 - largest) ** 2.5) - 0.5 * part * largest
+    return lost / (8.0 * exact * depth**2.5)
+
+
+@pytest.mark.parametrize("springs", [16, 64, 256])
+def test_small_cycles_lose_energy_as_far_as_springs_resolve_them(springs):
+    """Of mu P: at 1.5/N a contact may lose nothing; most is lost from 8/N on, all from 12/N on."""
+    depths = np.random.default_rng(springs).uniform(0.5, 1.0, 8)
+    parts = np.array([1.5, 8.0, 9.5, 12.0, 15.0])
+    lost = np.array([[lost_in_a_cycle(springs, n / springs, d) for d in depths] for n in parts])
+    assert lost[0].min() < 1e-9
+    assert np.all((lost[1:] > 0.87) & (lost[1:] < 1.03))
+    assert np.all(lost[3:] > 0.95)
