@@ -12,6 +12,7 @@
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "region.h"
 #include "update.h"
 
@@ -19,11 +20,21 @@ using namespace LAMMPS_NS;
 
 namespace {
 enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
+enum { HEADER = 3 };  // of a sphere that touches in a restart file: size, format, kind
+constexpr int WALL = KIND;  // all contacts of a fix are of one kind: its place has the wall's number
+constexpr double restart_format = 2000001.0;  // raised when what a restart file holds changes
+
+// Columns: of a sphere those of LAMMPS' fix wall/gran, of a contact what can be said of it alone.
+enum { WALLS, FORCE_ON, POINT = FORCE_ON + 3, RADIUS = POINT + 3, COLUMNS };
+enum { OVERLAP = 8, STORED, LOST, LOCAL_COLUMNS };  // after two numbers, force, point
 }  // namespace
 
 FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), kind{}, watch(lmp, "fix wall/carom"), followed(-2), region(nullptr),
-      memories(nullptr), sums{} {
+      shows(narg > 5 && std::string(arg[narg - 1]) == "contacts" &&
+            std::string(arg[narg - 2]) != "region"),
+      sums{} {
+    if (shows) --narg;
     if (narg < 7 || std::string(arg[narg - 2]) != "region" || narg % 2 == 0)
         error->all(FLERR, "fix wall/carom: give young, poisson, friction and what else the material "
                           "has, each with a value, and at last region ID");
@@ -37,25 +48,30 @@ FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
         error->all(FLERR, "fix wall/carom needs pair_style carom before it, for the spheres");
     options.viscous = lossy();
     kind = carom_kind(options);
-    slots = std::max(region->tmax, 1);
-    length = 1 + SPRINGS + kind.doubles;
-    maxexchange = slots * length + 1;
+    length = SPRINGS + kind.doubles + 1;
+    maxexchange = 1 + region->cmax * length;
     restart_peratom = 1;
     create_attribute = 1;
     vector_flag = extvector = 1;
     size_vector = SUMS;
     global_freq = 1;
+    if (shows) {
+        peratom_flag = local_flag = peratom_freq = local_freq = 1;
+        size_peratom_cols = COLUMNS;
+        size_local_cols = LOCAL_COLUMNS;
+        size_local_rows = 0;
+    }
     grow_arrays(atom->nmax);
     atom->add_callback(Atom::GROW);
     atom->add_callback(Atom::RESTART);
-    for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);
 }
 
 FixWallCarom::~FixWallCarom() {
     if (copymode) return;
     atom->delete_callback(id, Atom::GROW);
     atom->delete_callback(id, Atom::RESTART);
-    memory->destroy(memories);
+    memory->destroy(array_atom);
+    memory->destroy(array_local);
 }
 
 /// Read the words of the material; the part is that of pair_style carom if none is said.
@@ -100,6 +116,7 @@ void FixWallCarom::init() {
     if (region->nregion > 1 && (region->dynamic || region->varshape))
         error->all(FLERR, "fix wall/carom: LAMMPS has no velocity of region {}, which joins others "
                           "that move; give each of them a fix of its own", name);
+    maxexchange = 1 + region->cmax * length;
     find_styles();
     if (styles.empty()) error->all(FLERR, "fix wall/carom needs pair_style carom, for the spheres");
     if (options.tangential && modify->get_fix_by_style("^wall/gran").empty())
@@ -133,59 +150,20 @@ bool FixWallCarom::lossy() const {
 
 void FixWallCarom::setup(int vflag) { post_force(vflag); }
 
-/// Return the slot of an atom for a wall, a free one if they have not met.
-double *FixWallCarom::slot_of(int i, int wall) {
-    double *free = nullptr;
-    for (int k = 0; k < slots; ++k) {
-        double *slot = memories[i] + k * length;
-        if (slot[0] == wall + 1.0) return slot;
-        if (slot[0] == 0.0 && !free) free = slot;
-    }
-    return free;
-}
-
-/// Return the pair of a sphere and the wall, which is curved by so much (negative if hollow).
-carom::Pair FixWallCarom::pair_of(int i, double curved, double *memory) const {
-    const CaromBodies &known = bodies[atom->type[i]];
-    carom::Pair pair = known.pair;
-    const double radius = atom->radius[i];
-    pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
-    pair.mass = styles.front()->mass_of(i);
-    if (known.loss > 0.0) {
-        if (!kind.touches(memory + SPRINGS)) memory[RETARDATION] = carom_retardation(known, pair);
-        pair.retardation = memory[RETARDATION];
-    }
-    return pair;
-}
-
 void FixWallCarom::post_force(int) {
     std::fill(sums, sums + FRICTION, 0.0);
     region->prematch();
-    if (region->dynamic || region->varshape) follow();
-    std::vector<double *> touched;
-    for (int i = 0; i < atom->nlocal; ++i) {
-        if (!(atom->mask[i] & groupbit)) {
-            part_all_but({}, i);
-            continue;
-        }
-        const double *x = atom->x[i];
-        if (!region->match(x[0], x[1], x[2]))
-            error->one(FLERR, "fix wall/carom: atom {} is outside region {}", atom->tag[i], name);
-        const int count = region->surface(x[0], x[1], x[2], reach_of(i));
-        touched.clear();
-        for (int k = 0; k < count; ++k) {
-            double *slot = slot_of(i, region->contact[k].iwall);
-            if (region->contact[k].r >= atom->radius[i] &&
-                !(slot && slot[0] != 0.0 && kind.touches(slot + 1 + SPRINGS)))
-                continue;  // a neck is only drawn out by spheres that have touched
-            if (!slot) error->one(FLERR, "fix wall/carom: atom {} meets too many walls", atom->tag[i]);
-            slot[0] = region->contact[k].iwall + 1.0;
-            touched.push_back(slot);
-            act(i, k, slot + 1);
-        }
-        part_all_but(touched, i);
-    }
+    if (moves()) follow();
+    if (update->setupflag || neighbor->ago == 0) find_near();
+    if (shows) std::fill_n(*array_atom, atom->nlocal * COLUMNS, 0.0);
+    if (shows) size_local_rows = 0;
+    Meetings met;
+    for (int i : near) find_met(i, met);
+    step(met);
 }
+
+/// Whether the wall moves, by itself or as its region changes.
+bool FixWallCarom::moves() const { return region->dynamic || region->varshape; }
 
 /// Let LAMMPS find the velocity of the wall from where it was a step before. Where nobody has looked
 /// then, or the wall was displaced between runs, it would take this way for that of a step; a wall
@@ -197,19 +175,91 @@ void FixWallCarom::follow() {
     update->ntimestep = followed = now;
 }
 
-/// Let a sphere go from walls that it does not touch.
-void FixWallCarom::part_all_but(const std::vector<double *> &touched, int i) {
-    for (int k = 0; k < slots; ++k) {
-        double *slot = memories[i] + k * length;
-        if (slot[0] != 0.0 && std::find(touched.begin(), touched.end(), slot) == touched.end())
-            part(slot);
+/// Whether no sphere comes nearer to a wall than by the skin before LAMMPS lists neighbors again.
+/// Where surfaces are cut off they may begin anywhere.
+bool FixWallCarom::waits() const {
+    for (const Fix *fix : modify->get_fix_list())
+        if (fix->diam_flag) return false;
+    return !moves() && region->nregion == 1 && !region->openflag && neighbor->dist_check &&
+           neighbor->every == 1 && neighbor->delay == 0;
+}
+
+/// List the spheres that may meet a wall, or part from one, until LAMMPS lists neighbors again.
+void FixWallCarom::find_near() {
+    const bool all = !waits();
+    near.clear();
+    for (int i = 0; i < atom->nlocal; ++i) {
+        const double *x = atom->x[i];
+        if (all || !memories[i].empty() || !region->match(x[0], x[1], x[2]) ||
+            region->surface(x[0], x[1], x[2], reach_of(i) + neighbor->skin) > 0)
+            near.push_back(i);
     }
 }
 
-/// Let a sphere go; what was still stored is lost at last.
-void FixWallCarom::part(double *slot) {
-    sums[options.viscous ? VISCOSITY : FRICTION] += kind.stored(slot + 1 + SPRINGS);
-    std::fill(slot, slot + length, 0.0);
+/// Collect the walls that a sphere touches, and step them when there are enough.
+void FixWallCarom::find_met(int i, Meetings &met) {
+    const int count = atom->mask[i] & groupbit ? find_walls(i) : 0;
+    if (changes(i, count)) change(i, count);
+    for (int k = 0; k < count; ++k)
+        if (double *memory = memory_of(i, region->contact[k].iwall)) meet(i, k, memory, met);
+}
+
+/// Have the region find the walls that a sphere may touch, and return how many.
+int FixWallCarom::find_walls(int i) const {
+    const double *x = atom->x[i];
+    const int count = region->surface(x[0], x[1], x[2], reach_of(i));
+    const bool inside = count > 0 && region->nregion == 1;  // a single region has but one side
+    if (!inside && !region->match(x[0], x[1], x[2]))
+        error->one(FLERR, "fix wall/carom: atom {} is outside region {}", atom->tag[i], name);
+    return count;
+}
+
+/// Return what a sphere remembers of a wall, nullptr if they do not touch.
+double *FixWallCarom::memory_of(int i, int wall) {
+    for (std::size_t at = 0; at < memories[i].size(); at += length)
+        if (memories[i][at + WALL] == wall) return &memories[i][at];
+    return nullptr;
+}
+
+/// Whether a sphere and a wall that the region has found touch: a neck is only drawn out by those
+/// that have touched.
+bool FixWallCarom::touches(int i, int k, const double *memory) const {
+    return region->contact[k].r < atom->radius[i] || (memory && kind.touches(memory + SPRINGS));
+}
+
+/// Whether a sphere touches other walls than those that it remembers.
+bool FixWallCarom::changes(int i, int count) {
+    std::size_t lasting = 0;
+    for (int k = 0; k < count; ++k) {
+        const double *memory = memory_of(i, region->contact[k].iwall);
+        if (!touches(i, k, memory)) continue;
+        if (!memory) return true;
+        lasting += length;
+    }
+    return lasting != memories[i].size();
+}
+
+/// Let a sphere go from walls that it does not touch, what was still stored being lost at last, and
+/// give it a memory of those that it touches for the first time.
+void FixWallCarom::change(int i, int count) {
+    std::vector<double> &memory = memories[i];
+    for (std::size_t at = memory.size(); at > 0;) {
+        const double *one = &memory[at -= length];
+        bool lasts = false;
+        for (int k = 0; k < count; ++k)
+            if (region->contact[k].iwall == one[WALL]) lasts = touches(i, k, one);
+        if (lasts) continue;
+        sums[options.viscous ? VISCOSITY : FRICTION] += kind.stored(one + SPRINGS);
+        memory.erase(memory.begin() + at, memory.begin() + at + length);
+    }
+    for (int k = 0; k < count; ++k) {
+        const int wall = region->contact[k].iwall;
+        if (memory_of(i, wall) || !touches(i, k, nullptr)) continue;
+        memory.reserve(memory.size() + length);  // not more
+        memory.resize(memory.size() + length, 0.0);
+        memory[memory.size() - length + WALL] = wall;
+    }
+    if (memory.empty()) set_arrays(i);
 }
 
 /// Return how far from its centre a sphere meets a wall.
@@ -218,51 +268,129 @@ double FixWallCarom::reach_of(int i) const {
     return atom->radius[i] + 4.0 * carom_neck(bodies[atom->type[i]].cohesion, atom->radius[i]);
 }
 
-void FixWallCarom::act(int i, int k, double *memory) {
-    const Region::Contact &met = region->contact[k];
-    carom::Body wall{};
-    const double *x = atom->x[i];
-    wall.position = {-met.delx, -met.dely, -met.delz};  // from the sphere, to lose no digits
-    if (region->dynamic || region->varshape) {
-        double velocity[3] = {0.0, 0.0, 0.0}, place[3] = {x[0], x[1], x[2]};
-        region->velocity_contact(velocity, place, k);
-        wall.velocity = carom_vector(velocity);
-        if (region->rotateflag) wall.spin = carom_vector(region->omega);
-    }
-    const carom::Body sphere{{0.0, 0.0, 0.0}, carom_vector(atom->v[i]),
-                             carom_vector(atom->omega[i]), atom->radius[i]};
-    if (memory[KIND] != 0.0 && memory[KIND] != kind.number)
-        error->one(FLERR, "fix wall/carom: contacts remember other springs, another precision, ledger "
-                          "or losses; give pair_style and pair_coeff as they were");
-    CaromBatch batch;
-    batch.count = 1;
-    batch.memories[0] = memory;
-    batch.pairs[0] = pair_of(i, met.radius, memory);
+/// Add a contact to those that are stepped together.
+void FixWallCarom::meet(int i, int k, double *memory, Meetings &met) {
+    const Region::Contact &wall = region->contact[k];
     const CaromBodies &known = bodies[atom->type[i]];
     if (!(known.pair.modulus > 0.0))
         error->one(FLERR, "fix wall/carom: spheres of type {} have no young, poisson or friction; "
                           "give them by pair_coeff {} {} carom", atom->type[i], atom->type[i],
                    atom->type[i]);
-    carom::Encounter now = carom::encounter(sphere, wall, update->dt, known.share);
-    if (!kind.touches(memory + SPRINGS))
-        watch.meet(batch.pairs[0], now, atom->tag[i], CaromWatch::wall);
-    if (known.cohesion) carom_cohere(known.cohesion, batch.pairs[0].radius, now);
-    watch.soften(batch.pairs[0], now.penetration, atom->tag[i], CaromWatch::wall);
-    for (int lane = 0; lane < carom::lanes; ++lane) carom::set_one(batch.meetings, lane, now);
+    const int n = met.batch.count++;
+    const double radius = atom->radius[i], curved = wall.radius;  // negative if hollow
+    carom_fetch(memory, length);
+    met.spheres[n] = i;
+    met.batch.memories[n] = memory;
+    carom::Pair &pair = met.batch.pairs[n] = known.pair;
+    pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
+    met.radius[n] = radius;
+    met.share[n] = known.share;
+    const double apart[3] = {wall.delx, wall.dely, wall.delz};
+    double velocity[3] = {0.0, 0.0, 0.0}, place[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+    if (moves()) region->velocity_contact(velocity, place, k);
+    for (int j = 0; j < 3; ++j) {
+        met.apart[j][n] = apart[j];
+        met.velocity[j][n] = atom->v[i][j] - velocity[j];
+        met.spin[j][n] = atom->omega[i][j];
+    }
+    if (n + 1 == CaromBatch::most) step(met);
+}
+
+/// Bring contacts to the end of the step, and add what they do.
+void FixWallCarom::step(Meetings &met) {
+    CaromBatch &batch = met.batch;
+    look(met);
+    for (int n = 0; n < batch.count; ++n) prepare(met, n);
     carom_step(kind, batch, update->setupflag);
-    watch.check(batch.statuses[0], batch.pairs[0], now.penetration, atom->tag[i], CaromWatch::wall);
-    carom::Action action = carom::one_of(batch.actions, 0);
-    if (options.tangential) action.force = carom_aside(action.force, now.normal);
-    carom_keep(memory, action.force, now.penetration);
-    memory[KIND] = kind.number;
-    carom_add(atom->f[i], 1.0, action.force);
-    carom_add(atom->torque[i], 1.0, action.torque);
-    carom_add(sums + FORCE_X, -1.0, action.force);
-    sums[ELASTIC] += kind.stored(memory + SPRINGS);
-    if (!options.viscous && !options.tangential)
-        sums[ELASTIC] += carom_pressed(batch.pairs[0], now.penetration);
-    sums[FRICTION] += action.friction;
-    sums[VISCOSITY] += action.viscosity;
+    for (int n = 0; n < batch.count; ++n) apply(met, n);
+    batch.count = 0;
+}
+
+/// Find what contacts see of spheres and walls, in lanes; those left over have a contact before.
+void FixWallCarom::look(Meetings &met) const {
+    using carom::Wide;
+    const auto all = [](const double (&of)[3][CaromBatch::most], int n) {
+        return carom::Triple<Wide::Type>{Wide::load(of[0] + n), Wide::load(of[1] + n),
+                                         Wide::load(of[2] + n)};
+    };
+    carom::Bodies wall{}, sphere{};  // seen from the wall, to lose no digits
+    if (region->rotateflag)
+        for (int j = 0; j < 3; ++j) wall.spin[j] = Wide::of(region->omega[j]);
+    for (int n = 0; n < met.batch.count; n += carom::lanes) {
+        sphere = {all(met.apart, n), all(met.velocity, n), all(met.spin, n), Wide::load(met.radius + n)};
+        met.batch.meetings[n / carom::lanes] =
+            carom::encounter(sphere, wall, update->dt, Wide::load(met.share + n));
+    }
+}
+
+/// Tell a contact what matters at the first touch, and what changes what it sees.
+void FixWallCarom::prepare(Meetings &met, int n) {
+    const int i = met.spheres[n];
+    const CaromBodies &known = bodies[atom->type[i]];
+    double *memory = met.batch.memories[n];
+    carom::Pair &pair = met.batch.pairs[n];
+    carom::Encounters *meetings = met.batch.meetings;
+    if (!kind.touches(memory + SPRINGS)) {
+        pair.mass = styles.front()->mass_of(i);
+        watch.meet(pair, carom::one_of(meetings, n), atom->tag[i], CaromWatch::wall);
+        if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, pair);
+    }
+    if (known.loss > 0.0) pair.retardation = memory[RETARDATION];
+    if (!known.cohesion && !watch.limits()) return;
+    carom::Encounter now = carom::one_of(meetings, n);
+    if (known.cohesion) carom_cohere(known.cohesion, pair.radius, now);
+    watch.soften(pair, now.penetration, atom->tag[i], CaromWatch::wall);
+    carom::set_one(meetings, n, now);
+}
+
+/// Add what a contact does.
+void FixWallCarom::apply(const Meetings &met, int n) {
+    const CaromBatch &batch = met.batch;
+    const int i = met.spheres[n], lane = n % carom::lanes;
+    const carom::Encounters &now = batch.meetings[n / carom::lanes];
+    const carom::Actions &actions = batch.actions[n / carom::lanes];
+    double *memory = batch.memories[n];
+    const double depth = carom::in_lane(now.penetration, lane);
+    if (batch.statuses[n] != carom::Status::ok)
+        watch.check(batch.statuses[n], batch.pairs[n], depth, atom->tag[i], CaromWatch::wall);
+    carom::Vector force = carom::in_lane(actions.force, lane);
+    if (options.tangential) force = carom_aside(force, carom::in_lane(now.normal, lane));
+    carom_keep(memory, force, depth);
+    carom_add(atom->f[i], 1.0, force);
+    carom_add(atom->torque[i], 1.0, carom::in_lane(actions.torque, lane));
+    carom_add(sums + FORCE_X, -1.0, force);
+    double stored = kind.stored(memory + SPRINGS);
+    if (!options.viscous && !options.tangential) stored += carom_pressed(batch.pairs[n], depth);
+    const double rubbed = carom::in_lane(actions.friction, lane);
+    const double damped = carom::in_lane(actions.viscosity, lane);
+    sums[ELASTIC] += stored;
+    sums[FRICTION] += rubbed;
+    sums[VISCOSITY] += damped;
+    memory[length - 1] += rubbed + damped;
+    if (shows) show(met, n, stored);
+}
+
+/// Enter a contact into what is shown of it, and of its sphere.
+void FixWallCarom::show(const Meetings &met, int n, double stored) {
+    if (size_local_rows == local_room)
+        memory->grow(array_local, local_room = 2 * local_room + 64, LOCAL_COLUMNS, "wall/carom:local");
+    const int i = met.spheres[n];
+    const double *kept = met.batch.memories[n];
+    double *all = array_atom[i], *row = array_local[size_local_rows++];
+    row[0] = static_cast<double>(atom->tag[i]);
+    row[1] = kept[WALL] + 1.0;
+    const double share = 1.0 / (all[WALLS] += 1.0);
+    for (int j = 0; j < 3; ++j) {
+        const double point = atom->x[i][j] - met.apart[j][n];
+        row[2 + j] = kept[FORCE + j];
+        row[5 + j] = point;
+        all[FORCE_ON + j] += kept[FORCE + j];
+        all[POINT + j] += share * (point - all[POINT + j]);  // the mean
+    }
+    all[RADIUS] = atom->radius[i];
+    row[OVERLAP] = kept[DEPTH];
+    row[STORED] = stored;
+    row[LOST] = kept[length - 1];
 }
 
 double FixWallCarom::compute_vector(int n) {
@@ -272,44 +400,65 @@ double FixWallCarom::compute_vector(int n) {
 }
 
 double FixWallCarom::memory_usage() {
-    return static_cast<double>(atom->nmax) * slots * length * sizeof(double);
+    std::size_t numbers = shows ? atom->nmax * COLUMNS + local_room * LOCAL_COLUMNS : 0;
+    for (const std::vector<double> &each : memories) numbers += each.capacity();
+    return static_cast<double>(numbers * sizeof(double) + near.capacity() * sizeof(int) +
+                               memories.capacity() * sizeof(std::vector<double>));
 }
 
 void FixWallCarom::grow_arrays(int nmax) {
-    memory->grow(memories, nmax, slots * length, "wall/carom:memories");
+    memories.resize(nmax);
+    if (!shows) return;
+    memory->grow(array_atom, nmax, COLUMNS, "wall/carom:atom");
+    std::fill_n(*array_atom, nmax * COLUMNS, 0.0);
 }
 
 void FixWallCarom::copy_arrays(int i, int j, int) {
-    std::copy(memories[i], memories[i] + slots * length, memories[j]);
+    std::vector<double>(memories[i]).swap(memories[j]);  // no larger than it is
 }
 
-void FixWallCarom::set_arrays(int i) {
-    std::fill(memories[i], memories[i] + slots * length, 0.0);
-}
+void FixWallCarom::set_arrays(int i) { std::vector<double>().swap(memories[i]); }
 
 int FixWallCarom::pack_exchange(int i, double *buffer) {
-    std::copy(memories[i], memories[i] + slots * length, buffer);
-    return slots * length;
+    buffer[0] = static_cast<double>(memories[i].size());
+    std::copy(memories[i].begin(), memories[i].end(), buffer + 1);
+    return 1 + static_cast<int>(memories[i].size());
 }
 
 int FixWallCarom::unpack_exchange(int i, double *buffer) {
-    std::copy(buffer, buffer + slots * length, memories[i]);
-    return slots * length;
+    const int size = static_cast<int>(buffer[0]);
+    std::vector<double>(buffer + 1, buffer + 1 + size).swap(memories[i]);
+    return 1 + size;
 }
 
 int FixWallCarom::pack_restart(int i, double *buffer) {
-    buffer[0] = slots * length + 1;
-    return 1 + pack_exchange(i, buffer + 1);
+    const int size = size_restart(i);
+    buffer[0] = size;
+    if (size == 1) return size;
+    buffer[1] = restart_format;
+    buffer[2] = kind.number;
+    std::copy(memories[i].begin(), memories[i].end(), buffer + HEADER);
+    return size;
 }
 
 void FixWallCarom::unpack_restart(int i, int nth) {
-    double *extra = atom->extra[i];
-    int at = 0;
-    for (int k = 0; k < nth; ++k) at += static_cast<int>(extra[at]);
-    if (static_cast<int>(extra[at]) != slots * length + 1)
-        error->one(FLERR, "fix wall/carom: the restart file is of a wall with other springs");
-    unpack_exchange(i, extra + at + 1);
+    const double *extra = atom->extra[i];
+    for (int k = 0; k < nth; ++k) extra += static_cast<int>(extra[0]);
+    const int size = static_cast<int>(extra[0]);
+    set_arrays(i);
+    if (size == 1) return;
+    if (size < HEADER || extra[1] != restart_format)
+        error->one(FLERR, "fix wall/carom: the restart file is of another version of Carom; go on from "
+                          "it with that version, or from a data file");
+    if (extra[2] != kind.number || (size - HEADER) % length != 0)
+        error->one(FLERR, "fix wall/carom: contacts in the restart file remember other springs, "
+                          "another precision, ledger or losses; give pair_style and pair_coeff as "
+                          "they were");
+    memories[i].assign(extra + HEADER, extra + size);
 }
 
-int FixWallCarom::size_restart(int) { return slots * length + 1; }
-int FixWallCarom::maxsize_restart() { return slots * length + 1; }
+int FixWallCarom::size_restart(int i) {
+    return memories[i].empty() ? 1 : HEADER + static_cast<int>(memories[i].size());
+}
+
+int FixWallCarom::maxsize_restart() { return HEADER + region->cmax * length; }
