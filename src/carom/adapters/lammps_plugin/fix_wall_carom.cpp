@@ -20,13 +20,14 @@ using namespace LAMMPS_NS;
 
 namespace {
 enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
-enum { HEADER = 3 };  // of a sphere that touches in a restart file: size, format, kind
-constexpr int WALL = KIND;  // all contacts of a fix are of one kind: its place has the wall's number
-constexpr double restart_format = 2000001.0;  // raised when what a restart file holds changes
+constexpr int WALL = CaromWallMemories::WALL;
 
 // Columns: of a sphere those of LAMMPS' fix wall/gran, of a contact what can be said of it alone.
 enum { WALLS, FORCE_ON, POINT = FORCE_ON + 3, RADIUS = POINT + 3, COLUMNS };
-enum { OVERLAP = 8, STORED, LOST, LOCAL_COLUMNS };  // after two numbers, force, point
+enum { OVERLAP = 8, STORED, LOST, LOCAL_COLUMNS = LOST + CaromWallMemories::LOSSES };  // after two numbers, force, point
+
+/// Whether a contact had begun when its last step ended.
+bool has_touched(const double *memory) { return memory[DEPTH] > 0.0; }
 }  // namespace
 
 FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
@@ -48,8 +49,8 @@ FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
         error->all(FLERR, "fix wall/carom needs pair_style carom before it, for the spheres");
     options.viscous = lossy();
     kind = carom_kind(options);
-    length = SPRINGS + kind.doubles + 1;
-    maxexchange = 1 + region->cmax * length;
+    memories.begin(kind);
+    maxexchange = 1 + region->cmax * memories.length();
     restart_peratom = 1;
     create_attribute = 1;
     vector_flag = extvector = 1;
@@ -111,12 +112,13 @@ PairCarom *FixWallCarom::style_of(int type) const {
 int FixWallCarom::setmask() { return FixConst::POST_FORCE; }
 
 void FixWallCarom::init() {
+    refuse_misfits();
     region = domain->get_region_by_id(name);
     if (!region) error->all(FLERR, "fix wall/carom: there is no region {} any longer", name);
     if (region->nregion > 1 && (region->dynamic || region->varshape))
         error->all(FLERR, "fix wall/carom: LAMMPS has no velocity of region {}, which joins others "
                           "that move; give each of them a fix of its own", name);
-    maxexchange = 1 + region->cmax * length;
+    maxexchange = 1 + region->cmax * memories.length();
     find_styles();
     if (styles.empty()) error->all(FLERR, "fix wall/carom needs pair_style carom, for the spheres");
     if (options.tangential && modify->get_fix_by_style("^wall/gran").empty())
@@ -181,7 +183,7 @@ bool FixWallCarom::waits() const {
     for (const Fix *fix : modify->get_fix_list())
         if (fix->diam_flag) return false;
     return !moves() && region->nregion == 1 && !region->openflag && neighbor->dist_check &&
-           neighbor->every == 1 && neighbor->delay == 0;
+           neighbor->every == 1 && neighbor->delay == 0 && !neighbor->build_once;
 }
 
 /// List the spheres that may meet a wall, or part from one, until LAMMPS lists neighbors again.
@@ -190,7 +192,7 @@ void FixWallCarom::find_near() {
     near.clear();
     for (int i = 0; i < atom->nlocal; ++i) {
         const double *x = atom->x[i];
-        if (all || !memories[i].empty() || !region->match(x[0], x[1], x[2]) ||
+        if (all || memories.first(i) != memories.end(i) || !region->match(x[0], x[1], x[2]) ||
             region->surface(x[0], x[1], x[2], reach_of(i) + neighbor->skin) > 0)
             near.push_back(i);
     }
@@ -200,8 +202,12 @@ void FixWallCarom::find_near() {
 void FixWallCarom::find_met(int i, Meetings &met) {
     const int count = atom->mask[i] & groupbit ? find_walls(i) : 0;
     if (changes(i, count)) change(i, count);
-    for (int k = 0; k < count; ++k)
-        if (double *memory = memory_of(i, region->contact[k].iwall)) meet(i, k, memory, met);
+    double *memory = memories.first(i);
+    for (int k = 0; memory != memories.end(i); ++k)
+        if (region->contact[k].iwall == memory[WALL]) {
+            meet(i, k, memory, met);
+            memory += memories.length();
+        }
 }
 
 /// Have the region find the walls that a sphere may touch, and return how many.
@@ -214,52 +220,37 @@ int FixWallCarom::find_walls(int i) const {
     return count;
 }
 
-/// Return what a sphere remembers of a wall, nullptr if they do not touch.
-double *FixWallCarom::memory_of(int i, int wall) {
-    for (std::size_t at = 0; at < memories[i].size(); at += length)
-        if (memories[i][at + WALL] == wall) return &memories[i][at];
-    return nullptr;
-}
-
 /// Whether a sphere and a wall that the region has found touch: a neck is only drawn out by those
 /// that have touched.
 bool FixWallCarom::touches(int i, int k, const double *memory) const {
-    return region->contact[k].r < atom->radius[i] || (memory && kind.touches(memory + SPRINGS));
+    return region->contact[k].r < atom->radius[i] || (memory && has_touched(memory));
 }
 
-/// Whether a sphere touches other walls than those that it remembers.
-bool FixWallCarom::changes(int i, int count) {
-    std::size_t lasting = 0;
+/// Whether a sphere touches other walls than those that it remembers, in the region's order.
+bool FixWallCarom::changes(int i, int count) const {
+    const double *memory = memories.first(i), *end = memories.end(i);
     for (int k = 0; k < count; ++k) {
-        const double *memory = memory_of(i, region->contact[k].iwall);
-        if (!touches(i, k, memory)) continue;
-        if (!memory) return true;
-        lasting += length;
+        const bool is_next = memory != end && memory[WALL] == region->contact[k].iwall;
+        if (!touches(i, k, is_next ? memory : nullptr)) continue;
+        if (!is_next) return true;
+        memory += memories.length();
     }
-    return lasting != memories[i].size();
+    return memory != end;
 }
 
-/// Let a sphere go from walls that it does not touch, what was still stored being lost at last, and
-/// give it a memory of those that it touches for the first time.
+/// Keep the memories of walls that a sphere touches, new ones too. What is still stored in the others
+/// is lost at last.
 void FixWallCarom::change(int i, int count) {
-    std::vector<double> &memory = memories[i];
-    for (std::size_t at = memory.size(); at > 0;) {
-        const double *one = &memory[at -= length];
-        bool lasts = false;
-        for (int k = 0; k < count; ++k)
-            if (region->contact[k].iwall == one[WALL]) lasts = touches(i, k, one);
-        if (lasts) continue;
-        sums[options.viscous ? VISCOSITY : FRICTION] += kind.stored(one + SPRINGS);
-        memory.erase(memory.begin() + at, memory.begin() + at + length);
-    }
+    std::vector<double> list;
     for (int k = 0; k < count; ++k) {
         const int wall = region->contact[k].iwall;
-        if (memory_of(i, wall) || !touches(i, k, nullptr)) continue;
-        memory.reserve(memory.size() + length);  // not more
-        memory.resize(memory.size() + length, 0.0);
-        memory[memory.size() - length + WALL] = wall;
+        const double *memory = memories.of(i, wall);
+        if (touches(i, k, memory)) memories.add(list, wall, memory);
     }
-    if (memory.empty()) set_arrays(i);
+    memories.swap(i, list);
+    for (std::size_t at = 0; at < list.size(); at += memories.length())
+        if (!memories.of(i, static_cast<int>(list[at + WALL])))
+            sums[options.viscous ? VISCOSITY : FRICTION] += kind.stored(&list[at] + SPRINGS);
 }
 
 /// Return how far from its centre a sphere meets a wall.
@@ -278,7 +269,7 @@ void FixWallCarom::meet(int i, int k, double *memory, Meetings &met) {
                    atom->type[i]);
     const int n = met.batch.count++;
     const double radius = atom->radius[i], curved = wall.radius;  // negative if hollow
-    carom_fetch(memory, length);
+    carom_fetch(memory, memories.length());
     met.spheres[n] = i;
     met.batch.memories[n] = memory;
     carom::Pair &pair = met.batch.pairs[n] = known.pair;
@@ -330,7 +321,7 @@ void FixWallCarom::prepare(Meetings &met, int n) {
     double *memory = met.batch.memories[n];
     carom::Pair &pair = met.batch.pairs[n];
     carom::Encounters *meetings = met.batch.meetings;
-    if (!kind.touches(memory + SPRINGS)) {
+    if (!has_touched(memory)) {
         pair.mass = styles.front()->mass_of(i);
         watch.meet(pair, carom::one_of(meetings, n), atom->tag[i], CaromWatch::wall);
         if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, pair);
@@ -366,7 +357,8 @@ void FixWallCarom::apply(const Meetings &met, int n) {
     sums[ELASTIC] += stored;
     sums[FRICTION] += rubbed;
     sums[VISCOSITY] += damped;
-    memory[length - 1] += rubbed + damped;
+    memories.losses(memory)[0] += rubbed;
+    memories.losses(memory)[1] += damped;
     if (shows) show(met, n, stored);
 }
 
@@ -390,7 +382,7 @@ void FixWallCarom::show(const Meetings &met, int n, double stored) {
     all[RADIUS] = atom->radius[i];
     row[OVERLAP] = kept[DEPTH];
     row[STORED] = stored;
-    row[LOST] = kept[length - 1];
+    std::copy_n(memories.losses(kept), CaromWallMemories::LOSSES, row + LOST);
 }
 
 double FixWallCarom::compute_vector(int n) {
@@ -400,65 +392,42 @@ double FixWallCarom::compute_vector(int n) {
 }
 
 double FixWallCarom::memory_usage() {
-    std::size_t numbers = shows ? atom->nmax * COLUMNS + local_room * LOCAL_COLUMNS : 0;
-    for (const std::vector<double> &each : memories) numbers += each.capacity();
-    return static_cast<double>(numbers * sizeof(double) + near.capacity() * sizeof(int) +
-                               memories.capacity() * sizeof(std::vector<double>));
+    const std::size_t shown = shows ? atom->nmax * COLUMNS + local_room * LOCAL_COLUMNS : 0;
+    return static_cast<double>(memories.bytes() + near.capacity() * sizeof(int) +
+                               shown * sizeof(double));
 }
 
 void FixWallCarom::grow_arrays(int nmax) {
-    memories.resize(nmax);
+    memories.grow(nmax);
     if (!shows) return;
     memory->grow(array_atom, nmax, COLUMNS, "wall/carom:atom");
     std::fill_n(*array_atom, nmax * COLUMNS, 0.0);
 }
 
-void FixWallCarom::copy_arrays(int i, int j, int) {
-    std::vector<double>(memories[i]).swap(memories[j]);  // no larger than it is
-}
-
-void FixWallCarom::set_arrays(int i) { std::vector<double>().swap(memories[i]); }
-
-int FixWallCarom::pack_exchange(int i, double *buffer) {
-    buffer[0] = static_cast<double>(memories[i].size());
-    std::copy(memories[i].begin(), memories[i].end(), buffer + 1);
-    return 1 + static_cast<int>(memories[i].size());
-}
-
-int FixWallCarom::unpack_exchange(int i, double *buffer) {
-    const int size = static_cast<int>(buffer[0]);
-    std::vector<double>(buffer + 1, buffer + 1 + size).swap(memories[i]);
-    return 1 + size;
-}
-
-int FixWallCarom::pack_restart(int i, double *buffer) {
-    const int size = size_restart(i);
-    buffer[0] = size;
-    if (size == 1) return size;
-    buffer[1] = restart_format;
-    buffer[2] = kind.number;
-    std::copy(memories[i].begin(), memories[i].end(), buffer + HEADER);
-    return size;
-}
+void FixWallCarom::copy_arrays(int i, int j, int) { memories.copy(i, j); }
+void FixWallCarom::set_arrays(int i) { memories.clear(i); }
+int FixWallCarom::pack_exchange(int i, double *buffer) { return memories.pack(i, buffer); }
+int FixWallCarom::unpack_exchange(int i, double *buffer) { return memories.unpack(i, buffer); }
+int FixWallCarom::pack_restart(int i, double *buffer) { return memories.pack_restart(i, buffer); }
 
 void FixWallCarom::unpack_restart(int i, int nth) {
     const double *extra = atom->extra[i];
     for (int k = 0; k < nth; ++k) extra += static_cast<int>(extra[0]);
-    const int size = static_cast<int>(extra[0]);
-    set_arrays(i);
-    if (size == 1) return;
-    if (size < HEADER || extra[1] != restart_format)
-        error->one(FLERR, "fix wall/carom: the restart file is of another version of Carom; go on from "
+    misfit = std::max(misfit, memories.unpack_restart(i, extra));
+}
+
+int FixWallCarom::size_restart(int i) { return memories.restart_size(i); }
+int FixWallCarom::maxsize_restart() { return memories.largest_restart(region->cmax); }
+
+/// Stop LAMMPS if any processor has read what is no memory of these contacts.
+void FixWallCarom::refuse_misfits() const {
+    int mine = misfit, worst = 0;
+    MPI_Allreduce(&mine, &worst, 1, MPI_INT, MPI_MAX, world);
+    if (worst == CaromWallMemories::OTHER_VERSION)
+        error->all(FLERR, "fix wall/carom: the restart file is of another version of Carom; go on from "
                           "it with that version, or from a data file");
-    if (extra[2] != kind.number || (size - HEADER) % length != 0)
-        error->one(FLERR, "fix wall/carom: contacts in the restart file remember other springs, "
+    if (worst == CaromWallMemories::OTHER_KIND)
+        error->all(FLERR, "fix wall/carom: contacts in the restart file remember other springs, "
                           "another precision, ledger or losses; give pair_style and pair_coeff as "
                           "they were");
-    memories[i].assign(extra + HEADER, extra + size);
 }
-
-int FixWallCarom::size_restart(int i) {
-    return memories[i].empty() ? 1 : HEADER + static_cast<int>(memories[i].size());
-}
-
-int FixWallCarom::maxsize_restart() { return HEADER + region->cmax * length; }

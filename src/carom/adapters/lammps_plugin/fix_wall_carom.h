@@ -9,6 +9,7 @@
 
 #include "fix.h"
 #include "pair_carom.h"
+#include "wall_memories.h"
 
 namespace LAMMPS_NS {
 
@@ -39,6 +40,8 @@ class FixWallCarom : public Fix {
         CaromBatch batch;
         int spheres[most];
         double apart[3][most]{}, velocity[3][most]{}, spin[3][most]{}, radius[most]{}, share[most]{};
+
+        Meetings() { std::fill_n(apart[0], most, 1.0); }  // those left over are somewhere
     };
     void read_words(int, char **);
     void find_styles();
@@ -50,9 +53,8 @@ class FixWallCarom : public Fix {
     void find_near();
     void find_met(int, Meetings &);
     int find_walls(int) const;
-    double *memory_of(int, int);
     bool touches(int, int, const double *) const;
-    bool changes(int, int);
+    bool changes(int, int) const;
     void change(int, int);
     double reach_of(int) const;
     void meet(int, int, double *, Meetings &);
@@ -60,6 +62,7 @@ class FixWallCarom : public Fix {
     void look(Meetings &) const;
     void prepare(Meetings &, int);
     void apply(const Meetings &, int);
+    void refuse_misfits() const;
     void show(const Meetings &, int, double);
 
     std::string name;  ///< of the region
@@ -73,9 +76,9 @@ class FixWallCarom : public Fix {
     class Region *region;
     bool shows;  ///< contacts one by one, and by atom
     int local_room = 0;
-    std::vector<std::vector<double>> memories;  ///< of each atom, a contact after the other
-    int length;  ///< of a contact, whose last number is the energy that it has lost
+    CaromWallMemories memories;
     std::vector<int> near;  ///< spheres that may meet a wall
+    CaromWallMemories::Misfit misfit = CaromWallMemories::NONE;
     double sums[6];  ///< force on the wall; energies: elastic, lost to friction, to viscosity
 };
 
