@@ -255,8 +255,10 @@ void FixWallCarom::change(int i, int count) {
 
 /// Return how far from its centre a sphere meets a wall.
 double FixWallCarom::reach_of(int i) const {
-    // at a hollow wall R* is larger; the neck goes as its third root
-    return atom->radius[i] + 4.0 * carom_neck(bodies[atom->type[i]].cohesion, atom->radius[i]);
+    const double radius = atom->radius[i];
+    const CaromCohesion &cohesion = bodies[atom->type[i]].cohesion;
+    if (!cohesion) return radius;
+    return radius + 4.0 * carom_neck(cohesion, radius);  // as R* is larger at a hollow wall
 }
 
 /// Add a contact to those that are stepped together.
@@ -276,13 +278,18 @@ void FixWallCarom::meet(int i, int k, double *memory, Meetings &met) {
     pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
     met.radius[n] = radius;
     met.share[n] = known.share;
-    const double apart[3] = {wall.delx, wall.dely, wall.delz};
-    double velocity[3] = {0.0, 0.0, 0.0}, place[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
-    if (moves()) region->velocity_contact(velocity, place, k);
+    const carom::Vector apart = {wall.delx, wall.dely, wall.delz}, spin = carom_vector(atom->omega[i]);
+    carom::Vector velocity = carom_vector(atom->v[i]);
+    if (moves()) {
+        double of_wall[3] = {0.0, 0.0, 0.0};
+        carom::Vector place = carom_vector(atom->x[i]);
+        region->velocity_contact(of_wall, place.data(), k);
+        velocity = carom::plus(velocity, -1.0, carom_vector(of_wall));
+    }
     for (int j = 0; j < 3; ++j) {
         met.apart[j][n] = apart[j];
-        met.velocity[j][n] = atom->v[i][j] - velocity[j];
-        met.spin[j][n] = atom->omega[i][j];
+        met.velocity[j][n] = velocity[j];
+        met.spin[j][n] = spin[j];
     }
     if (n + 1 == CaromBatch::most) step(met);
 }
