@@ -22,9 +22,9 @@ namespace {
 enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
 constexpr int WALL = CaromWallMemories::WALL;
 
-// Columns: of a sphere those of LAMMPS' fix wall/gran, of a contact what can be said of it alone.
+// Columns of a sphere are those of LAMMPS' fix wall/gran, a contact has the numbers of both before.
 enum { WALLS, FORCE_ON, POINT = FORCE_ON + 3, RADIUS = POINT + 3, COLUMNS };
-enum { OVERLAP = 8, STORED, LOST, LOCAL_COLUMNS = LOST + CaromWallMemories::LOSSES };  // after two numbers, force, point
+enum { OVERLAP = COLUMNS, STORED, LOST, LOCAL_COLUMNS = LOST + CaromWallMemories::LOSSES };
 
 /// Whether a contact had begun when its last step ended.
 bool has_touched(const double *memory) { return memory[DEPTH] > 0.0; }
