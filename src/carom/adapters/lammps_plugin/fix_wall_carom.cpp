@@ -276,6 +276,8 @@ void FixWallCarom::meet(int i, int k, double *memory, Meetings &met) {
     met.batch.memories[n] = memory;
     carom::Pair &pair = met.batch.pairs[n] = known.pair;
     pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
+    if (known.loss > 0.0) pair.retardation = memory[RETARDATION];
+    if (!has_touched(memory) || known.cohesion || watch.limits()) met.is_plain = false;
     met.radius[n] = radius;
     met.share[n] = known.share;
     const carom::Vector apart = {wall.delx, wall.dely, wall.delz}, spin = carom_vector(atom->omega[i]);
@@ -298,10 +300,11 @@ void FixWallCarom::meet(int i, int k, double *memory, Meetings &met) {
 void FixWallCarom::step(Meetings &met) {
     CaromBatch &batch = met.batch;
     look(met);
-    for (int n = 0; n < batch.count; ++n) prepare(met, n);
+    for (int n = 0; n < batch.count && !met.is_plain; ++n) prepare(met, n);
     carom_step(kind, batch, update->setupflag);
     for (int n = 0; n < batch.count; ++n) apply(met, n);
     batch.count = 0;
+    met.is_plain = true;
 }
 
 /// Find what contacts see of spheres and walls, in lanes; those left over have a contact before.
@@ -331,9 +334,9 @@ void FixWallCarom::prepare(Meetings &met, int n) {
     if (!has_touched(memory)) {
         pair.mass = styles.front()->mass_of(i);
         watch.meet(pair, carom::one_of(meetings, n), atom->tag[i], CaromWatch::wall);
-        if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, pair);
+        if (known.loss > 0.0)
+            pair.retardation = memory[RETARDATION] = carom_retardation(known, pair);
     }
-    if (known.loss > 0.0) pair.retardation = memory[RETARDATION];
     if (!known.cohesion && !watch.limits()) return;
     carom::Encounter now = carom::one_of(meetings, n);
     if (known.cohesion) carom_cohere(known.cohesion, pair.radius, now);

@@ -39,6 +39,7 @@ class FixWallCarom : public Fix {
         static constexpr int most = CaromBatch::most;
         CaromBatch batch;
         int spheres[most];
+        bool is_plain = true;  ///< all have touched before, without cohesion or limits
         double apart[3][most]{}, velocity[3][most]{}, spin[3][most]{}, radius[most]{}, share[most]{};
 
         Meetings() { std::fill_n(apart[0], most, 1.0); }  // those left over are somewhere
