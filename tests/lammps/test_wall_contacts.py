@@ -101,6 +101,30 @@ def test_spheres_meet_walls_in_the_same_step_however_rarely_neighbors_are_listed
     assert np.count_nonzero(ends[0][:, 7]) > 3
 
 
+@pytest.mark.parametrize("losses", ["", "restitution 0.8 speed 0.1"])
+def test_contacts_go_along_to_another_processor(lammps, losses):
+    """Spheres that slide, then roll, over a floor: through the middle of the box, and round it."""
+    ends = []
+    for ranks in (1, 2):
+        lammps(
+            f"{HEAD.replace('f f f', 'p p f')}newton off\nprocessors {ranks} 1 1\n"
+            "region b block 0 0.4 0 0.1 -0.1 0.1\ncreate_box 1 b\nlattice sc 0.02\n"
+            "region row block 0 0.399 0.05 0.051 0 0.001 units box\n"
+            "lattice sc 0.02 origin 0 0.5 0\ncreate_atoms 1 region row\n"
+            f"set group all diameter {2 * RADIUS} density 2500\n"
+            f"set group all z {RADIUS - 4e-6!r}\nvelocity all set 0.3 0.1 0 units box\n"
+            f"pair_style carom\npair_coeff * * {SOLID} {losses}\nregion w plane 0 0 0 0 0 1\n"
+            f"fix w all wall/carom {SOLID} {losses} region w\nfix 1 all nve/sphere\n"
+            "fix g all gravity 9.81 vector 0 0 -1\ntimestep 1e-5\nrun 15000\n"
+            f"write_dump all custom out.txt id x y z vx vy vz omegax omegay {EXACT}\n",
+            ranks,
+        )
+        ends.append(lammps.dumped())
+    np.testing.assert_array_equal(ends[0], ends[1])
+    assert ends[0].shape[0] == 20
+    assert np.all(ends[0][:, 8] > 10.0)
+
+
 def test_a_restart_is_read_on_another_number_of_ranks(lammps):
     one, printed = heap(lammps, "run 4000\nwrite_restart x.rst\nrun 300")
     assert float(re.findall(r"^ *4000 +(\S+)", printed, re.MULTILINE)[-1]) < 0.0
