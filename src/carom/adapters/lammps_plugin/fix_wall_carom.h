@@ -9,6 +9,7 @@
 
 #include "fix.h"
 #include "pair_carom.h"
+#include "wall_memories.h"
 
 namespace LAMMPS_NS {
 
@@ -33,17 +34,37 @@ class FixWallCarom : public Fix {
     int maxsize_restart() override;
 
   private:
+    /// Contacts of a step, and whose they are: what is asked of a sphere, as the wall sees it.
+    struct Meetings {
+        static constexpr int most = CaromBatch::most;
+        CaromBatch batch;
+        int spheres[most];
+        bool is_plain = true;  ///< all have touched before, without cohesion or limits
+        double apart[3][most]{}, velocity[3][most]{}, spin[3][most]{}, radius[most]{}, share[most]{};
+
+        Meetings() { std::fill_n(apart[0], most, 1.0); }  // those left over are somewhere
+    };
     void read_words(int, char **);
     void find_styles();
     bool lossy() const;
-    double *slot_of(int, int);
     PairCarom *style_of(int) const;
-    carom::Pair pair_of(int, double, double *) const;
+    bool moves() const;
     void follow();
+    bool waits() const;
+    void find_near();
+    void find_met(int, Meetings &);
+    int find_walls(int) const;
+    bool touches(int, int, const double *) const;
+    bool changes(int, int) const;
+    void change(int, int);
     double reach_of(int) const;
-    void act(int, int, double *);
-    void part_all_but(const std::vector<double *> &, int);
-    void part(double *);
+    void meet(int, int, double *, Meetings &);
+    void step(Meetings &);
+    void look(Meetings &) const;
+    void prepare(Meetings &, int);
+    void apply(const Meetings &, int);
+    void refuse_misfits() const;
+    void show(const Meetings &, int, double);
 
     std::string name;  ///< of the region
     CaromMaterial material;
@@ -54,8 +75,11 @@ class FixWallCarom : public Fix {
     bigint followed;  ///< last step at which the region was asked for its velocity
     std::vector<PairCarom *> styles;  ///< of the spheres: several in a hybrid
     class Region *region;
-    double **memories;  ///< slots of each atom: the wall's number and 1, then a contact
-    int slots, length;
+    bool shows;  ///< contacts one by one, and by atom
+    int local_room = 0;
+    CaromWallMemories memories;
+    std::vector<int> near;  ///< spheres that may meet a wall
+    CaromWallMemories::Misfit misfit = CaromWallMemories::NONE;
     double sums[6];  ///< force on the wall; energies: elastic, lost to friction, to viscosity
 };
 

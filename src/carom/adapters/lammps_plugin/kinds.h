@@ -80,7 +80,7 @@ inline void carom_keep(double *memory, const carom::Vector &force, double depth)
 /// Return the energy of a Hertzian contact.
 inline double carom_pressed(const carom::Pair &pair, double depth) {
     const double pressed = std::max(depth, 0.0);
-    return 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(pressed, 2.5);
+    return 8.0 / 15.0 * pair.modulus * pressed * pressed * std::sqrt(pair.radius * pressed);
 }
 
 }  // namespace LAMMPS_NS
