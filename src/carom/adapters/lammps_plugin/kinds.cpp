@@ -64,6 +64,10 @@ template <int N, class Real, unsigned P> CaromKind kind_of(bool tangential) {
     static_assert(alignof(Kind) <= alignof(double), "it lies in doubles");
     CaromKind kind{};
     kind.doubles = (sizeof(Kind) + sizeof(double) - 1) / sizeof(double);
+    if constexpr ((P & carom::ledger) != 0) {
+        kind.lost = kind.doubles;
+        kind.doubles += 2;
+    }
     kind.number = 100.0 * N + 10.0 * sizeof(Real) + P;
     kind.touches = [](const double *memory) {
         return reinterpret_cast<const Kind *>(memory)->spacing > 0;
@@ -72,6 +76,14 @@ template <int N, class Real, unsigned P> CaromKind kind_of(bool tangential) {
         if constexpr ((P & carom::ledger) != 0)
             return reinterpret_cast<const Kind *>(memory)->stored;
         return static_cast<void>(memory), 0.0;
+    };
+    kind.load = [](const double *memory, const carom::Pair &pair) {
+        const Kind &contact = *reinterpret_cast<const Kind *>(memory);
+        const double spacing = contact.spacing, edge = contact.edge;
+        double limit = edge;
+        if constexpr ((P & carom::viscous) != 0) limit = contact.limit;
+        return 2.0 * pair.modulus / pair.radius * spacing * spacing * spacing * std::sqrt(edge) *
+               std::max(limit - edge / 3.0, 0.0);
     };
     kind.advance = advance_all<Kind>;
     if constexpr (P == (carom::viscous | carom::ledger))

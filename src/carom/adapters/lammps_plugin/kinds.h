@@ -52,6 +52,8 @@ struct CaromKind {
     double number;  ///< of the kind
     bool (*touches)(const double *);
     double (*stored)(const double *);  ///< energy, 0 without a ledger
+    double (*load)(const double *, const carom::Pair &);  ///< in compression, dashpots too
+    int lost;  ///< where what friction and viscosity took lies among the doubles, 0 without a ledger
     void (*advance)(CaromBatch &);
     void (*mirror)(double *);
 };
