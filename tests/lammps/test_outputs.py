@@ -1,5 +1,6 @@
 """What LAMMPS tells of contacts of pair_style carom, against sums over them that are made here."""
 
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -244,3 +245,41 @@ def test_losses_that_cannot_be_kept_are_refused(lammps, fix, ledger, answer):
     )
     (line,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
     assert answer in line
+
+
+GOES_ON = """units si
+atom_style sphere
+comm_modify vel yes
+newton off
+read_restart x.rst
+{pair}
+fix lost all property/atom d_lost_friction d_lost_viscosity
+fix 1 all nve/sphere
+timestep 1e-5
+compute of all property/atom d_lost_friction d_lost_viscosity
+compute sums all reduce sum c_of[*]
+thermo_style custom step c_sums[*]
+run {steps}
+write_dump all custom out.txt x y z c_of[*] modify sort id format float %.17g
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_losses_of_spheres_go_on_from_a_restart(lammps, ranks):
+    once = packing(lammps, ranks=ranks, speed=1.0, steps="300\nwrite_restart x.rst noinit\nrun 300")
+    lammps(GOES_ON.format(pair=ALONE, steps=300), ranks)
+    np.testing.assert_allclose(lammps.dumped()[:, 3:], once.atoms[:, 16:], rtol=1e-10)
+
+
+def test_the_lines_of_the_manual_run(lammps):
+    """Each contact has a line, each sphere what it has lost."""
+    page = Path(__file__).parents[2] / "docs" / "how-to" / "lammps.md"
+    section = page.read_text(encoding="utf-8").split("## See contacts")[1].split("\n## ")[0]
+    contacts, spheres = (part.split("```")[0] for part in section.split("```none\n")[1:])
+    more = spheres.split("\n", 1)[1] + contacts
+    packed = packing(lammps, steps=1000, more=BARE | {"more": more})
+    listed = np.loadtxt(lammps.folder / "contacts.1000.txt", skiprows=9)
+    np.testing.assert_allclose(listed[:, 1:3], packed.contacts[:, :2])
+    np.testing.assert_allclose(listed[:, 6], packed.contacts[:, 7], rtol=1e-4)
+    lost = np.loadtxt(lammps.folder / "spheres.1000.txt", skiprows=9)[:, 5]
+    assert lost.sum() == pytest.approx(vector(packed.printed, "pair", 2)[1], rel=1e-4)
