@@ -77,14 +77,6 @@ template <int N, class Real, unsigned P> CaromKind kind_of(bool tangential) {
             return reinterpret_cast<const Kind *>(memory)->stored;
         return static_cast<void>(memory), 0.0;
     };
-    kind.load = [](const double *memory, const carom::Pair &pair) {
-        const Kind &contact = *reinterpret_cast<const Kind *>(memory);
-        const double spacing = contact.spacing, edge = contact.edge;
-        double limit = edge;
-        if constexpr ((P & carom::viscous) != 0) limit = contact.limit;
-        return 2.0 * pair.modulus / pair.radius * spacing * spacing * spacing * std::sqrt(edge) *
-               std::max(limit - edge / 3.0, 0.0);
-    };
     kind.advance = advance_all<Kind>;
     if constexpr (P == (carom::viscous | carom::ledger))
         if (tangential)

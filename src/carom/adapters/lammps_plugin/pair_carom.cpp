@@ -456,9 +456,9 @@ void PairCarom::apply(Meetings &met) {
         const carom::Actions &actions = batch.actions[k / carom::lanes];
         const carom::Encounters &meetings = batch.meetings[k / carom::lanes];
         carom::Vector force = carom::in_lane(actions.force, lane);
-        if (options.tangential) force = carom_aside(force, carom::in_lane(meetings.normal, lane));
         const double depth = carom::in_lane(meetings.penetration, lane);
         carom_keep(batch.memories[k], force, depth);
+        if (options.tangential) force = carom_aside(force, carom::in_lane(meetings.normal, lane));
         carom_add(atom->f[i], 1.0, force);
         carom_add(atom->torque[i], 1.0, carom::in_lane(actions.torque, lane));
         if (both) {
@@ -525,8 +525,8 @@ double PairCarom::single(int i, int j, int, int, double rsq, double, double, dou
     const carom::Vector point = carom::plus(carom_vector(atom->x[i]), -now.arm, now.normal);
     carom::Pair pair = known.pair;
     pair.radius = spheres.radius_of(i, j);
-    const double limit = pair.friction * kind.load(memory + SPRINGS, pair);
-    fforce = normal / std::sqrt(rsq);
+    const double limit = pair.friction * normal;
+    fforce = options.tangential ? 0.0 : normal / std::sqrt(rsq);
     std::copy(aside.begin(), aside.end(), svector + ASIDE);
     svector[SIZE] = std::sqrt(carom::dot(aside, aside));
     svector[OVERLAP] = now.penetration;
