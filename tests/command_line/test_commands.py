@@ -225,7 +225,8 @@ def test_inputs_for_lammps_are_written_whole_into_a_new_folder(run):
     code, out, _ = run("lammps", "examples", "inputs", "--json")
     names = sorted(path.name for path in Path("inputs").iterdir())
     assert (code, json.loads(out)) == (0, {"folder": "inputs", "files": names})
-    assert names == ["in.hopper", "in.impact", "in.settling", "in.shear"]
+    subjects = ("drum", "heap", "hopper", "impact", "settling", "shear")
+    assert names == [f"in.{subject}" for subject in subjects]
     assert all("pair_style" in Path("inputs", name).read_text() for name in names)
     code, _, err = run("lammps", "examples", "inputs")
     assert code == 2

@@ -78,15 +78,17 @@ def test_energy_that_a_wall_takes_is_what_shear_took(lammps, losses):
     check_account(printed, losses)
 
 
+@pytest.mark.parametrize("rebuilds", ["check yes", "check no"])
 @pytest.mark.parametrize(("theory", "factor"), [("jkr", 3.0), ("dmt", 4.0)])
 def test_friction_of_coherent_spheres_is_mu_times_normal_force_and_two_pulloff_forces(
-    lammps, theory, factor
+    lammps, theory, factor, rebuilds
 ):
     """One slides past the other, first pressed, then drawn off: F_n as granular has it."""
     gamma = 2.0
     granular = f"{theory} {YOUNG} 0.0 {POISSON} {gamma} {NONE} damping velocity"
     lammps(
         f"{HEAD}{TWO.format(0.06 + 1e-6)}{pair(granular, f'{theory} {gamma}')}"
+        f"neigh_modify every 1 delay 0 {rebuilds}\n"
         "fix 1 one move linear 0 0 0\n"
         "fix 3 other move linear -0.03 0.1 0\ntimestep 1e-6\nrun 1000\nunfix 3\n"
         "fix 3 other move linear 0.03 0.1 0\n"

@@ -102,29 +102,6 @@ def test_bonded_spheres_meet_only_if_special_bonds_says_so(lammps):
         np.testing.assert_allclose(actual[0, 2], contacts * ENERGY, rtol=1e-9)
 
 
-@pytest.mark.parametrize("newton", ["off", "on"])
-def test_stress_holds_the_tangential_force(lammps, newton):
-    """Of two spheres that slid: W = (r_1 - r_2) f_1, of the box and summed over the atoms."""
-    printed = lammps(
-        f"{HEAD}newton {newton}\nboundary f f f\nregion b block 0 0.1 0 0.1 0 0.1\ncreate_box 1 b\n"
-        "create_atoms 1 single 0.05 0.05 0.05\ncreate_atoms 1 single 0.057 0.0565 0.05\n"
-        "set group all diameter 0.01\nset group all density 2500\ngroup one id 1\n"
-        f"velocity one set 0.1 -0.05 0.2\n{CAROM}fix 1 all nve/sphere\ntimestep 1e-6\n"
-        "compute s all stress/atom NULL pair\ncompute t all reduce sum c_s[*]\n"
-        "compute p all pressure NULL pair\n"
-        "thermo_style custom step c_p[*] c_t[*]\nthermo_modify norm no format float %.15g\n"
-        "run 100\nwrite_dump all custom out.txt x y z fx fy fz modify sort id format float %.17g\n"
-    )
-    one, other = lammps.dumped()
-    apart, force = one[:3] - other[:3], one[3:]
-    aside = force - apart * (force @ apart) / (apart @ apart)
-    assert np.linalg.norm(aside) > 0.05 * np.linalg.norm(force)
-    virial = [apart[i] * force[k] for i, k in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
-    last = rows(printed, 13)[-1, 1:]
-    np.testing.assert_allclose(1e-3 * last[:6], virial, rtol=1e-9)
-    np.testing.assert_allclose(-last[6:], virial, rtol=1e-9)
-
-
 def test_what_is_moved_between_runs_has_its_force_at_once(lammps):
     """Not the force of the contact as it was."""
     moved = "group one id 1\ndisplace_atoms one move 1e-4 0 0\nrun 0\n"

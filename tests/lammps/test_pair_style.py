@@ -279,31 +279,6 @@ def test_a_restart_that_forgets_contacts_says_so(lammps):
     assert "contacts across periodic borders are forgotten now" in printed
 
 
-@pytest.mark.parametrize("newton", ["off", "on"])
-def test_forces_of_contacts_can_be_dumped(lammps, newton):
-    """compute pair/local: the normal force and the tangential one are those on the first sphere."""
-    data, *_, step = impacts(50, np.random.default_rng(3))
-    (lammps.folder / "pairs.data").write_text(data)
-    lammps(
-        f"{HEAD}boundary s s s\nnewton {newton}\nneighbor 0.001 bin\nread_data pairs.data\n"
-        f"pair_style carom\npair_coeff * * {words(**SOLID)}\nfix 1 all nve/sphere\n"
-        f"timestep {step!r}\ncompute ids all property/local patom1 patom2\n"
-        "compute met all pair/local force p1 p2 p3 p4\n"
-        "dump d all local 25 met.txt c_ids[*] c_met[*]\ndump_modify d format float %.17g\n"
-        "dump a all custom 25 all.txt id x y z fx fy fz\n"
-        "dump_modify a sort id format float %.17g\nrun 25\n"
-    )
-    met = np.loadtxt((lammps.folder / "met.txt").read_text().split("ITEM:")[-1].splitlines()[1:])
-    atoms = np.loadtxt((lammps.folder / "all.txt").read_text().split("ITEM:")[-1].splitlines()[1:])
-    assert len(met) == PSI.size
-    one, other = (atoms[met[:, k].astype(int) - 1] for k in (0, 1))
-    normal = one[:, 1:4] - other[:, 1:4]
-    normal /= np.linalg.norm(normal, axis=1)[:, None]
-    force = met[:, 2:3] * normal + met[:, 3:6]
-    np.testing.assert_allclose(force, one[:, 4:7], rtol=1e-6, atol=1e-6 * np.abs(force).max())
-    np.testing.assert_allclose(met[:, 6], np.linalg.norm(met[:, 3:6], axis=1), rtol=1e-6)
-
-
 def test_contacts_that_remember_another_kind_stop_the_run(lammps):
     """A restart read with other springs, and losses that begin between runs, are refused."""
     gas(lammps, then="run 400\nwrite_restart x.rst noinit")

@@ -79,8 +79,8 @@ def lammps_command(
 def examples_command(folder: str, as_json: bool = False) -> None:
     """Write inputs for LAMMPS that use the exact law.
 
-    They are an impact, spheres that settle in a box, a packing that is sheared, and a hopper. Each
-    prints what physics says of it.
+    They are an impact, spheres that settle in a box, shear, a hopper, a drum and a cohesive heap.
+    Each prints what physics says of it and draws a picture.
 
     \b
     Example: carom lammps examples inputs
@@ -92,7 +92,7 @@ def examples_command(folder: str, as_json: bool = False) -> None:
         typer.echo(json.dumps({"folder": folder, "files": files}, indent=2))
         return
     typer.echo(f"Carom has written {', '.join(files)} into {folder}.")
-    typer.echo(f"Run them after carom lammps build: lmp -in {folder}/{files[1]}")
+    typer.echo(f"Run them after carom lammps build: lmp -in {folder}/in.impact")
 
 
 @liggghts_app.command("build")

@@ -66,6 +66,10 @@ template <int N, class Real, unsigned P> CaromKind kind_of(bool tangential) {
     kind.doubles = (sizeof(Kind) + sizeof(double) - 1) / sizeof(double);
     constexpr double version = 10000.0;  // raised when the memory of a contact changes
     kind.number = (tangential ? 2.0 : 1.0) * version + 100.0 * N + 10.0 * sizeof(Real) + P;
+    if constexpr ((P & carom::ledger) != 0) {
+        kind.lost = kind.doubles;
+        kind.doubles += 2;
+    }
     kind.touches = [](const double *memory) {
         return reinterpret_cast<const Kind *>(memory)->spacing > 0;
     };

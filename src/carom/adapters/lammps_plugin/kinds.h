@@ -19,7 +19,8 @@ struct CaromOptions {
     bool tangential = false;  ///< friction alone, beside a normal force of LAMMPS' own
 };
 
-// A contact in a history: the force on the first body and the penetration then, the retardation
+// A contact in a history: the force on the first body, of pairs with the normal part that a part
+// tangential leaves to another style, and the penetration then, the retardation
 // time, which kind it is, by which a history of another one is told, the springs.
 enum CaromPlaces { FORCE = 0, DEPTH = 3, RETARDATION = 4, KIND = 5, SPRINGS = 6 };
 
@@ -52,6 +53,7 @@ struct CaromKind {
     double number;  ///< of the kind
     bool (*touches)(const double *);
     double (*stored)(const double *);  ///< energy, 0 without a ledger
+    int lost;  ///< where what friction and viscosity took lies among the doubles, 0 without a ledger
     void (*advance)(CaromBatch &);
     void (*mirror)(double *);
 };

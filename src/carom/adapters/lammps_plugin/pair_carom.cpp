@@ -26,6 +26,9 @@ namespace {
 
 enum { ELASTIC, FRICTION, VISCOSITY, LOSSES };
 
+// what `single` tells besides energy and normal force
+enum { ASIDE, SIZE = 3, OVERLAP, MOBILIZED, BY_FRICTION, BY_VISCOSITY, POINT, EXTRA = POINT + 3 };
+
 constexpr int restart_format = 1000003;  // raised when what a restart file holds changes
 
 /// Spheres as LAMMPS keeps them.
@@ -80,9 +83,9 @@ std::vector<Pair *> LAMMPS_NS::carom_styles(Force *force, const char *name) {
 }
 
 PairCarom::PairCarom(LAMMPS *lmp)
-    : Pair(lmp), watch(lmp, "pair_style carom"), kind{}, history_id("NEIGH_HISTORY_CAROM"), history(nullptr), dt(0.0) {
+    : Pair(lmp), watch(lmp, "pair_style carom"), kind{}, of_spheres(lmp), history_id("NEIGH_HISTORY_CAROM"), history(nullptr), dt(0.0) {
     single_enable = 1;
-    single_extra = 4;
+    single_extra = EXTRA;
     svector = new double[single_extra];
     no_virial_fdotr_compute = 1;
     centroidstressflag = CENTROID_NOTAVAIL;
@@ -90,7 +93,7 @@ PairCarom::PairCarom(LAMMPS *lmp)
     restartinfo = 1;
     nondefault_history_transfer = 1;
     comm_forward = 1;
-    beyond_contact = 1;  // contacts are kept until `compute` has seen them end
+    comm_reverse = 2;
     nextra = LOSSES;
     pvector = new double[LOSSES]();
     // holds the place of the history among the fixes, as it must come before those that move atoms
@@ -218,6 +221,7 @@ void PairCarom::init_style() {
     watch.begin();
     if (force->pair == this || modify->nfix_restart_peratom == 0)
         fit_pages();  // what others of a hybrid have restarted lies in theirs
+    of_spheres.begin("pair_style carom", options.ledger);
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     dt = update->dt;
     rigid.clear();
@@ -346,6 +350,14 @@ void PairCarom::unpack_forward_comm(int count, int first, double *buffer) {
     std::copy(buffer, buffer + count, masses.begin() + first);
 }
 
+int PairCarom::pack_reverse_comm(int count, int first, double *buffer) {
+    return of_spheres.pack(count, first, buffer);
+}
+
+void PairCarom::unpack_reverse_comm(int count, int *atoms, double *buffer) {
+    of_spheres.unpack(count, atoms, buffer);
+}
+
 void PairCarom::compute(int eflag, int vflag) {
     ev_init(eflag, vflag);
     computed = true;
@@ -355,9 +367,11 @@ void PairCarom::compute(int eflag, int vflag) {
                           "the plugin for it: carom lammps build");
     if (!rigid.empty() && neighbor->ago == 0) find_masses();
     std::fill(pvector, pvector + LOSSES, 0.0);
+    if (of_spheres.are_kept()) of_spheres.clear_ghosts();
     Meetings met;
     for (int ii = 0; ii < list->inum; ++ii) find_met(list->ilist[ii], met);
     step(met);
+    if (of_spheres.are_kept() && force->newton_pair) comm->reverse_comm(this);
     pvector[FRICTION] = losses[FRICTION];
     pvector[VISCOSITY] = losses[VISCOSITY];
 }
@@ -454,9 +468,9 @@ void PairCarom::apply(Meetings &met) {
         const carom::Actions &actions = batch.actions[k / carom::lanes];
         const carom::Encounters &meetings = batch.meetings[k / carom::lanes];
         carom::Vector force = carom::in_lane(actions.force, lane);
-        if (options.tangential) force = carom_aside(force, carom::in_lane(meetings.normal, lane));
         const double depth = carom::in_lane(meetings.penetration, lane);
         carom_keep(batch.memories[k], force, depth);
+        if (options.tangential) force = carom_aside(force, carom::in_lane(meetings.normal, lane));
         carom_add(atom->f[i], 1.0, force);
         carom_add(atom->torque[i], 1.0, carom::in_lane(actions.torque, lane));
         if (both) {
@@ -475,8 +489,9 @@ void PairCarom::tally(const Meetings &met, int k, const carom::Vector &f, double
     const double depth = carom::one_of(met.batch.meetings, k).penetration;
     losses[FRICTION] += share * action.friction;
     losses[VISCOSITY] += share * action.viscosity;
-    if (!evflag || depth <= 0.0) return;
     const int i = met.one[k], j = met.other[k];
+    if (options.ledger) lose(i, j, action, met.batch.memories[k] + SPRINGS + kind.lost);
+    if (!evflag || depth <= 0.0) return;
     double energy = kind.stored(met.batch.memories[k] + SPRINGS);
     if (presses() || (watch.minimizes() && !options.tangential))
         energy += carom_pressed(met.batch.pairs[k], depth);
@@ -484,6 +499,16 @@ void PairCarom::tally(const Meetings &met, int k, const carom::Vector &f, double
     const double *one = atom->x[i], *other = atom->x[j];
     ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0.0, f[0], f[1], f[2],
                  one[0] - other[0], one[1] - other[1], one[2] - other[2]);
+}
+
+/// Enter what a contact has lost in the step, and half of it with each sphere that is ours.
+void PairCarom::lose(int i, int j, const carom::Action &action, double *lost) {
+    lost[0] += action.friction;
+    lost[1] += action.viscosity;
+    if (!of_spheres.are_kept()) return;
+    of_spheres.add(i, 0.5 * action.friction, 0.5 * action.viscosity);
+    if (force->newton_pair || j < atom->nlocal)
+        of_spheres.add(j, 0.5 * action.friction, 0.5 * action.viscosity);
 }
 
 /// Return what a pair of neighbours remembers, nullptr if they do not touch.
@@ -496,25 +521,30 @@ const double *PairCarom::remembered(int i, int j) const {
     return nullptr;
 }
 
-/// The force of a contact as last computed: fforce r is the normal part, svector the tangential.
+/// A contact as last computed: fforce r is the normal force; the other numbers are told by name.
 double PairCarom::single(int i, int j, int, int, double rsq, double, double, double &fforce) {
-    std::fill(svector, svector + single_extra, 0.0);
+    std::fill(svector, svector + EXTRA, 0.0);
     fforce = 0.0;
     if (!history || !list) return 0.0;
     const double *first = remembered(i, j), *memory = first ? first : remembered(j, i);
     if (!memory) return 0.0;
-    const bool ordered = first != nullptr;
+    const CaromBodies &known = bodies[atom->type[i]][atom->type[j]];
     const Spheres spheres(*atom, nullptr);
-    const carom::Encounter now =
-        carom::encounter(spheres.body(ordered ? i : j), spheres.body(ordered ? j : i), dt);
-    const carom::Vector all = carom_vector(memory + FORCE);
-    const double normal = carom::dot(all, now.normal), side = ordered ? 1.0 : -1.0;
-    fforce = normal / std::sqrt(rsq);
+    const carom::Encounter now = carom::encounter(spheres.body(i), spheres.body(j), dt, known.share);
+    const carom::Vector all = carom::times(first ? 1.0 : -1.0, carom_vector(memory + FORCE));
+    const double normal = carom::dot(all, now.normal);
     const carom::Vector aside = carom::plus(all, -normal, now.normal);
-    for (int k = 0; k < 3; ++k) svector[k] = side * aside[k];
-    svector[3] = std::sqrt(carom::dot(aside, aside));
-    carom::Pair pair = bodies[atom->type[i]][atom->type[j]].pair;
+    const carom::Vector point = carom::plus(carom_vector(atom->x[i]), -now.arm, now.normal);
+    carom::Pair pair = known.pair;
     pair.radius = spheres.radius_of(i, j);
+    const double limit = pair.friction * normal;
+    fforce = options.tangential ? 0.0 : normal / std::sqrt(rsq);
+    std::copy(aside.begin(), aside.end(), svector + ASIDE);
+    svector[SIZE] = std::sqrt(carom::dot(aside, aside));
+    svector[OVERLAP] = now.penetration;
+    svector[MOBILIZED] = limit > 0.0 ? svector[SIZE] / limit : 0.0;
+    if (options.ledger) std::copy_n(memory + SPRINGS + kind.lost, 2, svector + BY_FRICTION);
+    std::copy(point.begin(), point.end(), svector + POINT);
     return kind.stored(memory + SPRINGS) + (presses() ? carom_pressed(pair, now.penetration) : 0.0);
 }
 

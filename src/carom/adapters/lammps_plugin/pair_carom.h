@@ -11,6 +11,7 @@
 #include "fix.h"
 #include "granular.h"
 #include "kinds.h"
+#include "losses.h"
 #include "materials.h"
 #include "pair.h"
 #include "watch.h"
@@ -49,6 +50,8 @@ class PairCarom : public Pair {
     void reset_dt() override;
     int pack_forward_comm(int, int *, double *, int, int *) override;
     void unpack_forward_comm(int, int, double *) override;
+    int pack_reverse_comm(int, int, double *) override;
+    void unpack_reverse_comm(int, int *, double *) override;
 
     void check_steps(const char *, double) const;
 
@@ -78,6 +81,7 @@ class PairCarom : public Pair {
     void meet(Meetings &);
     void apply(Meetings &);
     void tally(const Meetings &, int, const carom::Vector &, double);
+    void lose(int, int, const carom::Action &, double *);
     const double *remembered(int, int) const;
     bool presses() const { return !options.viscous && !options.tangential; }
     void read(FILE *, void *, int);
@@ -88,6 +92,7 @@ class PairCarom : public Pair {
     std::vector<double> radii, masses;
     std::vector<class Fix *> rigid;
     double losses[3] = {0.0, 0.0, 0.0};
+    CaromLosses of_spheres;
     std::vector<GranularConstants> beside;  ///< of the styles that give the normal force
     bool beside_read = false;
     std::string history_id;
