@@ -11,7 +11,7 @@ from pathlib import Path
 
 from bulk import gas, modulus, shear
 from bulk.cells import both_ways, cooled, flowing, left, over_blocks, sheared, turned
-from bulk.contact_laws import EXACT, FINER, LAWS
+from bulk.contact_laws import BESIDE, COARSE, EXACT, LAWS
 from bulk.results import CELLS, Cell, Mean, excess, mean, ratio
 from bulk_figures import draw
 from page_blocks import as_maths, blocks, page_with, table
@@ -86,9 +86,13 @@ def gases() -> Iterator[str]:
 
 POINTS = {  # one point of each experiment: cell, size of a larger one over its own, unit
     "kinetic energy left, friction 0.3, e = 1 (%)": (left(EXACT.name, 0.3, 1.0), 4, 100.0),
+    "the same, e = 0.9 (%)": (left(EXACT.name, 0.3, 0.9), 4, 100.0),
     "modulus (1e-3 E), strain 3e-4": (sheared(EXACT.name, 0.3, 3e-4, "modulus"), 4, 1e3),
     "damping ratio (%), strain 3e-4": (sheared(EXACT.name, 0.3, 3e-4, "damping"), 4, 100.0),
     "stress ratio, I = 0.01": (flowing(EXACT.name, 0.3, 1e-2, "ratio"), 4, 1.0),
+    "stress ratio, friction 0.1, I = 0.1": (flowing(EXACT.name, 0.1, 1e-1, "ratio"), 4, 1.0),
+    "stress ratio, friction 0.3, I = 0.1": (flowing(EXACT.name, 0.3, 1e-1, "ratio"), 4, 1.0),
+    "stress ratio, friction 0.5, I = 0.1": (flowing(EXACT.name, 0.5, 1e-1, "ratio"), 4, 1.0),
     "volume fraction, I = 0.01": (flowing(EXACT.name, 0.3, 1e-2, "fraction"), 4, 1.0),
     "turning drum (degrees)": (turned(EXACT.name, 0.3, "turning"), 1.5, 1.0),
     "drum at rest (degrees)": (turned(EXACT.name, 0.3, "rest"), 1.5, 1.0),
@@ -106,14 +110,14 @@ def of_two(cell: Cell, unit: float) -> str:
 
 
 def converged() -> Iterator[str]:
-    """Yield one point of each experiment, then with half the time step, more spheres or springs."""
+    """Yield one point of each experiment, then with a finer step, more spheres, another law."""
     for name, (cell, larger, unit) in POINTS.items():
         changes = [{}, {"step": 0.5}, {"size": round(larger * cell.size)}]
         cells = [cell._replace(**change) for change in changes]
-        cells.append(cell._replace(law=FINER.name))
         if cell.law == EXACT.name:
+            cells += [cell._replace(law=law.name) for law in (COARSE, BESIDE)]
             cells += [each._replace(law=LAWS[1].name) for each in cells[:3]]
-        cells += [cell._replace(law="")] * (7 - len(cells))
+        cells += [cell._replace(law="")] * (8 - len(cells))
         yield f"{name} | {' | '.join(of_two(each, unit) for each in cells)}"
 
 
@@ -144,7 +148,9 @@ def tables() -> dict[str, str]:
         "drum": by_laws("drum, friction", slopes, drums()),
         "circle": table(f"friction, energy | {times}", circle()),
         "gas": table(other, gases()),
-        "converged": table(f"point | exact | {more} | 64 springs | mindlin | {more}", converged()),
+        "converged": table(
+            f"point | exact | {more} | 16 springs | beside granular | mindlin | {more}", converged()
+        ),
     }
     return {name: as_maths(text) for name, text in found.items()}
 

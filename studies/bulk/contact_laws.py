@@ -15,14 +15,15 @@ RADIUS = 0.25  # R* of two spheres
 class Setting(NamedTuple):
     """What all laws of a comparison share.
 
-    `speed` is that at which spheres rebound with the restitution; `spring` is the stiffness of
-    linear springs.
+    `speed` is that at which spheres rebound with the restitution, `spring` the stiffness of linear
+    springs, `springs` the number of those of the exact law.
     """
 
     friction: float
     restitution: float
     speed: float
     spring: float
+    springs: int = 16
 
 
 def secant(depth: float) -> float:
@@ -56,8 +57,9 @@ class Law(NamedTuple):
         return self.model == "linear_history"
 
 
-EXACT = Law("exact", "carom springs 32")
-FINER = Law("exact 64", "carom springs 64")  # only to see whether 32 are enough
+EXACT = Law("exact", "carom")
+COARSE = Law("16 springs", "carom")  # only to see whether 16 are enough
+BESIDE = Law("beside granular", "hybrid/overlay granular carom part tangential")
 LAWS = (
     EXACT,
     Law("mindlin", "mindlin"),
@@ -71,7 +73,7 @@ SHEAR = 2 * KAPPA * MODULUS  # F_t = SHEAR a U
 
 def named(name: str) -> Law:
     """Return the law of this name."""
-    return next(law for law in (*LAWS, FINER) if law.name == name)
+    return next(law for law in (*LAWS, COARSE, BESIDE) if law.name == name)
 
 
 def _granular(law: Law, setting: Setting) -> str:
@@ -83,17 +85,20 @@ def _granular(law: Law, setting: Setting) -> str:
     else:
         normal, tangential = f"hertz {4 / 3 * MODULUS!r}", law.stiffness * SHEAR
     shear = f"tangential {law.model} {tangential!r} 1.0 {setting.friction!r}"
+    if law == BESIDE:
+        shear = f"tangential linear_nohistory 0.0 {setting.friction!r}"
     return f"{normal} {loss!r} {shear} damping {damping}"
-
-
-def _exact(setting: Setting) -> str:
-    losses = f" restitution {setting.restitution!r} speed {setting.speed!r}"
-    words = f"young 1.0 poisson {POISSON!r} friction {setting.friction!r}"
-    return words + (losses if setting.restitution < 1.0 else "")
 
 
 def pairs(law: Law, setting: Setting) -> str:
     """Return the lines of an input for contacts between spheres."""
-    if law in (EXACT, FINER):
-        return f"pair_style {law.model}\npair_coeff * * {_exact(setting)}"
+    exact = f"young 1.0 poisson {POISSON!r} friction {setting.friction!r}"
+    style = f"pair_style {law.model} springs {setting.springs}\n"
+    if law == BESIDE:
+        granular = f"pair_coeff * * granular {_granular(law, setting)}\n"
+        return f"{style}{granular}pair_coeff * * carom {exact}"
+    if law in (EXACT, COARSE):
+        if setting.restitution < 1.0:
+            exact += f" restitution {setting.restitution!r} speed {setting.speed!r}"
+        return f"{style}pair_coeff * * {exact}"
     return f"pair_style granular\npair_coeff * * {_granular(law, setting)}"

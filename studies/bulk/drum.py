@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bulk.contact_laws import LAWS, Setting, named, pairs, secant
+from bulk.contact_laws import BESIDE, LAWS, Setting, named, pairs, secant
 from bulk.simulations import Found, Run, run
 
 GRAVITY, STEP, DEPTH = 3e-5, 0.2, 3e-3  # at the bottom of the bed spheres overlap by some DEPTH
@@ -54,6 +54,8 @@ def runs() -> list[Run]:
         Run("drum", law.name, friction, 0.9, FROUDE, seed, round(2 * RADIUS))
         for friction, law, seed in product(FRICTIONS, LAWS, SEEDS)
     ]
+    size = round(2 * RADIUS)
+    found += [Run("drum", BESIDE.name, 0.3, 0.9, FROUDE, seed, size) for seed in SEEDS]
     for law in LAWS[:2]:
         found += [Run("drum", law.name, 0.3, 0.9, FROUDE, seed, 16, 0.5) for seed in SEEDS]
         found += [Run("drum", law.name, 0.3, 0.9, FROUDE, seed, 24) for seed in SEEDS]

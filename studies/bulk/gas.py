@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bulk.contact_laws import LAWS, Setting, duration, named, overlap, pairs, secant
+from bulk.contact_laws import BESIDE, LAWS, Setting, duration, named, overlap, pairs, secant
 from bulk.events import cool
 from bulk.simulations import Found, Run, run
 
@@ -55,6 +55,7 @@ def runs() -> list[Run]:
         for seed in seeds
     ]
     found += [Run("gas", EVENTS, mu, 1.0, FRACTION, s, SIZE) for mu in SEEDS for s in range(5, 13)]
+    found += [Run("gas", BESIDE.name, 0.3, 1.0, FRACTION, seed, SIZE) for seed in (1, 2)]
     found += [Run("gas", LAWS[0].name, 0.3, 1.0, FRACTION, seed, SIZE, 0.5) for seed in (1, 2)]
     return found + [Run("gas", EVENTS, 0.3, 1.0, FRACTION, seed, 4 * SIZE) for seed in (1, 2)]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bulk.contact_laws import LAWS, Setting, named, pairs, secant
+from bulk.contact_laws import BESIDE, LAWS, Setting, named, pairs, secant
 from bulk.packings import BEGIN, packing
 from bulk.simulations import Found, Run, run
 
@@ -43,6 +43,8 @@ def runs() -> list[Run]:
         for friction, inertia, seed in cases
         for law in LAWS
     ]
+    fast = [(0.3, 1e-2), *((friction, 1e-1) for friction in FRICTIONS)]
+    found += [Run("shear", BESIDE.name, mu, 0.9, i, s, SIZE) for mu, i in fast for s in (1, 2)]
     for law in LAWS[:2]:
         found += [Run("shear", law.name, 0.3, 0.9, 1e-2, seed, SIZE, 0.5) for seed in (1, 2)]
         found += [Run("shear", law.name, 0.3, 0.9, 1e-2, seed, 4 * SIZE) for seed in (1, 2)]
