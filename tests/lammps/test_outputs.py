@@ -283,3 +283,28 @@ def test_the_lines_of_the_manual_run(lammps):
     np.testing.assert_allclose(listed[:, 6], packed.contacts[:, 7], rtol=1e-4)
     lost = np.loadtxt(lammps.folder / "spheres.1000.txt", skiprows=9)[:, 5]
     assert lost.sum() == pytest.approx(vector(packed.printed, "pair", 2)[1], rel=1e-4)
+
+
+@pytest.mark.parametrize("losses", ["", "restitution 0.6 speed 0.5"])
+def test_losses_at_walls_are_those_of_their_spheres(lammps, losses):
+    """Of spheres that fall into a box and bounce: pairs and walls together."""
+    solid = f"young 5e6 poisson 0.25 friction 0.4 {losses}"
+    printed = lammps(
+        "units si\natom_style sphere\nboundary f f f\nnewton off\ncomm_modify vel yes\n"
+        "neighbor 0.0005 bin\nregion box block 0 0.025 0 0.025 0 0.08 units box\ncreate_box 1 box\n"
+        "region above block 0.003 0.022 0.003 0.022 0.003 0.077 units box\n"
+        "create_atoms 1 random 60 1234 above overlap 0.005 maxtry 200 units box\n"
+        "set group all diameter 0.005 density 2500\nvelocity all set 0.3 0.1 -0.3\n"
+        "fix lost all property/atom d_lost_friction d_lost_viscosity\n"
+        f"pair_style carom ledger yes\npair_coeff * * {solid}\nfix w all wall/carom {solid} "
+        "region box\nfix 1 all nve/sphere\nfix g all gravity 9.81 vector 0 0 -1\n"
+        "timestep 1e-5\ncompute of all property/atom d_lost_friction d_lost_viscosity\n"
+        "compute sums all reduce sum c_of[*]\ncompute p all pair carom\n"
+        "thermo_style custom step c_sums[*] c_p[2] c_p[3] f_w[5] f_w[6]\n"
+        "thermo_modify norm no format float %.15g\nrun 6000\n"
+    )
+    rows = [line.split() for line in printed.splitlines()]
+    last = next(row for row in rows if len(row) == 7 and row[0] == "6000")
+    spheres, pairs, walls = np.array(last[1:], dtype=float).reshape(3, 2)
+    np.testing.assert_allclose(spheres, pairs + walls, rtol=1e-12)
+    assert walls[0] > 1e-2 * pairs[0] > 0.0

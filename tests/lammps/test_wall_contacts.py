@@ -31,9 +31,10 @@ def test_each_contact_is_shown_and_adds_up_to_force_and_energies(lammps, losses,
     """Of a sphere in an edge, one on the floor, and one that touches nothing."""
     printed = lammps(
         f"{CORNER}pair_style carom ledger yes precision double\npair_coeff * * {SOLID} {losses}\n"
+        "fix lost all property/atom d_lost_friction d_lost_viscosity\n"
         f"fix w all wall/carom {SOLID} {losses} region w contacts\nfix 1 all nve/sphere\n"
         "timestep 1e-6\nthermo_style custom step f_w[*]\nthermo_modify format float %.17g\nrun 60\n"
-        f"write_dump all custom out.txt {SPHERES} {EXACT}\n"
+        f"write_dump all custom out.txt {SPHERES} d_lost_friction d_lost_viscosity {EXACT}\n"
         f"write_dump all local met.txt {CONTACTS} modify format float %.17g\n",
         ranks,
     )
@@ -55,6 +56,7 @@ def test_each_contact_is_shown_and_adds_up_to_force_and_energies(lammps, losses,
         rows = met[atoms == number]
         np.testing.assert_allclose(rows[:, 2:5].sum(0), force[number - 1], rtol=1e-12)
         np.testing.assert_allclose(rows[:, 5:8].mean(0), spheres[number - 1, 12:15], rtol=1e-12)
+        np.testing.assert_allclose(rows[:, 10:].sum(0), spheres[number - 1, 16:], rtol=1e-12)
     assert not spheres[2, 8:].any()
     lines = re.findall(r"^ *60 +(.+)$", printed, re.MULTILINE)
     sums = np.array(lines[-1].split(), dtype=float)

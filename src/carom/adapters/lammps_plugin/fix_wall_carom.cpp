@@ -24,14 +24,15 @@ constexpr int WALL = CaromWallMemories::WALL;
 
 // Columns of a sphere are those of LAMMPS' fix wall/gran, a contact has the numbers of both before.
 enum { WALLS, FORCE_ON, POINT = FORCE_ON + 3, RADIUS = POINT + 3, COLUMNS };
-enum { OVERLAP = COLUMNS, STORED, LOST, LOCAL_COLUMNS = LOST + CaromWallMemories::LOSSES };
+enum { OVERLAP = COLUMNS, STORED, LOST, LOCAL_COLUMNS = LOST + 2 };
 
 /// Whether a contact had begun when its last step ended.
 bool has_touched(const double *memory) { return memory[DEPTH] > 0.0; }
 }  // namespace
 
 FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), kind{}, watch(lmp, "fix wall/carom"), followed(-2), region(nullptr),
+    : Fix(lmp, narg, arg), kind{}, watch(lmp, "fix wall/carom"), of_spheres(lmp), followed(-2),
+      region(nullptr),
       shows(narg > 5 && std::string(arg[narg - 1]) == "contacts" &&
             std::string(arg[narg - 2]) != "region"),
       sums{} {
@@ -127,6 +128,7 @@ void FixWallCarom::init() {
     if (lossy() && !options.viscous)
         error->all(FLERR, "fix wall/carom: give pair_coeff, with its losses, before the fix");
     watch.begin();
+    of_spheres.begin("fix wall/carom", options.ledger);
     bodies.assign(atom->ntypes + 1, CaromBodies{});
     for (int type = 1; type <= atom->ntypes; ++type) {
         const PairCarom *style = style_of(type);
@@ -367,8 +369,11 @@ void FixWallCarom::apply(const Meetings &met, int n) {
     sums[ELASTIC] += stored;
     sums[FRICTION] += rubbed;
     sums[VISCOSITY] += damped;
-    memories.losses(memory)[0] += rubbed;
-    memories.losses(memory)[1] += damped;
+    if (options.ledger) {
+        memory[SPRINGS + kind.lost] += rubbed;
+        memory[SPRINGS + kind.lost + 1] += damped;
+        of_spheres.add(i, rubbed, damped);
+    }
     if (shows) show(met, n, stored);
 }
 
@@ -392,7 +397,8 @@ void FixWallCarom::show(const Meetings &met, int n, double stored) {
     all[RADIUS] = atom->radius[i];
     row[OVERLAP] = kept[DEPTH];
     row[STORED] = stored;
-    std::copy_n(memories.losses(kept), CaromWallMemories::LOSSES, row + LOST);
+    std::fill_n(row + LOST, 2, 0.0);
+    if (options.ledger) std::copy_n(kept + SPRINGS + kind.lost, 2, row + LOST);
 }
 
 double FixWallCarom::compute_vector(int n) {

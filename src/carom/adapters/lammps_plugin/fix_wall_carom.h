@@ -72,6 +72,7 @@ class FixWallCarom : public Fix {
     CaromOptions options;
     CaromKind kind;
     CaromWatch watch;
+    CaromLosses of_spheres;
     bigint followed;  ///< last step at which the region was asked for its velocity
     std::vector<PairCarom *> styles;  ///< of the spheres: several in a hybrid
     class Region *region;

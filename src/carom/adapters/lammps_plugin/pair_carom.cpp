@@ -83,7 +83,8 @@ std::vector<Pair *> LAMMPS_NS::carom_styles(Force *force, const char *name) {
 }
 
 PairCarom::PairCarom(LAMMPS *lmp)
-    : Pair(lmp), watch(lmp, "pair_style carom"), kind{}, of_spheres(lmp), history_id("NEIGH_HISTORY_CAROM"), history(nullptr), dt(0.0) {
+    : Pair(lmp), watch(lmp, "pair_style carom"), kind{}, of_spheres(lmp),
+      history_id("NEIGH_HISTORY_CAROM"), history(nullptr), dt(0.0) {
     single_enable = 1;
     single_extra = EXTRA;
     svector = new double[single_extra];

@@ -13,7 +13,7 @@ constexpr double restart_format = 2000001.0;  // raised when what a restart file
 
 void CaromWallMemories::begin(const CaromKind &kind) {
     number = kind.number;
-    size = SPRINGS + kind.doubles + LOSSES;
+    size = SPRINGS + kind.doubles;
 }
 
 const double *CaromWallMemories::of(int i, int wall) const {

@@ -11,17 +11,14 @@
 
 namespace LAMMPS_NS {
 
-/// Contacts of one kind as in kinds.h, with the wall's number in place of the kind, and at the end
-/// what friction and viscosity took.
+/// Contacts of one kind as in kinds.h, with the wall's number in place of the kind.
 class CaromWallMemories {
   public:
-    static constexpr int WALL = KIND, LOSSES = 2;
+    static constexpr int WALL = KIND;
 
     void begin(const CaromKind &);
 
     int length() const { return size; }
-    const double *losses(const double *memory) const { return memory + size - LOSSES; }
-    double *losses(double *memory) const { return memory + size - LOSSES; }
 
     double *first(int i) { return all[i].data(); }
     double *end(int i) { return all[i].data() + all[i].size(); }
