@@ -27,14 +27,14 @@ namespace springs {
 template <class T, int N, class Real, unsigned P>
 inline void enter(const Row<T, Contact<N, Real, P>>& row, const MotionOf<T>& m,
                   const LoadOf<T>& load) {
-    using C = Contact<N, Real, P>;
-    T twice = (load.x + row.get(&C::shear_x)) * m.slide_x + (load.y + row.get(&C::shear_y)) * m.slide_y;
-    if constexpr ((P & viscous) != 0) twice += (load.normal + row.get(&C::normal)) * m.approach;
-    row.keep(&C::stored,
-             row.get(&C::stored) + (0.5 * m.step * twice - load.friction - load.viscosity));
-    row.keep(&C::normal, load.normal);
-    row.keep(&C::shear_x, load.x);
-    row.keep(&C::shear_y, load.y);
+    using Kind = Contact<N, Real, P>;
+    T twice = (load.x + row.get(&Kind::shear_x)) * m.slide_x + (load.y + row.get(&Kind::shear_y)) * m.slide_y;
+    if constexpr ((P & viscous) != 0) twice += (load.normal + row.get(&Kind::normal)) * m.approach;
+    row.keep(&Kind::stored,
+             row.get(&Kind::stored) + (0.5 * m.step * twice - load.friction - load.viscosity));
+    row.keep(&Kind::normal, load.normal);
+    row.keep(&Kind::shear_x, load.x);
+    row.keep(&Kind::shear_y, load.y);
 }
 
 /// Let go: what is still stored goes into the dashpots, or was rubbed off at last.
@@ -49,13 +49,13 @@ inline void part(Contact<N, Real, P>& c, const Motion& m, Load& load) {
     c = Contact<N, Real, P>{};
 }
 
-/// A step of contacts in lanes of T, in three stages. In each of them many can be taken one after
+/// A step of contacts in lanes of T, in four stages. In each of them many can be taken one after
 /// the other: then the roots of one are not waited for by the next.
 template <class T, int N, class Real, unsigned P> struct Stage {
-    using C = Contact<N, Real, P>;
+    using Kind = Contact<N, Real, P>;
     using Narrow = Alike<T, Real>;
 
-    Row<T, C> row;
+    Row<T, Kind> row;
     PairOf<T> pair;
     MotionOf<T> motion;
     Now<T> now;
@@ -63,9 +63,13 @@ template <class T, int N, class Real, unsigned P> struct Stage {
     Sums<T> sums;
 
     /// First: the lattice, and what all springs share.
-    void prepare() {
+    void look() {
         fit_lattices(row, pair, motion);
-        now = look(row, pair, motion);
+        now = springs::look(row, pair, motion);
+    }
+
+    /// Second: where the contact ends.
+    void bound() {
         now.edge = edge_of(row, now);
         find_ends<N>(now);
         const auto narrow = [&](Narrow Shared<Narrow>::*to, T Shared<T>::*from) {
@@ -91,7 +95,7 @@ template <class T, int N, class Real, unsigned P> struct Stage {
         sums = Sums<T>{};
     }
 
-    /// Second: the springs of one of them.
+    /// Third: the springs of one of them.
     void march(int lane, const Numbers<N, Real>& numbers) {
         if (in_lane(pair.friction, lane) > 0.0 || (P & viscous) != 0)
             springs::march(*row.all[lane], numbers, shared, lane, in_lane(now.last, lane),
@@ -106,7 +110,7 @@ template <class T, int N, class Real, unsigned P> struct Stage {
             sums.x += rest * now.drag_x;
             sums.y += rest * now.drag_y;
         }
-        const T all = 2.0 * pair.modulus * row.get(&C::spacing) * now.unit;
+        const T all = 2.0 * pair.modulus * row.get(&Kind::spacing) * now.unit;
         T scale = all * pair.friction;
         LoadOf<T> load{};
         if constexpr ((P & ledger) != 0) {
@@ -125,15 +129,15 @@ template <class T, int N, class Real, unsigned P> struct Stage {
 
     /// Keep what the next step needs of this one.
     void keep(const T& scale, LoadOf<T>& load) {
-        row.keep(&C::edge, now.edge);
+        row.keep(&Kind::edge, now.edge);
         if constexpr (P == (viscous | ledger)) {
-            row.keep(&C::limit, now.limit);
-            row.keep(&C::drag_x, now.drag_x);
-            row.keep(&C::drag_y, now.drag_y);
+            row.keep(&Kind::limit, now.limit);
+            row.keep(&Kind::drag_x, now.drag_x);
+            row.keep(&Kind::drag_y, now.drag_y);
             // dashpots in compression: tau d'^2 of every spring
             const T power = scale * now.excess * now.root * now.approach * now.unit;
-            load.viscosity += 0.5 * motion.step * (power + row.get(&C::power));
-            row.keep(&C::power, power);
+            load.viscosity += 0.5 * motion.step * (power + row.get(&Kind::power));
+            row.keep(&Kind::power, power);
         }
         if constexpr ((P & ledger) != 0) enter(row, motion, load);
     }
@@ -153,7 +157,8 @@ inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Moti
     springs::set_statuses<Real>(stage.pair, motion, &status, 1);
     if (status != Status::ok) return status;
     if (motion.penetration > 0.0) {
-        stage.prepare();
+        stage.look();
+        stage.bound();
         stage.march(0, springs::Numbers<N, Real>{});
         load = stage.settle();
     } else {

@@ -202,10 +202,10 @@ inline void advance_batch(ContactInSpace<N, Real, P>* const contacts[], const Pa
     StageInSpace<N, Real, P> stages[together / lanes];
     Contact<N, Real, P> spare;
     const int rows = (count + lanes - 1) / lanes;
-    for (int i = 0, k = 0; i < rows; ++i, k += lanes) {
+    for (int i = 0, k = 0; i < rows; ++i, k += lanes)
         stages[i].meet(contacts + k, pairs + k, meetings[i], statuses + k, count - k, spare);
-        stages[i].prepare();
-    }
+    for (int i = 0; i < rows; ++i) stages[i].look();
+    for (int i = 0; i < rows; ++i) stages[i].bound();
     for (int i = 0; i < rows; ++i) stages[i].march(numbers);
     for (int i = 0; i < rows; ++i) actions[i] = stages[i].settle(meetings[i]);
 }

@@ -24,7 +24,7 @@ template <int N, class Real> struct Numbers {
     using L = Lanes<Real, N>;
     typename L::Type zero = L::fixed(0), half = L::fixed(Real(0.5)), one = L::fixed(1);
     typename L::Type tiny = L::fixed(std::numeric_limits<Real>::min());
-    typename L::Type faint = L::of(1e-20), steep = L::of(1e20);
+    typename L::Type faint = L::of(1e-20);
 };
 
 /// The springs of a step: what they share, in each lane of a register, and what they add up to.
@@ -33,7 +33,7 @@ template <int N, class Real, unsigned P> struct March {
     using V = typename L::Type;
     static constexpr Places<N, Real> places{};
 
-    V zero, half, one, tiny, faint, steep;
+    V zero, half, one, tiny, faint;
     V depth, least, full, moved_x, moved_y, first, inner, bend;
     V limit, rim, fade, faded, drag_x, drag_y;
     V along{}, across{}, rubbed{}, dragged{};
@@ -42,7 +42,7 @@ template <int N, class Real, unsigned P> struct March {
 
     template <class T>
     March(const Numbers<N, Real>& n, const Shared<T>& now, int lane, int end, bool sheared)
-        : zero(n.zero), half(n.half), one(n.one), tiny(n.tiny), faint(n.faint), steep(n.steep),
+        : zero(n.zero), half(n.half), one(n.one), tiny(n.tiny), faint(n.faint),
           depth(L::of(in_lane(now.depth, lane))), least(L::of(in_lane(now.least, lane))),
           full(L::of(in_lane(now.most, lane))), moved_x(L::of(in_lane(now.moved_x, lane))),
           moved_y(L::of(in_lane(now.moved_y, lane))), first(L::of(in_lane(now.first, lane))),
@@ -82,14 +82,14 @@ template <int N, class Real, unsigned P> struct March {
         const V pressed = depth - s, share = smaller(larger(pressed, least), full);
         V bearable = larger(pressed, zero), most = bearable, free_x = x0, free_y = y0, inverse;
         if constexpr ((P & viscous) != 0) {
-            const V inside = (rim - s) * steep;  // beyond the edge springs are free
+            const auto inside = s < rim;  // beyond the edge springs are free
             // by what fades: what is kept is one to rounding where steps are short
             const V held = L::load(c.pressed + k), less = held * fade;
             const V is = settled(larger(pressed, held - less));
             const V grown = (is - held) + less;
             L::store(c.pressed + k, is);
-            bearable = larger(smaller(limit - s, inside), zero);
-            most = viscous_shear ? larger(smaller(grown, inside), zero) : bearable;
+            bearable = inside ? larger(limit - s, zero) : zero;
+            most = viscous_shear ? (inside ? larger(grown, zero) : zero) : bearable;
             free_x = x0 * faded;
             free_y = y0 * faded;
         }
@@ -130,11 +130,11 @@ template <int N, class Real, unsigned P> struct March {
         V bore_x = x0, bore_y = y0;
         if constexpr ((P & viscous) != 0) {
             const V s = L::load(places.square + k);
-            const V inside = smaller(L::of(c.limit) - s, (L::of(c.edge) - s) * steep);
+            const V bearable = s < L::of(c.edge) ? larger(L::of(c.limit) - s, zero) : zero;
             bore_x = x0 + L::of(c.drag_x);
             bore_y = y0 + L::of(c.drag_y);
             V inverse;
-            const V bore = cut(bore_x, bore_y, larger(inside, zero), inverse);
+            const V bore = cut(bore_x, bore_y, bearable, inverse);
             bore_x *= bore;
             bore_y *= bore;
         }
@@ -152,13 +152,14 @@ inline void march(Contact<N, Real, P>& c, const Numbers<N, Real>& numbers, const
                   int lane, int last, bool viscous_shear, Sums<Wanted>& sums) {
     using All = March<N, Real, P>;
     All all(numbers, now, lane, last, viscous_shear);
-    // elastic springs beyond are at rest
+    // springs beyond are at rest, once those that were let go have recovered
     const Real reach = larger(c.edge, static_cast<Real>(in_lane(now.edge, lane)));
-    bool more = true;
-    for (int k = 0; k < N && more; k += All::L::count) {
-        more = (P & viscous) != 0 || All::places.square[k + All::L::count - 1] < reach;
-        all.take(c, k);
-    }
+    const auto moves = [&](int k) {
+        if constexpr ((P & viscous) != 0)
+            if (c.pressed[k] > 0 || All::places.square[k] < in_lane(now.depth, lane)) return true;
+        return All::places.square[k] <= reach;
+    };
+    for (int k = 0; k < N && (k == 0 || moves(k)); k += All::L::count) all.take(c, k);
     set_lane(sums.x, lane, All::L::total(all.along));
     set_lane(sums.y, lane, All::L::total(all.across));
     if constexpr ((P & ledger) != 0) {

@@ -49,23 +49,23 @@ template <class T> T mean_at_end(const T& depth, const T& before, const T& half)
 /// Return what fades in a step; it is computed anew where the step is another than before.
 template <class T, int N, class Real, unsigned P>
 inline T fade_of(const Row<T, Contact<N, Real, P>>& row, const T& steps) {
-    using C = Contact<N, Real, P>;
+    using Kind = Contact<N, Real, P>;
     const auto now = converted<Alike<T, Real>>(steps);
-    if (any(converted<T>(now) != row.get(&C::steps)))
+    if (any(converted<T>(now) != row.get(&Kind::steps)))
         for (int k = 0; k < width<T>; ++k) {
             row.all[k]->steps = in_lane(now, k);
             row.all[k]->fade = static_cast<Real>(-std::expm1(-in_lane(steps, k)));
         }
-    return row.get(&C::fade);
+    return row.get(&Kind::fade);
 }
 
 /// Velocities at the end of the step follow from those of its middle and of the one before.
 template <class T, int N, class Real, unsigned P>
 inline Now<T> look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
                    const MotionOf<T>& m) {
-    using C = Contact<N, Real, P>;
+    using Kind = Contact<N, Real, P>;
     Now<T> now;
-    const T none{}, one = none + 1.0, spacing = row.get(&C::spacing), square = spacing * spacing;
+    const T none{}, one = none + 1.0, spacing = row.get(&Kind::spacing), square = spacing * spacing;
     const T per_unit = pair.radius / square;
     now.unit = square / pair.radius;
     now.rises = m.approach * m.step * per_unit;
@@ -80,21 +80,22 @@ inline Now<T> look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair
     now.moved_y = moved * m.slide_y;
     if constexpr ((P & viscous) != 0) {
         const auto losing = pair.retardation > 0.0;
-        const T approach = (1.5 * m.approach - 0.5 * row.get(&C::approach)) * per_unit;
+        const T approach = (1.5 * m.approach - 0.5 * row.get(&Kind::approach)) * per_unit;
         const T half = losing ? 0.5 * approach * m.step : none;
         now.before = now.depth - now.rises;
         const T mean = mean_at_end(now.depth, now.before, half);
         now.approach = losing ? mean * approach : none;
         now.excess = smaller(pair.retardation * now.approach, none + farthest<Real>);
         now.limit = larger(now.limit + now.excess, none);
-        now.fade = fade_of(row, losing ? m.step / pair.retardation : none + 1e3);
+        const T all = none + 1e3;  // or more retardation times: nothing is left of a deflection
+        now.fade = fade_of(row, losing ? smaller(m.step / pair.retardation, all) : all);
         const T drag = slope * pair.shear_retardation * mean;
-        now.drag_x = drag * (1.5 * m.slide_x - 0.5 * row.get(&C::slide_x));
-        now.drag_y = drag * (1.5 * m.slide_y - 0.5 * row.get(&C::slide_y));
+        now.drag_x = drag * (1.5 * m.slide_x - 0.5 * row.get(&Kind::slide_x));
+        now.drag_y = drag * (1.5 * m.slide_y - 0.5 * row.get(&Kind::slide_y));
         shorten<Real>(now.drag_x, now.drag_y, one);
-        row.keep(&C::approach, m.approach);
-        row.keep(&C::slide_x, m.slide_x);
-        row.keep(&C::slide_y, m.slide_y);
+        row.keep(&Kind::approach, m.approach);
+        row.keep(&Kind::slide_x, m.slide_x);
+        row.keep(&Kind::slide_y, m.slide_y);
     }
     shorten<Real>(now.moved_x, now.moved_y, now.most);
     return now;
