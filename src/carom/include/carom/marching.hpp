@@ -69,10 +69,9 @@ template <int N, class Real, unsigned P> struct March {
     /// Make nothing of what has died away: denormal numbers would last, and take long.
     V settled(V v) const { return (v + faint) - faint; }
 
-    /// Factor that cuts vectors back to lengths, and one over the length that they had.
-    V cut(V x, V y, V most, V& inverse) const {
-        inverse = one / root(larger(x * x + y * y, tiny));
-        return smaller(most * inverse, one);
+    /// Factor that cuts vectors back to lengths.
+    V cut(V x, V y, V most) const {
+        return most / larger(root(larger(x * x + y * y, tiny)), most);
     }
 
     /// Bring the springs from k on to the end of the step.
@@ -80,12 +79,14 @@ template <int N, class Real, unsigned P> struct March {
         const V s = L::load(places.square + k), x0 = L::load(c.x + k), y0 = L::load(c.y + k);
         // what is touched within the step goes only the rest of its way
         const V pressed = depth - s, share = smaller(larger(pressed, least), full);
-        V bearable = larger(pressed, zero), most = bearable, free_x = x0, free_y = y0, inverse;
+        auto bends = s < rim;
+        V bearable = larger(pressed, zero), most = bearable, free_x = x0, free_y = y0;
         if constexpr ((P & viscous) != 0) {
             const auto inside = s < rim;  // beyond the edge springs are free
             // by what fades: what is kept is one to rounding where steps are short
             const V held = L::load(c.pressed + k), less = held * fade;
             const V is = settled(larger(pressed, held - less));
+            bends = is > zero;
             const V grown = (is - held) + less;
             L::store(c.pressed + k, is);
             bearable = inside ? larger(limit - s, zero) : zero;
@@ -94,22 +95,23 @@ template <int N, class Real, unsigned P> struct March {
             free_y = y0 * faded;
         }
         const V to_x = free_x + share * moved_x, to_y = free_y + share * moved_y;
-        const V part = cut(to_x, to_y, most, inverse);
+        const V part = cut(to_x, to_y, most);
         V x = part * to_x, y = part * to_y;
         // a cut turns springs too little, by half of what it takes of their part aside
         if (turns) {
             const V less = smaller(part, half) * (one - part);
-            const V ahead = part + less * (free_x * to_x + free_y * to_y) * inverse * inverse;
+            const V square = larger(to_x * to_x + to_y * to_y, tiny);
+            const V ahead = part + less * (free_x * to_x + free_y * to_y) / square;
             x = ahead * to_x - less * free_x;
             y = ahead * to_y - less * free_y;
         }
         V bears_x = x, bears_y = y;
         if constexpr ((P & viscous) != 0) {  // with what dashpots bear
-            x = settled(x0 + (x - free_x));
-            y = settled(y0 + (y - free_y));
+            x = bends ? x0 + (x - free_x) : zero;
+            y = bends ? y0 + (y - free_y) : zero;
             bears_x = x + drag_x;
             bears_y = y + drag_y;
-            const V bears = cut(bears_x, bears_y, bearable, inverse);
+            const V bears = cut(bears_x, bears_y, bearable);
             bears_x *= bears;
             bears_y *= bears;
         }
@@ -133,8 +135,7 @@ template <int N, class Real, unsigned P> struct March {
             const V bearable = s < L::of(c.edge) ? larger(L::of(c.limit) - s, zero) : zero;
             bore_x = x0 + L::of(c.drag_x);
             bore_y = y0 + L::of(c.drag_y);
-            V inverse;
-            const V bore = cut(bore_x, bore_y, bearable, inverse);
+            const V bore = cut(bore_x, bore_y, bearable);
             bore_x *= bore;
             bore_y *= bore;
         }
