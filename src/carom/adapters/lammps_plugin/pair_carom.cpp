@@ -26,7 +26,7 @@ namespace {
 
 enum { ELASTIC, FRICTION, VISCOSITY, LOSSES };
 
-constexpr int restart_format = 1000003;  // raised when what a restart file holds changes
+constexpr int restart_format = 1000004;  // raised when what a restart file holds changes
 
 /// Spheres as LAMMPS keeps them.
 struct Spheres {

@@ -79,14 +79,12 @@ template <int N, class Real, unsigned P> struct March {
         const V s = L::load(places.square + k), x0 = L::load(c.x + k), y0 = L::load(c.y + k);
         // what is touched within the step goes only the rest of its way
         const V pressed = depth - s, share = smaller(larger(pressed, least), full);
-        auto bends = s < rim;
         V bearable = larger(pressed, zero), most = bearable, free_x = x0, free_y = y0;
         if constexpr ((P & viscous) != 0) {
             const auto inside = s < rim;  // beyond the edge springs are free
             // by what fades: what is kept is one to rounding where steps are short
             const V held = L::load(c.pressed + k), less = held * fade;
             const V is = settled(larger(pressed, held - less));
-            bends = is > zero;
             const V grown = (is - held) + less;
             L::store(c.pressed + k, is);
             bearable = inside ? larger(limit - s, zero) : zero;
@@ -107,8 +105,8 @@ template <int N, class Real, unsigned P> struct March {
         }
         V bears_x = x, bears_y = y;
         if constexpr ((P & viscous) != 0) {  // with what dashpots bear
-            x = bends ? x0 + (x - free_x) : zero;
-            y = bends ? y0 + (y - free_y) : zero;
+            x = settled(x0 + (x - free_x));
+            y = settled(y0 + (y - free_y));
             bears_x = x + drag_x;
             bears_y = y + drag_y;
             const V bears = cut(bears_x, bears_y, bearable);
