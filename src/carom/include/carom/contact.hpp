@@ -65,7 +65,7 @@ template <class T, int N, class Real, unsigned P> struct Stage {
     /// First: the lattice, and what all springs share.
     void look() {
         fit_lattices(row, pair, motion);
-        now = springs::look(row, pair, motion);
+        springs::look(row, pair, motion, now);
     }
 
     /// Second: where the contact ends.
@@ -151,7 +151,7 @@ inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Moti
                       Load& load) {
     springs::Stage<double, N, Real, P> stage;
     stage.row.all[0] = &contact;
-    stage.pair = springs::pairs_of<double>(&pair, 1);
+    springs::set_pairs(stage.pair, &pair, 1);
     stage.motion = motion;
     Status status;
     springs::set_statuses<Real>(stage.pair, motion, &status, 1);

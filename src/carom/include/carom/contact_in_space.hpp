@@ -155,7 +155,7 @@ template <int N, class Real, unsigned P> struct StageInSpace : Stage<Wide::Type,
     /// See how bodies meet. Lanes without a contact that is pressed are left to a spare one.
     void meet(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[], const Encounters& e,
               Status statuses[], int count, Contact<N, Real, P>& spare) {
-        this->pair = pairs_of<Wide::Type>(pairs, count);
+        set_pairs(this->pair, pairs, count);
         plane = plane_of(axes_of(contacts, e, count), e);
         auto& motion = this->motion;
         motion = {e.penetration, plane.approach, plane.slide_x, plane.slide_y, e.step};

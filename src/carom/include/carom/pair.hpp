@@ -66,16 +66,21 @@ template <class T> struct PairOf {
     T modulus, radius, stiffness_ratio, friction, mass, retardation, shear_retardation;
 };
 
-/// Return pairs in lanes; those left over are the last one.
-template <class T> PairOf<T> pairs_of(const Pair pairs[], int count) {
+/// Set pairs in lanes; those left over are the last one.
+template <class T> void set_pairs(PairOf<T>& all, const Pair pairs[], int count) {
     const Pair* each[width<T>];
     for (int k = 0; k < width<T>; ++k) each[k] = pairs + std::min(k, count - 1);
-    const auto of = [&](double Pair::*part) {
-        return by_lane<T, double>([&](int k) { return each[k]->*part; });
+    const auto set = [&](T PairOf<T>::*to, double Pair::*part) {
+        all.*to = by_lane<T, double>([&](int k) { return each[k]->*part; });
     };
-    const auto shear = [&](int k) { return each[k]->viscous_shear ? each[k]->retardation : 0.0; };
-    return {of(&Pair::modulus), of(&Pair::radius), of(&Pair::stiffness_ratio), of(&Pair::friction),
-            of(&Pair::mass), of(&Pair::retardation), by_lane<T, double>(shear)};
+    set(&PairOf<T>::modulus, &Pair::modulus);
+    set(&PairOf<T>::radius, &Pair::radius);
+    set(&PairOf<T>::stiffness_ratio, &Pair::stiffness_ratio);
+    set(&PairOf<T>::friction, &Pair::friction);
+    set(&PairOf<T>::mass, &Pair::mass);
+    set(&PairOf<T>::retardation, &Pair::retardation);
+    all.shear_retardation = by_lane<T, double>(
+        [&](int k) { return each[k]->viscous_shear ? each[k]->retardation : 0.0; });
 }
 
 // A sum is small enough if all of its parts are; the least is large enough if all are.

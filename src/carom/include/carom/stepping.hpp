@@ -61,10 +61,9 @@ inline T fade_of(const Row<T, Contact<N, Real, P>>& row, const T& steps) {
 
 /// Velocities at the end of the step follow from those of its middle and of the one before.
 template <class T, int N, class Real, unsigned P>
-inline Now<T> look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
-                   const MotionOf<T>& m) {
+inline void look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
+                 const MotionOf<T>& m, Now<T>& now) {
     using Kind = Contact<N, Real, P>;
-    Now<T> now;
     const T none{}, one = none + 1.0, spacing = row.get(&Kind::spacing), square = spacing * spacing;
     const T per_unit = pair.radius / square;
     now.unit = square / pair.radius;
@@ -98,7 +97,6 @@ inline Now<T> look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair
         row.keep(&Kind::slide_y, m.slide_y);
     }
     shorten<Real>(now.moved_x, now.moved_y, now.most);
-    return now;
 }
 
 /// Return s where surfaces meet that overlap by `here` at the edge, free springs keeping this part.
