@@ -57,13 +57,12 @@ template <class T, int N, class Real, unsigned P> struct Stage {
 
     Row<T, Kind> row;
     PairOf<T> pair;
-    MotionOf<T> motion;
     Now<T> now;
     Shared<Narrow> shared;
     Sums<T> sums;
 
     /// First: the lattice, and what all springs share.
-    void look() {
+    void look(const MotionOf<T>& motion) {
         fit_lattices(row, pair, motion);
         springs::look(row, pair, motion, now);
     }
@@ -103,7 +102,7 @@ template <class T, int N, class Real, unsigned P> struct Stage {
     }
 
     /// Last: the load.
-    LoadOf<T> settle() {
+    void settle(const MotionOf<T>& motion, LoadOf<T>& load) {
         const T none{}, most = larger(now.root * (now.limit - now.edge * (1.0 / 3.0)), none);
         if constexpr ((P & viscous) != 0) {  // at the edge itself only dashpots bear
             const T rest = now.rest * cut(now.drag_x, now.drag_y, larger(now.limit - now.edge, none));
@@ -112,7 +111,7 @@ template <class T, int N, class Real, unsigned P> struct Stage {
         }
         const T all = 2.0 * pair.modulus * row.get(&Kind::spacing) * now.unit;
         T scale = all * pair.friction;
-        LoadOf<T> load{};
+        load.friction = load.viscosity = none;
         if constexpr ((P & ledger) != 0) {
             const T energy = scale * now.unit * pair.friction / pair.stiffness_ratio;
             load.friction = energy * sums.friction;
@@ -123,12 +122,11 @@ template <class T, int N, class Real, unsigned P> struct Stage {
         load.normal = all * most;
         load.x = scale * sums.x;
         load.y = scale * sums.y;
-        keep(all, load);
-        return load;
+        keep(all, motion, load);
     }
 
     /// Keep what the next step needs of this one.
-    void keep(const T& scale, LoadOf<T>& load) {
+    void keep(const T& scale, const MotionOf<T>& motion, LoadOf<T>& load) {
         row.keep(&Kind::edge, now.edge);
         if constexpr (P == (viscous | ledger)) {
             row.keep(&Kind::limit, now.limit);
@@ -152,15 +150,14 @@ inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Moti
     springs::Stage<double, N, Real, P> stage;
     stage.row.all[0] = &contact;
     springs::set_pairs(stage.pair, &pair, 1);
-    stage.motion = motion;
     Status status;
     springs::set_statuses<Real>(stage.pair, motion, &status, 1);
     if (status != Status::ok) return status;
     if (motion.penetration > 0.0) {
-        stage.look();
+        stage.look(motion);
         stage.bound();
         stage.march(0, springs::Numbers<N, Real>{});
-        load = stage.settle();
+        stage.settle(motion, load);
     } else {
         springs::part(contact, motion, load);
     }

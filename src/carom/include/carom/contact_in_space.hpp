@@ -149,6 +149,7 @@ constexpr int together = 16;  // contacts in a batch
 /// A step of contacts in lanes, in their planes.
 template <int N, class Real, unsigned P> struct StageInSpace : Stage<Wide::Type, N, Real, P> {
     Plane<Wide::Type> plane;
+    MotionOf<Wide::Type> motion;
     LoadOf<Wide::Type> parted;  ///< loads of those that are not pressed
     bool pressed[lanes];
 
@@ -157,7 +158,6 @@ template <int N, class Real, unsigned P> struct StageInSpace : Stage<Wide::Type,
               Status statuses[], int count, Contact<N, Real, P>& spare) {
         set_pairs(this->pair, pairs, count);
         plane = plane_of(axes_of(contacts, e, count), e);
-        auto& motion = this->motion;
         motion = {e.penetration, plane.approach, plane.slide_x, plane.slide_y, e.step};
         set_statuses<Real>(this->pair, motion, statuses, std::min(count, lanes));
         parted = LoadOf<Wide::Type>{};
@@ -184,7 +184,8 @@ template <int N, class Real, unsigned P> struct StageInSpace : Stage<Wide::Type,
     }
 
     Actions settle(const Encounters& e) {
-        LoadOf<Wide::Type> load = Stage<Wide::Type, N, Real, P>::settle();
+        LoadOf<Wide::Type> load;
+        Stage<Wide::Type, N, Real, P>::settle(motion, load);
         for (int k = 0; k < lanes; ++k)
             if (!pressed[k]) set_one(&load, k, one_of(&parted, k));
         Actions action = act(load.normal, load.x, load.y, plane, e);
@@ -204,7 +205,7 @@ inline void advance_batch(ContactInSpace<N, Real, P>* const contacts[], const Pa
     const int rows = (count + lanes - 1) / lanes;
     for (int i = 0, k = 0; i < rows; ++i, k += lanes)
         stages[i].meet(contacts + k, pairs + k, meetings[i], statuses + k, count - k, spare);
-    for (int i = 0; i < rows; ++i) stages[i].look();
+    for (int i = 0; i < rows; ++i) stages[i].look(stages[i].motion);
     for (int i = 0; i < rows; ++i) stages[i].bound();
     for (int i = 0; i < rows; ++i) stages[i].march(numbers);
     for (int i = 0; i < rows; ++i) actions[i] = stages[i].settle(meetings[i]);

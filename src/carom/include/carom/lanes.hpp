@@ -147,9 +147,10 @@ template <class To, class From> To converted(const From& all) {
 }  // namespace springs
 
 /// Return number k of several, which are in lanes of structures.
-template <template <class> class Of, class T> Of<double> one_of(const Of<T>* all, int k) {
+template <template <class> class Of, class T> inline Of<double> one_of(const Of<T>* all, int k) {
     constexpr std::size_t n = springs::width<T>;
     const auto place = static_cast<std::size_t>(k);
+    if constexpr (n == 1) return all[place];
     Of<double> one;
     const char* lane = reinterpret_cast<const char*>(all + place / n) + place % n * sizeof(double);
     for (std::size_t i = 0; i < sizeof one; i += sizeof(double))
@@ -158,9 +159,11 @@ template <template <class> class Of, class T> Of<double> one_of(const Of<T>* all
 }
 
 /// Make one number k of several.
-template <template <class> class Of, class T> void set_one(Of<T>* all, int k, const Of<double>& one) {
+template <template <class> class Of, class T>
+inline void set_one(Of<T>* all, int k, const Of<double>& one) {
     constexpr std::size_t n = springs::width<T>;
     const auto place = static_cast<std::size_t>(k);
+    if constexpr (n == 1) return static_cast<void>(all[place] = one);
     char* lane = reinterpret_cast<char*>(all + place / n) + place % n * sizeof(double);
     for (std::size_t i = 0; i < sizeof one; i += sizeof(double))
         std::memcpy(lane + i * n, reinterpret_cast<const char*>(&one) + i, sizeof(double));

@@ -67,7 +67,7 @@ template <class T> struct PairOf {
 };
 
 /// Set pairs in lanes; those left over are the last one.
-template <class T> void set_pairs(PairOf<T>& all, const Pair pairs[], int count) {
+template <class T> inline void set_pairs(PairOf<T>& all, const Pair pairs[], int count) {
     const Pair* each[width<T>];
     for (int k = 0; k < width<T>; ++k) each[k] = pairs + std::min(k, count - 1);
     const auto set = [&](T PairOf<T>::*to, double Pair::*part) {
@@ -101,7 +101,7 @@ template <class T> auto is_good(const MotionOf<T>& m, const T& radius, const T& 
 
 /// Say of steps whether they can be taken, by numbers of this precision.
 template <class Real, class T>
-void set_statuses(const PairOf<T>& pair, const MotionOf<T>& motion, Status statuses[], int count) {
+inline void set_statuses(const PairOf<T>& pair, const MotionOf<T>& motion, Status statuses[], int count) {
     constexpr double part = sizeof(Real) < sizeof(double) ? 1e-12 : 0.0;
     const auto pair_good = is_good(pair);
     const T shortest = 1.0 / largest + part * pair.retardation;

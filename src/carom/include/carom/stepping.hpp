@@ -37,7 +37,7 @@ template <class T> struct Now : Shared<T> {
 /// Return the mean of b around the end of a step over b there, the bodies approaching by `half`
 /// in half a step: dashpots bear so much more while b goes like the root of the time. The first
 /// step counts from the touch. No difference of powers is taken: they may be equal to rounding.
-template <class T> T mean_at_end(const T& depth, const T& before, const T& half) {
+template <class T> inline T mean_at_end(const T& depth, const T& before, const T& half) {
     const T one = T{} + 1.0, on = half > 0.0 ? half : one;
     const T back = smaller(before > 0.0 ? on : 2.0 * on, depth);
     const T to = springs::root(depth + on), from = springs::root(depth - back);
@@ -143,7 +143,7 @@ inline T edge_of(const Row<T, Contact<N, Real, P>>& row, const Now<T>& now) {
 
 /// Find how the sum over springs ends. From the last one on q is linear in s; at that spring the
 /// sum lacks -q'(x)/12, the slope of q(s) being that from the spring before it to the edge.
-template <int N, class T> void find_ends(Now<T>& now) {
+template <int N, class T> inline void find_ends(Now<T>& now) {
     const T none{}, tiny = none + 1e-300, edge = now.edge;
     now.root = springs::root(edge);
     T last = converted<T>(converted<Alike<T, int>>(smaller(larger(now.root, none), none + (N - 1.0))));
