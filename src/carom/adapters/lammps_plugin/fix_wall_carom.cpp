@@ -250,9 +250,12 @@ void FixWallCarom::change(int i, int count) {
         if (touches(i, k, memory)) memories.add(list, wall, memory);
     }
     memories.swap(i, list);
-    for (std::size_t at = 0; at < list.size(); at += memories.length())
-        if (!memories.of(i, static_cast<int>(list[at + WALL])))
-            sums[options.viscous ? VISCOSITY : FRICTION] += kind.stored(&list[at] + SPRINGS);
+    for (std::size_t at = 0; at < list.size(); at += memories.length()) {
+        if (memories.of(i, static_cast<int>(list[at + WALL]))) continue;
+        const double last = kind.stored(&list[at] + SPRINGS);
+        sums[options.viscous ? VISCOSITY : FRICTION] += last;
+        of_spheres.add(i, options.viscous ? 0.0 : last, options.viscous ? last : 0.0);
+    }
 }
 
 /// Return how far from its centre a sphere meets a wall.

@@ -29,7 +29,7 @@ enum { ELASTIC, FRICTION, VISCOSITY, LOSSES };
 // what `single` tells besides energy and normal force
 enum { ASIDE, SIZE = 3, OVERLAP, MOBILIZED, BY_FRICTION, BY_VISCOSITY, POINT, EXTRA = POINT + 3 };
 
-constexpr int restart_format = 1000003;  // raised when what a restart file holds changes
+constexpr int restart_format = 1000004;  // raised when what a restart file holds changes
 
 /// Spheres as LAMMPS keeps them.
 struct Spheres {
@@ -361,7 +361,6 @@ void PairCarom::unpack_reverse_comm(int count, int *atoms, double *buffer) {
 
 void PairCarom::compute(int eflag, int vflag) {
     ev_init(eflag, vflag);
-    computed = true;
     const int nlocal = atom->nlocal;
     if (history->pair != this || history->nlocal_neigh < 0 || history->nlocal_neigh > nlocal)
         error->one(FLERR, "pair_style carom: this LAMMPS keeps histories in another way; build "
@@ -375,6 +374,7 @@ void PairCarom::compute(int eflag, int vflag) {
     if (of_spheres.are_kept() && force->newton_pair) comm->reverse_comm(this);
     pvector[FRICTION] = losses[FRICTION];
     pvector[VISCOSITY] = losses[VISCOSITY];
+    computed = true;
 }
 
 /// Collect the neighbors that a sphere touches or has touched, and step them when there are enough.
@@ -423,20 +423,25 @@ void PairCarom::meet(Meetings &met) {
     const auto known_of = [&](int k) -> const CaromBodies & {
         return bodies[atom->type[met.one[k]]][atom->type[met.other[k]]];
     };
-    for (int k = 0; k < batch.count; k += carom::lanes)
+    carom::Wide::Type radii[CaromBatch::most / carom::lanes];
+    for (int k = 0; k < batch.count; k += carom::lanes) {
+        const carom::Bodies one = spheres.in_lanes(met.one + k);
+        const carom::Bodies other = spheres.in_lanes(met.other + k);
+        radii[k / carom::lanes] = one.radius * other.radius / (one.radius + other.radius);
         batch.meetings[k / carom::lanes] =
-            carom::encounter(spheres.in_lanes(met.one + k), spheres.in_lanes(met.other + k), dt,
+            carom::encounter(one, other, dt,
                              carom::Wide::each([&](int lane) { return known_of(k + lane).share; }));
+    }
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
         double *memory = batch.memories[k];
-        if (*met.touches[k] && memory[KIND] != kind.number)
+        if (!computed && *met.touches[k] && memory[KIND] != kind.number)
             error->one(FLERR, "pair_style carom: contacts remember other springs, another "
                               "precision, part, ledger or losses; give pair_style and pair_coeff "
                               "as they were");
         const CaromBodies &known = known_of(k);
         batch.pairs[k] = known.pair;
-        batch.pairs[k].radius = spheres.radius_of(i, j);
+        batch.pairs[k].radius = carom::in_lane(radii[k / carom::lanes], k % carom::lanes);
         if (!*met.touches[k]) {  // what matters at the first touch
             batch.pairs[k].mass = spheres.mass_of(i, j);
             watch.meet(batch.pairs[k], carom::one_of(batch.meetings, k), atom->tag[i], atom->tag[j]);

@@ -23,102 +23,124 @@
 namespace carom {
 namespace springs {
 
-/// Keep what the next step needs of this one.
-template <int N, class Real, unsigned P>
-inline void keep(Contact<N, Real, P>& c, const Now& now, double edge, double scale, const Motion& m,
-                 Load& load) {
-    c.edge = static_cast<Real>(edge);
-    if constexpr ((P & viscous) != 0) {
-        c.limit = static_cast<Real>(now.limit);
-        c.drag_x = static_cast<Real>(now.drag_x);
-        c.drag_y = static_cast<Real>(now.drag_y);
-        if constexpr ((P & ledger) != 0) {  // dashpots in compression: tau d'^2 of every spring
-            const double power = scale * now.excess * std::sqrt(edge) * now.approach * now.unit;
-            load.viscosity += 0.5 * m.step * (power + c.power);
-            c.power = static_cast<Real>(power);
-        }
-    }
-}
-
 /// Enter the work of a step, and what of it is lost; the rest is stored.
-template <int N, class Real, unsigned P>
-inline void enter(Contact<N, Real, P>& c, const Motion& m, Load& load) {
-    if constexpr ((P & ledger) != 0) {
-        double twice = (load.x + c.shear_x) * m.slide_x + (load.y + c.shear_y) * m.slide_y;
-        if constexpr ((P & viscous) != 0) twice += (load.normal + c.normal) * m.approach;
-        c.stored += static_cast<Real>(0.5 * m.step * twice - load.friction - load.viscosity);
-        c.normal = static_cast<Real>(load.normal);
-        c.shear_x = static_cast<Real>(load.x);
-        c.shear_y = static_cast<Real>(load.y);
-    }
+template <class T, int N, class Real, unsigned P>
+inline void enter(const Row<T, Contact<N, Real, P>>& row, const MotionOf<T>& m,
+                  const LoadOf<T>& load) {
+    using Kind = Contact<N, Real, P>;
+    T twice = (load.x + row.get(&Kind::shear_x)) * m.slide_x +
+              (load.y + row.get(&Kind::shear_y)) * m.slide_y;
+    if constexpr ((P & viscous) != 0) twice += (load.normal + row.get(&Kind::normal)) * m.approach;
+    row.keep(&Kind::stored,
+             row.get(&Kind::stored) + (0.5 * m.step * twice - load.friction - load.viscosity));
+    row.keep(&Kind::normal, load.normal);
+    row.keep(&Kind::shear_x, load.x);
+    row.keep(&Kind::shear_y, load.y);
 }
 
 /// Let go: what is still stored goes into the dashpots, or was rubbed off at last.
 template <int N, class Real, unsigned P>
 inline void part(Contact<N, Real, P>& c, const Motion& m, Load& load) {
+    load = Load{};
     if constexpr ((P & ledger) != 0) {
-        if (c.spacing > 0) enter(c, m, load);
+        if (c.spacing > 0) enter(Row<double, Contact<N, Real, P>>{{&c}}, m, load);
         double& lost = (P & viscous) != 0 ? load.viscosity : load.friction;
         lost += c.stored;
     }
     c = Contact<N, Real, P>{};
 }
 
-/// What a step of a contact knows between its three stages. In each of them several contacts can
-/// be taken one after the other: then the roots of one are not waited for by the next.
-struct Stage {
-    Now now;
-    double edge, root, scale;  // s at the edge and its root, force of a unit
-    Sums sums;
+/// A step of contacts in lanes of T, in four stages. In each of them many can be taken one after
+/// the other: then the roots of one are not waited for by the next.
+template <class T, int N, class Real, unsigned P> struct Stage {
+    using Kind = Contact<N, Real, P>;
+    using Narrow = Alike<T, Real>;
+
+    Row<T, Kind> row;
+    PairOf<T> pair;
+    Now<T> now;
+    Shared<Narrow> shared;
+    Sums<T> sums;
+
+    /// First: the lattice, and what all springs share.
+    void look(const MotionOf<T>& motion) {
+        fit_lattices(row, pair, motion);
+        springs::look(row, pair, motion, now);
+    }
+
+    /// Second: where the contact ends.
+    void bound() {
+        now.edge = edge_of(row, now);
+        find_ends<N>(now);
+        const auto narrow = [&](Narrow Shared<Narrow>::*to, T Shared<T>::*from) {
+            shared.*to = converted<Narrow>(now.*from);
+        };
+        using To = Shared<Narrow>;
+        using From = Shared<T>;
+        narrow(&To::depth, &From::depth);
+        narrow(&To::edge, &From::edge);
+        narrow(&To::least, &From::least);
+        narrow(&To::most, &From::most);
+        narrow(&To::moved_x, &From::moved_x);
+        narrow(&To::moved_y, &From::moved_y);
+        narrow(&To::first, &From::first);
+        narrow(&To::inner, &From::inner);
+        narrow(&To::bend, &From::bend);
+        if constexpr ((P & viscous) != 0) {
+            narrow(&To::limit, &From::limit);
+            narrow(&To::fade, &From::fade);
+            narrow(&To::drag_x, &From::drag_x);
+            narrow(&To::drag_y, &From::drag_y);
+        }
+        sums = Sums<T>{};
+    }
+
+    /// Third: the springs of one of them.
+    void march(int lane, const Numbers<N, Real>& numbers) {
+        if (in_lane(pair.friction, lane) > 0.0 || (P & viscous) != 0)
+            springs::march(*row.all[lane], numbers, shared, lane, in_lane(now.last, lane),
+                           in_lane(pair.shear_retardation, lane) > 0.0, sums);
+    }
+
+    /// Last: the load.
+    void settle(const MotionOf<T>& motion, LoadOf<T>& load) {
+        const T none{}, most = larger(now.root * (now.limit - now.edge * (1.0 / 3.0)), none);
+        if constexpr ((P & viscous) != 0) {  // at the edge itself only dashpots bear
+            const T rest = now.rest * cut(now.drag_x, now.drag_y, larger(now.limit - now.edge, none));
+            sums.x += rest * now.drag_x;
+            sums.y += rest * now.drag_y;
+        }
+        const T all = 2.0 * pair.modulus * row.get(&Kind::spacing) * now.unit;
+        T scale = all * pair.friction;
+        load.friction = load.viscosity = none;
+        if constexpr ((P & ledger) != 0) {
+            const T energy = scale * now.unit * pair.friction / pair.stiffness_ratio;
+            load.friction = energy * sums.friction;
+            load.viscosity = energy * sums.viscosity;
+        }
+        const auto slides = sums.x * sums.x + sums.y * sums.y > most * most;  // by rounding
+        if (any(slides)) scale = slides ? scale * cut(sums.x, sums.y, most) : scale;
+        load.normal = all * most;
+        load.x = scale * sums.x;
+        load.y = scale * sums.y;
+        keep(all, motion, load);
+    }
+
+    /// Keep what the next step needs of this one.
+    void keep(const T& scale, const MotionOf<T>& motion, LoadOf<T>& load) {
+        row.keep(&Kind::edge, now.edge);
+        if constexpr (P == (viscous | ledger)) {
+            row.keep(&Kind::limit, now.limit);
+            row.keep(&Kind::drag_x, now.drag_x);
+            row.keep(&Kind::drag_y, now.drag_y);
+            // dashpots in compression: tau d'^2 of every spring
+            const T power = scale * now.excess * now.root * now.approach * now.unit;
+            load.viscosity += 0.5 * motion.step * (power + row.get(&Kind::power));
+            row.keep(&Kind::power, power);
+        }
+        if constexpr ((P & ledger) != 0) enter(row, motion, load);
+    }
 };
-
-/// First: the lattice, and what all springs share.
-template <int N, class Real, unsigned P>
-inline void prepare(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Fading& fading,
-                    Stage& stage) {
-    if (!(c.spacing > 0)) begin(c, pair, m);
-    fit_lattice(c, pair, m);
-    look(c, pair, m, fading, stage.now);
-    stage.edge = edge_of(c, stage.now);
-    stage.root = std::sqrt(stage.edge);
-    stage.scale = 2.0 * pair.modulus * double(c.spacing) * stage.now.unit;
-}
-
-/// Second: the springs.
-template <int N, class Real, unsigned P>
-inline void march(Contact<N, Real, P>& c, const Pair& pair, const Numbers<N, Real>& numbers,
-                  Stage& stage) {
-    stage.sums = Sums{};
-    if (pair.friction > 0.0 || (P & viscous) != 0)
-        stage.sums = march(c, numbers, stage.now, stage.edge, pair.viscous_shear);
-}
-
-/// Last: the load.
-template <int N, class Real, unsigned P>
-inline void settle(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Stage& stage,
-                   Load& load) {
-    const Now& now = stage.now;
-    load = Load{};
-    Sums& sums = stage.sums;
-    const double most = larger(stage.root * (now.limit - stage.edge * (1.0 / 3.0)), 0.0);
-    const double scale = stage.scale * pair.friction;
-    trim(c, now, stage.edge, stage.root, sums);
-    if (sums.x * sums.x + sums.y * sums.y > most * most) {  // by rounding
-        const double part = cut(sums.x, sums.y, most);
-        sums.x *= part;
-        sums.y *= part;
-    }
-    load.normal = stage.scale * most;
-    load.x = scale * sums.x;
-    load.y = scale * sums.y;
-    if constexpr ((P & ledger) != 0) {
-        const double energy = scale * now.unit * pair.friction / pair.stiffness_ratio;
-        load.friction = energy * sums.friction;
-        load.viscosity = energy * sums.viscosity;
-    }
-    keep(c, now, stage.edge, stage.scale, m, load);
-    enter(c, m, load);
-}
 
 }  // namespace springs
 
@@ -126,18 +148,20 @@ inline void settle(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, St
 template <int N, class Real, unsigned P>
 inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Motion& motion,
                       Load& load) {
-    const Status status = status_of<Real>(pair, motion);
+    springs::Stage<double, N, Real, P> stage;
+    stage.row.all[0] = &contact;
+    springs::set_pairs(stage.pair, &pair, 1);
+    Status status;
+    springs::set_statuses<Real>(stage.pair, motion, &status, 1);
     if (status != Status::ok) return status;
-    load = Load{};
-    if (motion.penetration <= 0.0) {
+    if (motion.penetration > 0.0) {
+        stage.look(motion);
+        stage.bound();
+        stage.march(0, springs::Numbers<N, Real>{});
+        stage.settle(motion, load);
+    } else {
         springs::part(contact, motion, load);
-        return status;
     }
-    springs::Stage stage;
-    springs::Fading fading;
-    springs::prepare(contact, pair, motion, fading, stage);
-    springs::march(contact, pair, springs::Numbers<N, Real>{}, stage);
-    springs::settle(contact, pair, motion, stage, load);
     return status;
 }
 

@@ -146,71 +146,69 @@ Triple<Wide::Type> axes_of(Contact* const contacts[], const Encounters& e, int c
 
 constexpr int together = 16;  // contacts in a batch
 
-/// What a batch does in its planes, and which of it are pressed.
-struct Batch {
-    Motion motions[together];
-    Load loads[together];
-    int pressed[together], count = 0;
-};
+/// A step of contacts in lanes, in their planes.
+template <int N, class Real, unsigned P> struct StageInSpace : Stage<Wide::Type, N, Real, P> {
+    Plane<Wide::Type> plane;
+    MotionOf<Wide::Type> motion;
+    LoadOf<Wide::Type> parted;  ///< loads of those that are not pressed
+    bool pressed[lanes];
 
-/// Step those that are pressed, by stages: none waits for the roots of another.
-template <int N, class Real, unsigned P>
-inline void press(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[], Batch& batch,
-                  const Numbers<N, Real>& numbers) {
-    Stage stages[together];
-    Fading fading;
-    const int* const which = batch.pressed;
-    for (int i = 0; i < batch.count; ++i)
-        prepare(*contacts[which[i]], pairs[which[i]], batch.motions[which[i]], fading,
-                stages[i]);
-    for (int i = 0; i < batch.count; ++i)
-        march(*contacts[which[i]], pairs[which[i]], numbers, stages[i]);
-    for (int i = 0; i < batch.count; ++i)
-        settle(*contacts[which[i]], pairs[which[i]], batch.motions[which[i]], stages[i],
-               batch.loads[which[i]]);
-}
+    /// See how bodies meet. Lanes without a contact that is pressed are left to a spare one.
+    void meet(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[], const Encounters& e,
+              Status statuses[], int count, Contact<N, Real, P>& spare) {
+        set_pairs(this->pair, pairs, count);
+        plane = plane_of(axes_of(contacts, e, count), e);
+        motion = {e.penetration, plane.approach, plane.slide_x, plane.slide_y, e.step};
+        set_statuses<Real>(this->pair, motion, statuses, std::min(count, lanes));
+        parted = LoadOf<Wide::Type>{};
+        for (int k = 0; k < lanes; ++k) {
+            const bool is_good = k < count && statuses[k] == Status::ok;
+            pressed[k] = is_good && in_lane(motion.penetration, k) > 0.0;
+            this->row.all[k] = pressed[k] ? contacts[k] : &spare;
+            if (is_good) keep_axis(contacts[k]->axis, in_lane(plane.x, k));
+            if (pressed[k]) continue;
+            if (is_good) {
+                Load load;
+                part(*contacts[k], one_of(&motion, k), load);
+                set_one(&parted, k, load);
+            }
+            spare = Contact<N, Real, P>{};
+            spare.spacing = 1;
+            set_one(&motion, k, Motion{0.0, 0.0, 0.0, 0.0, 1.0});
+        }
+    }
+
+    void march(const Numbers<N, Real>& numbers) {
+        for (int k = 0; k < lanes; ++k)
+            if (pressed[k]) Stage<Wide::Type, N, Real, P>::march(k, numbers);
+    }
+
+    Actions settle(const Encounters& e) {
+        LoadOf<Wide::Type> load;
+        Stage<Wide::Type, N, Real, P>::settle(motion, load);
+        for (int k = 0; k < lanes; ++k)
+            if (!pressed[k]) set_one(&load, k, one_of(&parted, k));
+        Actions action = act(load.normal, load.x, load.y, plane, e);
+        action.friction = load.friction;
+        action.viscosity = load.viscosity;
+        return action;
+    }
+};
 
 /// Bring a batch of contacts to the end of a step.
 template <int N, class Real, unsigned P>
 inline void advance_batch(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[],
                           const Encounters meetings[], Actions actions[], Status statuses[],
                           int count, const Numbers<N, Real>& numbers) {
-    Plane<Wide::Type> planes[together / lanes];
-    Batch batch;
-    for (int k = 0; k < count; ++k) {
-        const Encounters& e = meetings[k / lanes];
-        Plane<Wide::Type>& plane = planes[k / lanes];
-        const int lane = k % lanes;
-        if (lane == 0) plane = plane_of(axes_of(contacts + k, e, count - k), e);
-        Motion& motion = batch.motions[k];
-        motion = {in_lane(e.penetration, lane), in_lane(plane.approach, lane),
-                  in_lane(plane.slide_x, lane), in_lane(plane.slide_y, lane), in_lane(e.step, lane)};
-        statuses[k] = status_of<Real>(pairs[k], motion);
-        if (statuses[k] == Status::ok && motion.penetration > 0.0) {
-            batch.pressed[batch.count++] = k;
-        } else {
-            batch.loads[k] = Load{};
-            if (statuses[k] != Status::ok) continue;
-            part(*contacts[k], motion, batch.loads[k]);
-        }
-        keep_axis(contacts[k]->axis, in_lane(plane.x, lane));
-    }
-    press(contacts, pairs, batch, numbers);
-    for (int k = 0; k < count; k += lanes) {
-        const auto in_lanes = [&](double Load::*part) {
-            return Wide::each(
-                [&](int lane) { return batch.loads[std::min(k + lane, count - 1)].*part; });
-        };
-        Actions& action = actions[k / lanes];
-        action = act(in_lanes(&Load::normal), in_lanes(&Load::x), in_lanes(&Load::y),
-                     planes[k / lanes], meetings[k / lanes]);
-        if constexpr ((P & ledger) != 0) {
-            action.friction = in_lanes(&Load::friction);
-            action.viscosity = in_lanes(&Load::viscosity);
-        } else {
-            action.friction = action.viscosity = Wide::Type{};
-        }
-    }
+    StageInSpace<N, Real, P> stages[together / lanes];
+    Contact<N, Real, P> spare;
+    const int rows = (count + lanes - 1) / lanes;
+    for (int i = 0, k = 0; i < rows; ++i, k += lanes)
+        stages[i].meet(contacts + k, pairs + k, meetings[i], statuses + k, count - k, spare);
+    for (int i = 0; i < rows; ++i) stages[i].look(stages[i].motion);
+    for (int i = 0; i < rows; ++i) stages[i].bound();
+    for (int i = 0; i < rows; ++i) stages[i].march(numbers);
+    for (int i = 0; i < rows; ++i) actions[i] = stages[i].settle(meetings[i]);
 }
 
 }  // namespace springs
@@ -262,7 +260,7 @@ template <int N, class Real, unsigned P> void mirror(ContactInSpace<N, Real, P>&
     for (Real& each : contact.y) each = -each;
     if constexpr ((P & viscous) != 0) {
         contact.slide_y = -contact.slide_y;
-        contact.drag_y = -contact.drag_y;
+        if constexpr ((P & ledger) != 0) contact.drag_y = -contact.drag_y;
     }
     if constexpr ((P & ledger) != 0) contact.shear_y = -contact.shear_y;
 }

@@ -13,7 +13,6 @@
 #include "own_names.h"
 
 #include <array>
-#include <cstring>
 
 namespace carom {
 
@@ -63,33 +62,12 @@ using Encounter = EncounterOf<double>;
 using Action = ActionOf<double>;
 
 /// Several at once: number k is in lane k % lanes of structure k / lanes.
-using Wide = springs::Lanes<double, 16>;
-constexpr int lanes = Wide::count;
 using Bodies = BodyOf<Wide::Type>;
 using Encounters = EncounterOf<Wide::Type>;
 using Actions = ActionOf<Wide::Type>;
 
-inline double in_lane(const Wide::Type& all, int lane) { return Wide::lane(all, lane); }
 inline Vector in_lane(const Triple<Wide::Type>& all, int lane) {
     return {in_lane(all[0], lane), in_lane(all[1], lane), in_lane(all[2], lane)};
-}
-
-/// Return number k of several.
-template <template <class> class Of> Of<double> one_of(const Of<Wide::Type>* all, int k) {
-    Of<double> one;
-    const auto place = static_cast<std::size_t>(k % lanes);
-    const char* lane = reinterpret_cast<const char*>(all + k / lanes) + place * sizeof(double);
-    for (std::size_t i = 0; i < sizeof one; i += sizeof(double))
-        std::memcpy(reinterpret_cast<char*>(&one) + i, lane + i * lanes, sizeof(double));
-    return one;
-}
-
-/// Make one number k of several.
-template <template <class> class Of> void set_one(Of<Wide::Type>* all, int k, const Of<double>& one) {
-    const auto place = static_cast<std::size_t>(k % lanes);
-    char* lane = reinterpret_cast<char*>(all + k / lanes) + place * sizeof(double);
-    for (std::size_t i = 0; i < sizeof one; i += sizeof(double))
-        std::memcpy(lane + i * lanes, reinterpret_cast<const char*>(&one) + i, sizeof(double));
 }
 
 /// Return what a contact sees of two spheres. Each is flattened by its part of the penetration, at

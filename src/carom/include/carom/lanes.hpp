@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace carom {
 namespace springs {
@@ -45,11 +46,12 @@ template <class Real, int N> struct Lanes {
         __asm__("" : "+m"(each));
         return of(each);
     }
-    /// Numbers by lane.
+    /// Numbers by lane, listed at once: lanes that are set one by one go through memory.
     template <class Give> static Type each(Give give) {
-        Type all{};
-        for (int i = 0; i < count; ++i) all[i] = give(i);
-        return all;
+        return listed(give, std::make_integer_sequence<int, count>{});
+    }
+    template <class Give, int... i> static Type listed(Give give, std::integer_sequence<int, i...>) {
+        return Type{give(i)...};
     }
     static Real lane(const Type& all, int i) { return all[i]; }
     /// Sum of all lanes, by halves.
@@ -83,7 +85,90 @@ template <class Real, int N> struct Lanes {
     static Type of(double each) { return static_cast<Real>(each) - Type{}; }
 };
 
+// By value, unlike those of the standard library: of numbers and of registers of numbers.
+template <class T> T larger(T a, T b) { return a > b ? a : b; }
+template <class T> T smaller(T a, T b) { return a < b ? a : b; }
+
+/// Whether something holds, for a number or in any lane.
+template <class Truth> bool any(const Truth& where) {
+    if constexpr (std::is_arithmetic_v<Truth>) {
+        return where;
+    } else {
+        auto all = where[0];
+        for (unsigned i = 1; i < sizeof where / sizeof where[0]; ++i) all |= where[i];
+        return all != 0;
+    }
+}
+
 }  // namespace springs
+
+/// Several contacts at once.
+using Wide = springs::Lanes<double, 16>;
+constexpr int lanes = Wide::count;
+
+/// Return what is in a lane; a number is its own only lane.
+template <class T> auto in_lane(const T& all, int lane) {
+    if constexpr (std::is_arithmetic_v<T>)
+        return static_cast<void>(lane), all;
+    else
+        return all[lane];
+}
+template <class T> void set_lane(T& all, int lane, double each) {
+    if constexpr (std::is_arithmetic_v<T>)
+        static_cast<void>(lane), all = each;
+    else
+        all[lane] = each;
+}
+
+namespace springs {
+
+/// How many contacts are in lanes of T, and T with numbers of another precision.
+template <class T> constexpr int width = sizeof(T) / sizeof(double);
+template <class T, class Real>
+using Alike = std::conditional_t<std::is_arithmetic_v<T>, Real, typename Lanes<Real, lanes>::Type>;
+
+/// Numbers by lane.
+template <class T, class Real, class Give> Alike<T, Real> by_lane(Give give) {
+    if constexpr (std::is_arithmetic_v<T>)
+        return static_cast<Real>(give(0));
+    else
+        return Lanes<Real, lanes>::each(give);
+}
+
+/// The same numbers in another precision.
+template <class To, class From> To converted(const From& all) {
+#if defined(__GNUC__)
+    if constexpr (!std::is_arithmetic_v<From>) return __builtin_convertvector(all, To);
+    else
+#endif
+    return static_cast<To>(all);
+}
+
+}  // namespace springs
+
+/// Return number k of several, which are in lanes of structures.
+template <template <class> class Of, class T> inline Of<double> one_of(const Of<T>* all, int k) {
+    constexpr std::size_t n = springs::width<T>;
+    const auto place = static_cast<std::size_t>(k);
+    if constexpr (n == 1) return all[place];
+    Of<double> one;
+    const char* lane = reinterpret_cast<const char*>(all + place / n) + place % n * sizeof(double);
+    for (std::size_t i = 0; i < sizeof one; i += sizeof(double))
+        std::memcpy(reinterpret_cast<char*>(&one) + i, lane + i * n, sizeof(double));
+    return one;
+}
+
+/// Make one number k of several.
+template <template <class> class Of, class T>
+inline void set_one(Of<T>* all, int k, const Of<double>& one) {
+    constexpr std::size_t n = springs::width<T>;
+    const auto place = static_cast<std::size_t>(k);
+    if constexpr (n == 1) return static_cast<void>(all[place] = one);
+    char* lane = reinterpret_cast<char*>(all + place / n) + place % n * sizeof(double);
+    for (std::size_t i = 0; i < sizeof one; i += sizeof(double))
+        std::memcpy(lane + i * n, reinterpret_cast<const char*>(&one) + i, sizeof(double));
+}
+
 }  // namespace carom
 
 #include "own_names.h"

@@ -9,15 +9,14 @@
 
 #include "own_names.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace carom {
 namespace springs {
 
 /// What a step makes of all springs: their force as an integral over x/h, and what they lose.
-struct Sums {
-    double x, y, friction, viscosity;
+template <class T> struct Sums {
+    T x, y, friction, viscosity;
 };
 
 /// Constants in each lane of a register, made once for many contacts.
@@ -25,7 +24,7 @@ template <int N, class Real> struct Numbers {
     using L = Lanes<Real, N>;
     typename L::Type zero = L::fixed(0), half = L::fixed(Real(0.5)), one = L::fixed(1);
     typename L::Type tiny = L::fixed(std::numeric_limits<Real>::min());
-    typename L::Type faint = L::of(1e-20), steep = L::of(1e20);
+    typename L::Type faint = L::of(1e-20);
 };
 
 /// The springs of a step: what they share, in each lane of a register, and what they add up to.
@@ -34,27 +33,45 @@ template <int N, class Real, unsigned P> struct March {
     using V = typename L::Type;
     static constexpr Places<N, Real> places{};
 
-    V zero, half, one, tiny, faint, steep;
-    V depth, limit, rim, fade, faded, least, full, moved_x, moved_y, drag_x, drag_y;
+    V zero, half, one, tiny, faint;
+    V depth, least, full, moved_x, moved_y, first, inner, bend;
+    V limit, rim, fade, faded, drag_x, drag_y;
     V along{}, across{}, rubbed{}, dragged{};
+    const Real *last, *before;  ///< where the line of zeros has its one for them
     bool viscous_shear, turns;
 
-    March(const Numbers<N, Real>& n, const Now& now, double edge, bool sheared)
-        : zero(n.zero), half(n.half), one(n.one), tiny(n.tiny), faint(n.faint), steep(n.steep),
-          depth(L::of(now.depth)), limit(L::of(now.limit)), rim(L::of(edge)), fade(L::of(now.fade)),
-          least(L::of(now.least)), full(L::of(now.most)), moved_x(L::of(now.moved_x)),
-          moved_y(L::of(now.moved_y)), drag_x(L::of(now.drag_x)), drag_y(L::of(now.drag_y)),
-          viscous_shear(sheared), turns((P & viscous) == 0 || !sheared || !(now.fade < 1.0)) {
-        faded = turns ? one : fade;
+    template <class T>
+    March(const Numbers<N, Real>& n, const Shared<T>& now, int lane, int end, bool sheared)
+        : zero(n.zero), half(n.half), one(n.one), tiny(n.tiny), faint(n.faint),
+          depth(L::of(in_lane(now.depth, lane))), least(L::of(in_lane(now.least, lane))),
+          full(L::of(in_lane(now.most, lane))), moved_x(L::of(in_lane(now.moved_x, lane))),
+          moved_y(L::of(in_lane(now.moved_y, lane))), first(L::of(in_lane(now.first, lane))),
+          inner(L::of(in_lane(now.inner, lane))), bend(L::of(in_lane(now.bend, lane))),
+          last(places.single + N - end), before(end > 0 ? last + 1 : last), viscous_shear(sheared),
+          turns(true) {
+        if constexpr ((P & viscous) != 0) {
+            limit = L::of(in_lane(now.limit, lane));
+            rim = L::of(in_lane(now.edge, lane));
+            fade = L::of(in_lane(now.fade, lane));
+            drag_x = L::of(in_lane(now.drag_x, lane));
+            drag_y = L::of(in_lane(now.drag_y, lane));
+            turns = !sheared || !(in_lane(now.fade, lane) < 1);
+            faded = turns ? one : fade;
+        }
+    }
+
+    /// Weights in the sum over x >= 0: all one but for the first and the last ones.
+    V weight(int k) const {
+        return L::load(places.aside + k) + first * L::load(places.single + N + k) +
+               inner * L::load(last + k) + bend * L::load(before + k);
     }
 
     /// Make nothing of what has died away: denormal numbers would last, and take long.
     V settled(V v) const { return (v + faint) - faint; }
 
-    /// Factor that cuts vectors back to lengths, and one over the length that they had.
-    V cut(V x, V y, V most, V& inverse) const {
-        inverse = one / root(larger(x * x + y * y, tiny));
-        return smaller(most * inverse, one);
+    /// Factor that cuts vectors back to lengths.
+    V cut(V x, V y, V most) const {
+        return most / larger(root(larger(x * x + y * y, tiny)), most);
     }
 
     /// Bring the springs from k on to the end of the step.
@@ -62,26 +79,27 @@ template <int N, class Real, unsigned P> struct March {
         const V s = L::load(places.square + k), x0 = L::load(c.x + k), y0 = L::load(c.y + k);
         // what is touched within the step goes only the rest of its way
         const V pressed = depth - s, share = smaller(larger(pressed, least), full);
-        V bearable = larger(pressed, zero), most = bearable, free_x = x0, free_y = y0, inverse;
+        V bearable = larger(pressed, zero), most = bearable, free_x = x0, free_y = y0;
         if constexpr ((P & viscous) != 0) {
-            const V inside = (rim - s) * steep;  // beyond the edge springs are free
+            const auto inside = s < rim;  // beyond the edge springs are free
             // by what fades: what is kept is one to rounding where steps are short
             const V held = L::load(c.pressed + k), less = held * fade;
             const V is = settled(larger(pressed, held - less));
             const V grown = (is - held) + less;
             L::store(c.pressed + k, is);
-            bearable = larger(smaller(limit - s, inside), zero);
-            most = viscous_shear ? larger(smaller(grown, inside), zero) : bearable;
+            bearable = inside ? larger(limit - s, zero) : zero;
+            most = viscous_shear ? (inside ? larger(grown, zero) : zero) : bearable;
             free_x = x0 * faded;
             free_y = y0 * faded;
         }
         const V to_x = free_x + share * moved_x, to_y = free_y + share * moved_y;
-        const V part = cut(to_x, to_y, most, inverse);
+        const V part = cut(to_x, to_y, most);
         V x = part * to_x, y = part * to_y;
         // a cut turns springs too little, by half of what it takes of their part aside
         if (turns) {
             const V less = smaller(part, half) * (one - part);
-            const V ahead = part + less * (free_x * to_x + free_y * to_y) * inverse * inverse;
+            const V square = larger(to_x * to_x + to_y * to_y, tiny);
+            const V ahead = part + less * (free_x * to_x + free_y * to_y) / square;
             x = ahead * to_x - less * free_x;
             y = ahead * to_y - less * free_y;
         }
@@ -91,7 +109,7 @@ template <int N, class Real, unsigned P> struct March {
             y = settled(y0 + (y - free_y));
             bears_x = x + drag_x;
             bears_y = y + drag_y;
-            const V bears = cut(bears_x, bears_y, bearable, inverse);
+            const V bears = cut(bears_x, bears_y, bearable);
             bears_x *= bears;
             bears_y *= bears;
         }
@@ -99,23 +117,23 @@ template <int N, class Real, unsigned P> struct March {
             book(c, k, x, y, bears_x, bears_y, share * moved_x, share * moved_y);
         L::store(c.x + k, x);
         L::store(c.y + k, y);
-        const V weight = L::load(places.weight + k);
-        along += weight * bears_x;
-        across += weight * bears_y;
+        const V part_of_sum = weight(k);
+        along += part_of_sum * bears_x;
+        across += part_of_sum * bears_y;
     }
 
     /// Enter what springs lose by which the bodies slid so far.
     void book(const Contact<N, Real, P>& c, int k, V x, V y, V bears_x, V bears_y, V slid_x,
               V slid_y) {
-        const V x0 = L::load(c.x + k), y0 = L::load(c.y + k), weight = L::load(places.weight + k);
+        const V x0 = L::load(c.x + k), y0 = L::load(c.y + k);
+        const V weight = L::load(places.aside + k) + half * L::load(places.single + N + k);
         V bore_x = x0, bore_y = y0;
         if constexpr ((P & viscous) != 0) {
             const V s = L::load(places.square + k);
-            const V inside = smaller(L::of(c.limit) - s, (L::of(c.edge) - s) * steep);
+            const V bearable = s < L::of(c.edge) ? larger(L::of(c.limit) - s, zero) : zero;
             bore_x = x0 + L::of(c.drag_x);
             bore_y = y0 + L::of(c.drag_y);
-            V inverse;
-            const V bore = cut(bore_x, bore_y, larger(inside, zero), inverse);
+            const V bore = cut(bore_x, bore_y, bearable);
             bore_x *= bore;
             bore_y *= bore;
         }
@@ -127,52 +145,26 @@ template <int N, class Real, unsigned P> struct March {
     }
 };
 
-/// Bring all springs to the end of the step.
-template <int N, class Real, unsigned P>
-inline Sums march(Contact<N, Real, P>& c, const Numbers<N, Real>& numbers, const Now& now, double edge,
-                  bool viscous_shear) {
+/// Bring all springs of the contact in a lane to the end of the step.
+template <int N, class Real, unsigned P, class T, class Wanted>
+inline void march(Contact<N, Real, P>& c, const Numbers<N, Real>& numbers, const Shared<T>& now,
+                  int lane, int last, bool viscous_shear, Sums<Wanted>& sums) {
     using All = March<N, Real, P>;
-    All all(numbers, now, edge, viscous_shear);
-    // elastic springs beyond are at rest
-    const Real reach = larger(c.edge, static_cast<Real>(edge));
-    bool more = true;
-    for (int k = 0; k < N && more; k += All::L::count) {
-        more = (P & viscous) != 0 || All::places.square[k + All::L::count - 1] < reach;
-        all.take(c, k);
-    }
-    Sums sums{};
-    sums.x = All::L::total(all.along);
-    sums.y = All::L::total(all.across);
-    if constexpr ((P & ledger) != 0) {
-        sums.friction = All::L::total(all.rubbed);
-        sums.viscosity = All::L::total(all.dragged);
-    }
-    return sums;
-}
-
-/// End the sum at the edge. From the last spring on q is linear in s; at that spring the sum lacks
-/// -q'(x)/12, the slope of q(s) being that from the spring before it to the edge.
-template <int N, class Real, unsigned P>
-inline void trim(const Contact<N, Real, P>& c, const Now& now, double edge, double beta,
-                 Sums& sums) {
-    if (!(beta > 0.0)) return;
-    int last = std::min(static_cast<int>(beta), N - 1);
-    if (last > 0 && !(double(last) * last < edge)) --last;  // it is not inside
-    const int before = std::max(last - 1, 0);
-    const double width = beta - last;
-    const double inner = width * (2.0 * beta + last) / (3.0 * (beta + last));  // falling to zero
-    const double bend = last / (6.0 * (edge - double(before) * before));
-    if (last == 0) sums.x = sums.y = 0.0;  // nothing is taken from what is equal to rounding
-    const double less = inner - (last == 0 ? 0.0 : 0.5);
-    const auto add = [&](double weight, double x, double y, double limit) {
+    All all(numbers, now, lane, last, viscous_shear);
+    // springs beyond are at rest, once those that were let go have recovered
+    const Real reach = larger(c.edge, static_cast<Real>(in_lane(now.edge, lane)));
+    const auto moves = [&](int k) {
         if constexpr ((P & viscous) != 0)
-            weight *= cut(x += now.drag_x, y += now.drag_y, larger(limit, 0.0));
-        sums.x += weight * x;
-        sums.y += weight * y;
+            if (c.pressed[k] > 0 || All::places.square[k] < in_lane(now.depth, lane)) return true;
+        return All::places.square[k] <= reach;
     };
-    add(less, c.x[last], c.y[last], now.limit - double(last) * last);
-    add(bend, c.x[before], c.y[before], now.limit - double(before) * before);
-    if constexpr ((P & viscous) != 0) add(width - inner - bend, 0.0, 0.0, now.limit - edge);
+    for (int k = 0; k < N && (k == 0 || moves(k)); k += All::L::count) all.take(c, k);
+    set_lane(sums.x, lane, All::L::total(all.along));
+    set_lane(sums.y, lane, All::L::total(all.across));
+    if constexpr ((P & ledger) != 0) {
+        set_lane(sums.friction, lane, All::L::total(all.rubbed));
+        set_lane(sums.viscosity, lane, All::L::total(all.dragged));
+    }
 }
 
 }  // namespace springs

@@ -19,20 +19,23 @@ template <int N, class Real, bool> struct Recovery {};
 template <int N, class Real> struct Recovery<N, Real, true> {
     Real pressed[N];  ///< how far springs are pressed that were let go
     Real approach, slide_x, slide_y;  ///< velocities of the step before
-    Real limit, drag_x, drag_y;  ///< D and tau q' then
+    Real steps, fade;  ///< in retardation times, and what fades in it: it is seldom another
 };
-template <class Real, bool> struct Ledger {};
-template <class Real> struct Ledger<Real, true> {
+template <class Real, unsigned> struct Ledger {};
+template <class Real> struct Ledger<Real, ledger> {
     Real stored;  ///< work done on the contact that is not lost
     Real normal, shear_x, shear_y;  ///< forces of the step before
-    Real power;  ///< that dashpots took in compression then
+};
+template <class Real> struct Ledger<Real, viscous | ledger> : Ledger<Real, ledger> {
+    Real power;  ///< that dashpots took in compression in the step before
+    Real limit, drag_x, drag_y;  ///< D and tau q' then
 };
 }  // namespace springs
 
 /// The memory of a contact: N springs; plain numbers, all zeros while the bodies are apart.
 template <int N = 16, class Real = double, unsigned P = elastic>
 struct Contact : springs::Recovery<N, Real, (P & viscous) != 0>,
-                 springs::Ledger<Real, (P & ledger) != 0> {
+                 springs::Ledger<Real, P> {
     static_assert(N >= 8 && N <= 4096 && N % 4 == 0, "8 to 4096 springs, a multiple of 4");
     Real spacing;  ///< of the springs; 0 while the bodies are apart
     Real edge;     ///< s at the edge of the contact, in spacing^2/R*
@@ -47,15 +50,15 @@ void scale_lattice(Contact<N, Real, P>& c, void (*change)(Real (&)[N]), Real wid
     change(c.y);
     c.spacing *= wider;
     c.edge /= wider * wider;
-    if constexpr ((P & viscous) != 0) {
-        change(c.pressed);
+    if constexpr ((P & viscous) != 0) change(c.pressed);
+    if constexpr (P == (viscous | ledger)) {
         for (Real* each : {&c.limit, &c.drag_x, &c.drag_y}) *each /= wider * wider;
     }
 }
 
 /// Give springs their places at the first touch: so that the impact is to fill them.
 template <int N, class Real, unsigned P>
-inline void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
+inline void begin(Contact<N, Real, P>& c, const PairOf<double>& pair, const Motion& m) {
     constexpr double margin = 1.04;
     c = Contact<N, Real, P>{};
     const double energy = 0.9375 * pair.mass * m.approach * m.approach;
@@ -82,13 +85,40 @@ inline void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
     }
 }
 
-/// Widen the lattice if the contact has outgrown it, refine it if it has shrunk to a quarter.
+/// Begin, widen the lattice if the contact has outgrown it, refine it if it has shrunk to a quarter.
 template <int N, class Real, unsigned P>
-inline void fit_lattice(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
+inline void fit_lattice(Contact<N, Real, P>& c, const PairOf<double>& pair, const Motion& m) {
+    if (!(c.spacing > 0)) begin(c, pair, m);
     const auto reach = [&] { return double(c.spacing) * c.spacing * (N * N); };
     const double square = m.penetration * pair.radius;
     if (m.approach < 0.0 && 16.0 * square < reach()) scale_lattice(c, refine<N, Real>, Real(0.5));
     while (square > reach()) scale_lattice(c, coarsen<N, Real>, Real(2));
+}
+
+/// Contacts in the lanes of T.
+template <class T, class Kind> struct Row {
+    Kind* all[width<T>];
+
+    /// Return what they remember.
+    template <class Real, class Of> T get(Real Of::*part) const {
+        return converted<T>(by_lane<T, Real>([&](int k) { return all[k]->*part; }));
+    }
+    /// Let them remember.
+    template <class Real, class Of> void keep(Real Of::*part, const T& values) const {
+        const auto kept = converted<Alike<T, Real>>(values);
+        for (int k = 0; k < width<T>; ++k) all[k]->*part = in_lane(kept, k);
+    }
+};
+
+/// Fit those lattices that do not.
+template <class T, int N, class Real, unsigned P>
+inline void fit_lattices(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
+                         const MotionOf<T>& m) {
+    const T spacing = row.get(&Contact<N, Real, P>::spacing), square = m.penetration * pair.radius;
+    const T reach = spacing * spacing * double(N * N);
+    const auto is_fine = (m.approach >= 0.0) | (16.0 * square >= reach);
+    if (!any((square > reach) | (is_fine == 0) | (spacing == 0.0))) return;
+    for (int k = 0; k < width<T>; ++k) fit_lattice(*row.all[k], one_of(&pair, k), one_of(&m, k));
 }
 
 }  // namespace springs

@@ -4,10 +4,11 @@
 #ifndef CAROM_PAIR_HPP
 #define CAROM_PAIR_HPP
 
+#include "lanes.hpp"
+
 #include "own_names.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace carom {
 
@@ -26,18 +27,21 @@ struct Pair {
 
 /// Motion of the contact in a step: penetration at its end, velocities in its middle (those of
 /// velocity Verlet while forces are computed), the step.
-struct Motion {
-    double penetration;
-    double approach;  ///< normal velocity, positive while the bodies approach
-    double slide_x, slide_y;  ///< tangential velocity of the contact point
-    double step;
+template <class T> struct MotionOf {
+    T penetration;
+    T approach;  ///< normal velocity, positive while the bodies approach
+    T slide_x, slide_y;  ///< tangential velocity of the contact point
+    T step;
 };
 
 /// Forces at the end of a step, x and y against the slide, and the energy that was lost in it.
-struct Load {
-    double normal, x, y;
-    double friction, viscosity;  ///< of a Contact that keeps a ledger
+template <class T> struct LoadOf {
+    T normal, x, y;
+    T friction, viscosity;  ///< of a Contact that keeps a ledger
 };
+
+using Motion = MotionOf<double>;
+using Load = LoadOf<double>;
 
 enum class Status { ok, bad_pair, bad_motion };
 
@@ -55,30 +59,60 @@ inline const char* message(Status status) {
 // Within these no product of numbers leaves the range of double precision.
 constexpr double largest = 1e30, largest_ratio = 1e6;
 
+namespace springs {
+
+/// Pairs in lanes; in shear they may have no losses.
+template <class T> struct PairOf {
+    T modulus, radius, stiffness_ratio, friction, mass, retardation, shear_retardation;
+};
+
+/// Set pairs in lanes; those left over are the last one.
+template <class T> inline void set_pairs(PairOf<T>& all, const Pair pairs[], int count) {
+    const Pair* each[width<T>];
+    for (int k = 0; k < width<T>; ++k) each[k] = pairs + std::min(k, count - 1);
+    const auto set = [&](T PairOf<T>::*to, double Pair::*part) {
+        all.*to = by_lane<T, double>([&](int k) { return each[k]->*part; });
+    };
+    set(&PairOf<T>::modulus, &Pair::modulus);
+    set(&PairOf<T>::radius, &Pair::radius);
+    set(&PairOf<T>::stiffness_ratio, &Pair::stiffness_ratio);
+    set(&PairOf<T>::friction, &Pair::friction);
+    set(&PairOf<T>::mass, &Pair::mass);
+    set(&PairOf<T>::retardation, &Pair::retardation);
+    all.shear_retardation = by_lane<T, double>(
+        [&](int k) { return each[k]->viscous_shear ? each[k]->retardation : 0.0; });
+}
+
 // A sum is small enough if all of its parts are; the least is large enough if all are.
-inline bool is_good(const Pair& p) {
-    const double all = p.modulus + p.radius + p.mass + p.retardation +
-                       (p.stiffness_ratio + p.friction) * (largest / largest_ratio);
-    const double least = std::min(std::min(p.modulus, p.radius),
-                                  std::min(p.mass, p.stiffness_ratio * (largest_ratio / largest)));
-    return all <= 8.0 * largest && least >= 1.0 / largest &&
-           std::min(p.friction, p.retardation) >= 0.0;
+template <class T> auto is_good(const PairOf<T>& p) {
+    const T all = p.modulus + p.radius + p.mass + p.retardation +
+                  (p.stiffness_ratio + p.friction) * (largest / largest_ratio);
+    const T least = smaller(smaller(p.modulus, p.radius),
+                            smaller(p.mass, p.stiffness_ratio * (largest_ratio / largest)));
+    return (all <= 8.0 * largest) & (least >= 1.0 / largest) &
+           (smaller(p.friction, p.retardation) >= 0.0);
 }
 
-inline bool is_good(const Motion& m, double radius, double shortest) {
-    const double all = m.approach * m.approach + m.slide_x * m.slide_x + m.slide_y * m.slide_y +
-                       m.penetration * m.penetration + m.step * m.step;
-    return all <= largest * largest && m.step >= shortest && m.penetration < radius;
+template <class T> auto is_good(const MotionOf<T>& m, const T& radius, const T& shortest) {
+    const T all = m.approach * m.approach + m.slide_x * m.slide_x + m.slide_y * m.slide_y +
+                  m.penetration * m.penetration + m.step * m.step;
+    return (all <= largest * largest) & (m.step >= shortest) & (m.penetration < radius);
 }
 
-/// Whether a step can be taken, by numbers of this precision.
-template <class Real> Status status_of(const Pair& pair, const Motion& motion) {
-    if (!is_good(pair)) return Status::bad_pair;
-    double shortest = 1.0 / largest;
-    if (sizeof(Real) < sizeof(double)) shortest += 1e-12 * pair.retardation;
-    return is_good(motion, pair.radius, shortest) ? Status::ok : Status::bad_motion;
+/// Say of steps whether they can be taken, by numbers of this precision.
+template <class Real, class T>
+inline void set_statuses(const PairOf<T>& pair, const MotionOf<T>& motion, Status statuses[], int count) {
+    constexpr double part = sizeof(Real) < sizeof(double) ? 1e-12 : 0.0;
+    const auto pair_good = is_good(pair);
+    const T shortest = 1.0 / largest + part * pair.retardation;
+    const auto motion_good = is_good(motion, pair.radius, shortest);
+    for (int k = 0; k < count; ++k)
+        statuses[k] = !in_lane(pair_good, k)     ? Status::bad_pair
+                      : !in_lane(motion_good, k) ? Status::bad_motion
+                                                 : Status::ok;
 }
 
+}  // namespace springs
 }  // namespace carom
 
 #include "own_names.h"

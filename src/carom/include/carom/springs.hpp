@@ -20,9 +20,10 @@
 #ifndef CAROM_SPRINGS_HPP
 #define CAROM_SPRINGS_HPP
 
+#include "lanes.hpp"
+
 #include "own_names.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -33,14 +34,15 @@ enum Parts : unsigned { elastic = 0, viscous = 1, ledger = 2 };
 
 namespace springs {
 
-/// Springs at s = k^2, and their weights in a sum over x >= 0.
+/// Springs at s = k^2, whether a spring lies beyond the middle, and a line of zeros but for one.
 template <int N, class Real> struct Places {
-    Real square[N], weight[N];
-    constexpr Places() : square(), weight() {
+    Real square[N], aside[N], single[2 * N + 1];
+    constexpr Places() : square(), aside(), single() {
         for (int k = 0; k < N; ++k) {
             square[k] = static_cast<Real>(k * k);
-            weight[k] = static_cast<Real>(k == 0 ? 0.5 : 1.0);
+            aside[k] = static_cast<Real>(k > 0 ? 1 : 0);
         }
+        single[N] = 1;
     }
 };
 
@@ -62,27 +64,24 @@ template <int N, class Real> void refine(Real (&line)[N]) {
     }
 }
 
-// By value, unlike those of the standard library: of numbers and of registers of numbers.
-template <class Real> Real larger(Real a, Real b) { return a > b ? a : b; }
-template <class Real> Real smaller(Real a, Real b) { return a < b ? a : b; }
-
 /// Lengths beyond it have no squares; no contact is pressed so far.
 template <class Real> constexpr double farthest = sizeof(Real) < sizeof(double) ? 4e18 : 4e153;
 
-/// Shorten a vector of which springs take parts up to this share, so that it can be squared.
-template <class Real> void shorten(double& x, double& y, double share) {
+/// Shorten vectors of which springs take parts up to this share, so that they can be squared.
+template <class Real, class T> void shorten(T& x, T& y, const T& share) {
     constexpr double far = farthest<Real>;
-    if ((x * x + y * y) * (share * share) > far * far) {
-        const double part = far / ((std::fabs(x) + std::fabs(y)) * share);
-        x *= part;
-        y *= part;
-    }
+    const auto is_far = (x * x + y * y) * (share * share) > far * far;
+    if (!any(is_far)) return;
+    const T one = T{} + 1.0, all = (larger(x, -x) + larger(y, -y)) * share;
+    const T part = is_far ? far / larger(all, one) : one;
+    x *= part;
+    y *= part;
 }
 
 /// Factor that cuts a vector back to a length.
-template <class Real> Real cut(Real x, Real y, Real most) {
-    const Real square = larger(x * x + y * y, std::numeric_limits<Real>::min());
-    return smaller(most * (1 / std::sqrt(square)), Real(1));
+template <class T> T cut(const T& x, const T& y, const T& most) {
+    const T square = larger(x * x + y * y, T{} + std::numeric_limits<double>::min());
+    return smaller(most * (1.0 / root(square)), T{} + 1.0);
 }
 
 }  // namespace springs

@@ -15,108 +15,146 @@ namespace carom {
 namespace springs {
 
 /// What all springs of a step share, in spacing^2/R* (and mu/kappa along the contact).
-struct Now {
-    double unit;            ///< spacing^2/R*
-    double rises, depth, before;  ///< d at the end of the step and at its beginning, the difference
-    double excess, limit;   ///< tau d', D = d + tau d'
-    double fade;            ///< part of a deflection that a free spring loses: 1 - exp(-dt/tau)
-    double least, most;     ///< what of its share in the step a spring has: depth - s, if it rises
-    double moved_x, moved_y;  ///< how far the bodies slid, for each share
-    double drag_x, drag_y;  ///< tau q'
-    double approach;        ///< d' at the end of the step, of viscous bodies
+template <class T> struct Shared {
+    T depth;  ///< d at the end of the step
+    T least, most;       ///< what of its share in the step a spring has: depth - s, if d rises
+    T moved_x, moved_y;  ///< how far the bodies slid, for each share
+    T first, inner, bend;  ///< weights of the middle spring, and more for the last two
+    T limit, edge;         ///< D = d + tau d', s at the edge
+    T fade;  ///< part of a deflection that a free spring loses: 1 - exp(-dt/tau)
+    T drag_x, drag_y;  ///< tau q'
 };
 
-/// The part of a deflection that a free spring loses in a step, which contacts in a row mostly share.
-class Fading {
-    double steps = 0.0, part = 0.0;
-
-  public:
-    /// Return 1 - exp(-steps), of a step in retardation times.
-    double after(double now) {
-        if (now != steps) part = -std::expm1(-(steps = now));
-        return part;
-    }
+/// And what of it they need not know, of contacts in lanes of T.
+template <class T> struct Now : Shared<T> {
+    T unit;           ///< spacing^2/R*
+    T rises, before;  ///< what d has grown by, d before
+    T excess, approach;  ///< tau d', d' at the end of the step, of viscous bodies
+    T root, rest;     ///< b, and the weight of the edge itself
+    Alike<T, int> last;  ///< the last spring within
 };
 
 /// Return the mean of b around the end of a step over b there, the bodies approaching by `half`
 /// in half a step: dashpots bear so much more while b goes like the root of the time. The first
 /// step counts from the touch. No difference of powers is taken: they may be equal to rounding.
-inline double mean_at_end(double depth, double before, double half) {
-    if (!(half > 0.0)) return 1.0;
-    const double back = std::min(before > 0.0 ? half : 2.0 * half, depth);
-    const double to = std::sqrt(depth + half), from = std::sqrt(depth - back);
-    const double there = std::sqrt(std::max(depth, 1e-40 * half));
-    return (back + half) * (to * (to + from) + from * from) / (3.0 * half * (to + from) * there);
+template <class T> inline T mean_at_end(const T& depth, const T& before, const T& half) {
+    const T one = T{} + 1.0, on = half > 0.0 ? half : one;
+    const T back = smaller(before > 0.0 ? on : 2.0 * on, depth);
+    const T to = springs::root(depth + on), from = springs::root(depth - back);
+    const T there = springs::root(larger(depth, 1e-40 * on));
+    const T mean = (back + on) * (to * (to + from) + from * from) / (3.0 * on * (to + from) * there);
+    return half > 0.0 ? mean : one;
+}
+
+/// Return what fades in a step; it is computed anew where the step is another than before.
+template <class T, int N, class Real, unsigned P>
+inline T fade_of(const Row<T, Contact<N, Real, P>>& row, const T& steps) {
+    using Kind = Contact<N, Real, P>;
+    const auto now = converted<Alike<T, Real>>(steps);
+    if (any(converted<T>(now) != row.get(&Kind::steps)))
+        for (int k = 0; k < width<T>; ++k) {
+            row.all[k]->steps = in_lane(now, k);
+            row.all[k]->fade = static_cast<Real>(-std::expm1(-in_lane(steps, k)));
+        }
+    return row.get(&Kind::fade);
 }
 
 /// Velocities at the end of the step follow from those of its middle and of the one before.
-template <int N, class Real, unsigned P>
-inline void look(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Fading& fading,
-                 Now& now) {
-    now.fade = 1.0;
-    now.moved_x = now.moved_y = now.drag_x = now.drag_y = 0.0;
-    now.unit = double(c.spacing) * c.spacing / pair.radius;
-    const double per_unit = pair.radius / (double(c.spacing) * c.spacing);
+template <class T, int N, class Real, unsigned P>
+inline void look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
+                 const MotionOf<T>& m, Now<T>& now) {
+    using Kind = Contact<N, Real, P>;
+    const T none{}, one = none + 1.0, spacing = row.get(&Kind::spacing), square = spacing * spacing;
+    const T per_unit = pair.radius / square;
+    now.unit = square / pair.radius;
     now.rises = m.approach * m.step * per_unit;
-    now.depth = m.penetration * per_unit;
-    now.limit = now.depth;
-    const bool is_rising = now.rises > 1e-12 * (now.depth + 1.0);
-    now.least = is_rising ? 0.0 : 1.0;
-    now.most = is_rising ? now.rises : 1.0;
-    const double friction = std::max(pair.friction, 1.0 / largest);
-    const double slope = per_unit * pair.stiffness_ratio / (friction * now.most);
-    if (pair.friction > 0.0) {
-        now.moved_x = slope * m.slide_x * m.step;
-        now.moved_y = slope * m.slide_y * m.step;
-    }
+    now.depth = now.limit = m.penetration * per_unit;
+    const auto is_rising = now.rises > 1e-12 * (now.depth + 1.0);
+    now.least = is_rising ? none : one;
+    now.most = is_rising ? now.rises : one;
+    const T friction = larger(pair.friction, none + 1.0 / largest);
+    const T slope = pair.friction > 0.0 ? per_unit * pair.stiffness_ratio / friction : none;
+    const T moved = slope * m.step / now.most;
+    now.moved_x = moved * m.slide_x;
+    now.moved_y = moved * m.slide_y;
     if constexpr ((P & viscous) != 0) {
+        const auto losing = pair.retardation > 0.0;
+        const T approach = (1.5 * m.approach - 0.5 * row.get(&Kind::approach)) * per_unit;
+        const T half = losing ? 0.5 * approach * m.step : none;
         now.before = now.depth - now.rises;
-        now.excess = now.approach = 0.0;
-        if (pair.retardation > 0.0) {
-            const double approach = (1.5 * m.approach - 0.5 * c.approach) * per_unit;
-            const double mean = mean_at_end(now.depth, now.before, 0.5 * approach * m.step);
-            now.approach = mean * approach;
-            now.excess = std::min(pair.retardation * now.approach, farthest<Real>);
-            now.limit = std::max(now.limit + now.excess, 0.0);
-            now.fade = fading.after(m.step / pair.retardation);
-            if (pair.friction > 0.0 && pair.viscous_shear) {
-                const double drag = slope * now.most * pair.retardation * mean;
-                now.drag_x = drag * (1.5 * m.slide_x - 0.5 * c.slide_x);
-                now.drag_y = drag * (1.5 * m.slide_y - 0.5 * c.slide_y);
-            }
-        }
-        shorten<Real>(now.drag_x, now.drag_y, 1.0);
-        c.approach = static_cast<Real>(m.approach);
-        c.slide_x = static_cast<Real>(m.slide_x);
-        c.slide_y = static_cast<Real>(m.slide_y);
+        const T mean = mean_at_end(now.depth, now.before, half);
+        now.approach = losing ? mean * approach : none;
+        now.excess = smaller(pair.retardation * now.approach, none + farthest<Real>);
+        now.limit = larger(now.limit + now.excess, none);
+        const T all = none + 1e3;  // or more retardation times: nothing is left of a deflection
+        now.fade = fade_of(row, losing ? smaller(m.step / pair.retardation, all) : all);
+        const T drag = slope * pair.shear_retardation * mean;
+        now.drag_x = drag * (1.5 * m.slide_x - 0.5 * row.get(&Kind::slide_x));
+        now.drag_y = drag * (1.5 * m.slide_y - 0.5 * row.get(&Kind::slide_y));
+        shorten<Real>(now.drag_x, now.drag_y, one);
+        row.keep(&Kind::approach, m.approach);
+        row.keep(&Kind::slide_x, m.slide_x);
+        row.keep(&Kind::slide_y, m.slide_y);
     }
     shorten<Real>(now.moved_x, now.moved_y, now.most);
 }
 
+/// Return s where surfaces meet that overlap by `here` at the edge, free springs keeping this part.
+template <int N, class Real, unsigned P>
+inline double grown_edge(const Contact<N, Real, P>& c, double depth, double edge, double here,
+                         double keep) {
+    for (int k = static_cast<int>(std::sqrt(edge)); here > 0.0; ++k) {
+        const double s = double(k + 1) * (k + 1);
+        const double there = depth - s - (k + 1 < N ? double(c.pressed[k + 1]) * keep : 0.0);
+        if (there < 0.0) return edge + (s - edge) * here / (here - there);
+        edge = s;
+        here = there;
+    }
+    return edge;
+}
+
 /// Return s at the edge, rounded as it is kept: it grows to where surfaces meet, and not beyond
 /// where they press.
-template <int N, class Real, unsigned P>
-inline double edge_of(const Contact<N, Real, P>& c, const Now& now) {
+template <class T, int N, class Real, unsigned P>
+inline T edge_of(const Row<T, Contact<N, Real, P>>& row, const Now<T>& now) {
     if constexpr ((P & viscous) == 0) {
         return now.depth;
     } else {
-        double edge = c.edge;
-        if (now.limit < edge) return static_cast<Real>(now.limit);
-        const double keep = 1.0 - now.fade, was = now.before - edge;
-        double here = was > 0.0 ? now.rises + was * now.fade : now.depth - edge;
-        for (int k = static_cast<int>(std::sqrt(edge)); here > 0.0; ++k) {
-            const double s = double(k + 1) * (k + 1);
-            const double pressed = k + 1 < N ? c.pressed[k + 1] * keep : 0.0;
-            const double there = now.depth - s - pressed;
-            if (there < 0.0) {
-                edge += (s - edge) * here / (here - there);
-                break;
-            }
-            edge = s;
-            here = there;
-        }
-        return static_cast<Real>(std::min(edge, now.limit));
+        const T none{}, one = none + 1.0, edge = row.get(&Contact<N, Real, P>::edge);
+        const T was = now.before - edge, keep = one - now.fade;
+        const T here = was > 0.0 ? now.rises + was * now.fade : now.depth - edge;
+        // seldom it grows beyond the next spring
+        const auto inner = converted<Alike<T, int>>(smaller(root(edge), none + (N - 1.0)));
+        const T next = converted<T>(inner) + 1.0, s = next * next;
+        const T pressed = converted<T>(by_lane<T, Real>([&](int k) {
+            const int n = in_lane(inner, k) + 1;
+            return n < N ? row.all[k]->pressed[n] : Real(0);
+        }));
+        const T there = now.depth - s - pressed * keep;
+        const auto grows = (now.limit >= edge) & (here > 0.0), further = grows & (there >= 0.0);
+        T grown = edge + (grows ? (s - edge) * here / (grows ? here - there : one) : none);
+        for (int k = 0; any(further) && k < width<T>; ++k)
+            if (in_lane(further, k))
+                set_lane(grown, k, grown_edge(*row.all[k], in_lane(now.depth, k), in_lane(edge, k),
+                                              in_lane(here, k), in_lane(keep, k)));
+        return converted<T>(converted<Alike<T, Real>>(smaller(grown, now.limit)));
     }
+}
+
+/// Find how the sum over springs ends. From the last one on q is linear in s; at that spring the
+/// sum lacks -q'(x)/12, the slope of q(s) being that from the spring before it to the edge.
+template <int N, class T> inline void find_ends(Now<T>& now) {
+    const T none{}, tiny = none + 1e-300, edge = now.edge;
+    now.root = springs::root(edge);
+    T last = converted<T>(converted<Alike<T, int>>(smaller(larger(now.root, none), none + (N - 1.0))));
+    last = ((last > 0.0) & (last * last >= edge)) ? last - 1.0 : last;  // it is to be inside
+    const T before = larger(last - 1.0, none), width = now.root - last;
+    const T falling = width * (2.0 * now.root + last) / (3.0 * larger(now.root + last, tiny));
+    now.bend = last / (6.0 * larger(edge - before * before, tiny));
+    now.rest = width - falling - now.bend;
+    now.first = last > 0.0 ? none + 0.5 : falling;
+    now.inner = last > 0.0 ? falling - 0.5 : none;
+    now.last = converted<Alike<T, int>>(last);
 }
 
 }  // namespace springs
