@@ -34,6 +34,13 @@ class FixWallCarom : public Fix {
     int maxsize_restart() override;
 
   private:
+    enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
+    static constexpr int WALL = CaromWallMemories::WALL;
+
+    /// Columns of a sphere are those of LAMMPS' fix wall/gran, a contact has the numbers of both before.
+    enum { WALLS, FORCE_ON, POINT = FORCE_ON + 3, RADIUS = POINT + 3, COLUMNS };
+    enum { OVERLAP = COLUMNS, STORED, LOST, LOCAL_COLUMNS = LOST + 2 };
+
     /// Contacts of a step, and whose they are: what is asked of a sphere, as the wall sees it.
     struct Meetings {
         static constexpr int most = CaromBatch::most;

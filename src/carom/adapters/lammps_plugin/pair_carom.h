@@ -62,6 +62,10 @@ class PairCarom : public Pair {
     CaromOptions options;
 
   private:
+    enum { ELASTIC, FRICTION, VISCOSITY, LOSSES };
+    /// What `single` tells besides energy and normal force.
+    enum { ASIDE, SIZE = 3, OVERLAP, MOBILIZED, BY_FRICTION, BY_VISCOSITY, POINT, EXTRA = POINT + 3 };
+
     /// Contacts of a step, and whose they are.
     struct Meetings {
         CaromBatch batch;
@@ -91,7 +95,7 @@ class PairCarom : public Pair {
     std::vector<std::vector<CaromBodies>> bodies;
     std::vector<double> radii, masses;
     std::vector<class Fix *> rigid;
-    double losses[3] = {0.0, 0.0, 0.0};
+    double losses[LOSSES] = {0.0, 0.0, 0.0};
     CaromLosses of_spheres;
     std::vector<GranularConstants> beside;  ///< of the styles that give the normal force
     bool beside_read = false;
