@@ -10,7 +10,7 @@ from tests import checks
 from tests.checks import BALL, PAIR
 
 import carom
-from carom.fitting.bounces import AIR, GRAVITY, VISCOSITY, taken_by_air
+from carom.fitting.air import DENSITY, GRAVITY, VISCOSITY, taken_by_air
 from carom.fitting.loss_laws import metal, plastic, viscous
 from carom.plots.fits import plot_drops
 
@@ -136,7 +136,7 @@ def slowed(ball, speed):
     number = max(2.0 * ball.radius * abs(speed) / VISCOSITY, 1e-9)
     coefficient = max(24.0 / number * (1.0 + 0.15 * number**0.687), 0.45)
     area = np.pi * ball.radius**2
-    return 0.5 * coefficient * AIR * area * speed * abs(speed) / ball.mass
+    return 0.5 * coefficient * DENSITY * area * speed * abs(speed) / ball.mass
 
 
 def flown(ball, speed=0.0, height=0.0, ends="below"):

@@ -25,8 +25,14 @@ from carom.fitting.bounces import BOUNCES, base
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
 from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.reading import FROM_SURFACE, RECORDED, UNSIGNED, read_measurements, read_problem
-from carom.io.tables import read_table
+from carom.fitting.reading import (
+    FROM_SURFACE,
+    RECORDED,
+    UNSIGNED,
+    read_measurements,
+    read_problem,
+    read_rebounds,
+)
 from carom.io.user_table import Column, entry
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -99,7 +105,7 @@ def _decoded(contents: str) -> bytes:
 
 
 def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
-    table = read_table(file, what="file")
+    table = read_rebounds(file, what="file")
     if len(table) > MOST_UPLOADED_ROWS:
         allowed = f"must be at most {MOST_UPLOADED_ROWS} rows; use carom fit for more"
         raise refusal("file", f"{len(table)} rows", allowed)

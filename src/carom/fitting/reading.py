@@ -16,7 +16,16 @@ from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting import plates
-from carom.fitting.bounces import BOUNCES, MOST_RESTITUTION, about_air, parted, with_speeds
+from carom.fitting.air import about_air
+from carom.fitting.bounces import (
+    BOUNCES,
+    INTERVAL,
+    MOST_RESTITUTION,
+    TIME,
+    base,
+    parted,
+    with_speeds,
+)
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import NO_SPEED, FitProblem, IncomingMotion
 from carom.io.tables import read_table
@@ -40,9 +49,19 @@ NO_BODIES = (
 FAR_OFF = 30.0  # times: a contact time in another unit
 
 
+def read_rebounds(
+    data: Any, columns: Mapping[str, str] | None = None, what: str = "results"
+) -> UserTable:
+    """Return the cells of a table, which may have one column if that is times of bounces."""
+    table = read_table(data, columns, what=what, fewest=1)
+    if len(table.names) > 1 or base(table.names[0]) in (INTERVAL, TIME):
+        return table
+    return read_table(data, columns, what=what)
+
+
 def case_of_data(data: Any) -> Mapping[str, Any]:
     """Return the case that stands in the data, or raise InputError if there is none."""
-    case = read_table(data, None).case
+    case = read_rebounds(data).case
     if case is None:
         raise InputError(NO_BODIES)
     check_case(case)
@@ -53,7 +72,7 @@ def read_problem(
     data: Any, pair: Pair | None, columns: Mapping[str, str] | None = None
 ) -> FitProblem:
     """Return what was measured, or raise InputError for all that cannot be used."""
-    table = read_table(data, columns)
+    table = read_rebounds(data, columns)
     with Faults() as faults:
         return _problem(table, pair, faults)
 
