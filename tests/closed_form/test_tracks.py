@@ -1,5 +1,6 @@
 """Tracks of known impacts with pixel noise: the truth, and errors that are those of the noise."""
 
+import json
 import runpy
 from pathlib import Path
 
@@ -133,9 +134,7 @@ def test_a_stored_table_goes_into_a_fit(tmp_path):
 
 
 def notes(track, **asked):
-    import json
-
-    (about,) = json.loads(carom.track(track, **(SCALE | asked)).attrs["tracks"]).values()
+    (about,) = json.loads(carom.track(track, **(SCALE | asked)).attrs["tracks"])
     return about["notes"]
 
 

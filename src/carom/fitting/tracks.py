@@ -32,6 +32,7 @@ SPINS = ("spin", "spin_out")
 SHARP = 1e-4  # probability below which paths are no parabolas
 DOUBTFUL = 0.8 * np.pi  # turn from frame to frame, beyond which the sense of a spin may be wrong
 FITTED = "fit"
+GRAVITIES, RATES, SCALES = (-1e3, 1e3), (1e-3, 1e9), (1e-6, 1e6)  # that are accepted
 AS_GRAVITY, SIGMAS = 0.02, 4.0  # by which a fitted gravity may differ unsaid, both
 
 
@@ -81,7 +82,7 @@ def track(
     xarray.Dataset
         Along `track`: normal_speed, tangential_speed, normal_speed_out, tangential_speed_out in m/s
         and, with a mark, spin and spin_out in rad/s, each with its `_error`. The attribute `tracks`
-        has time and frames of each impact, the standard deviation of positions, and notes.
+        has, as JSON, time and frames of each impact, the scatter of positions, and notes.
 
     Raises
     ------
@@ -103,10 +104,12 @@ def track(
     steepest = finite("plate_angle", plate_angle)
     refuse(abs(steepest) >= 0.5 * np.pi and refusal("plate_angle", plate_angle, "below 90 deg"))
     is_fitted = isinstance(gravity, str) and gravity == FITTED
-    downwards = None if is_fitted else finite("gravity", gravity)
+    downwards = None if is_fitted else _within("gravity", finite("gravity", gravity), GRAVITIES)
     down = None if y_down is None else flag("y_down", y_down)
     scale = _metres_per_pixel(pixels_per_mm, pixels_per_diameter, radius)
-    rate = None if frame_rate is None else positive("frame_rate", frame_rate)
+    rate = None
+    if frame_rate is not None:
+        rate = _within("frame_rate", positive("frame_rate", frame_rate), RATES)
     found = [
         _measured(read_track(each, columns, rate, scale), steepest, downwards, down)
         for each in sources
@@ -117,17 +120,25 @@ def track(
     return _dataset(names, found)
 
 
+def _within(name: str, value: float, ends: tuple[float, float]) -> float:
+    low, high = ends
+    span = f"must lie between {low:g} and {high:g} {GLOSSARY[name].unit}; check its unit"
+    refuse(not low <= value <= high and refusal(name, value, span))
+    return value
+
+
 def _metres_per_pixel(
     per_mm: Value | None, per_diameter: Value | None, radius: Value | None
 ) -> float | None:
     both = per_mm is not None and per_diameter is not None
     refuse(both and "pixels_per_mm: it gives the same as pixels_per_diameter; leave one out")
     if per_mm is not None:
-        return 1e-3 / positive("pixels_per_mm", per_mm)
+        return 1e-3 / _within("pixels_per_mm", positive("pixels_per_mm", per_mm), SCALES)
     if per_diameter is None:
         return None
     refuse(radius is None and "radius: missing; pixels_per_diameter needs it, e.g. '5 mm'")
-    return 2.0 * positive("radius", radius) / positive("pixels_per_diameter", per_diameter)
+    pixels = _within("pixels_per_diameter", positive("pixels_per_diameter", per_diameter), SCALES)
+    return 2.0 * positive("radius", radius) / pixels
 
 
 def _measured(
@@ -242,8 +253,8 @@ def _dataset(
         entry = GLOSSARY[name.removesuffix(ERROR)]
         words = "standard deviation of the " * name.endswith(ERROR) + entry.meaning
         variables[name] = ("track", values, {"units": entry.unit, "long_name": words})
-    details = dict(zip(names, (about for _, about in found), strict=True))
-    attrs = {"title": "motion before and after impacts, from tracks", "tracks": details}
+    about = [{"track": name, **details} for name, (_, details) in zip(names, found, strict=True)]
+    attrs = {"title": "motion before and after impacts, from tracks", "tracks": json.dumps(about)}
     return labelled_dataset(variables, {"track": ("track", names, {"long_name": "track"})}, attrs)
 
 
@@ -252,8 +263,8 @@ def as_records(motions: "xr.Dataset") -> list[dict[str, Any]]:
     details = json.loads(motions.attrs["tracks"])
     values = {str(name): motions[name].values.tolist() for name in motions.data_vars}
     return [
-        {"track": name, **{key: or_none(column[i]) for key, column in values.items()}, **about}
-        for i, (name, about) in enumerate(details.items())
+        {**about, **{key: or_none(column[i]) for key, column in values.items()}}
+        for i, about in enumerate(details)
     ]
 
 
@@ -262,9 +273,7 @@ def as_text(motions: "xr.Dataset") -> str:
     lines = []
     for each in as_records(motions):
         before, after = each["frames"]
-        time, error = (
-            text(each[name], unit) for name, unit in (("time", "s"), ("position_error", "m"))
-        )
+        time, error = text(each["time"], "s"), text(each["position_error"], "m", 2)
         lines.append(
             f"{each['track']}: {before} frames before and {after} after the impact at {time}; "
             f"positions scatter by {error}"
