@@ -154,7 +154,7 @@ def test_what_is_odd_is_said():
 BARE = "x,y,frame\n" + "\n".join(f"{i},{abs(i - 5)},{i}" for i in range(11)) + "\n"
 REFUSED = {
     "time: column missing; give time, or frame": (table().drop(columns="frame"), SCALE),
-    "frame_rate: missing": (table(), {"pixels_per_mm": 10}),
+    "frame_rate: missing; the track has frames": (table(), {"pixels_per_mm": 10}),
     "x: column missing; the columns are frame, a.x": (
         pd.DataFrame({"frame": [1], "a.x": [1], "a.y": [1], "b.x": [1], "b.y": [1]}),
         SCALE,

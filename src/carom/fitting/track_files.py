@@ -119,23 +119,27 @@ def _flat(frame: "pd.DataFrame") -> "pd.DataFrame":
 
 def _frames(table: UserTable, rate: float | None, scale: float | None, *, bare: bool) -> Frames:
     refuse(len(table) > MOST_FRAMES and f"track: it has more than {MOST_FRAMES} frames; cut it")
-    read = {
-        name: _position(table, name, scale, bare=bare) for name in COLUMNS if name in table.cells
-    }
-    if "time" in table.cells:
-        time = _column(table, "time", "s")
-    else:
-        counted = "frame" in table.cells
-        refuse(not counted and "time: column missing; give time, or frame with the frame rate")
-        refuse(rate is None and "frame_rate: missing; the track has frames, e.g. '1000 Hz'")
-        time = _column(table, "frame", "1") / (rate or 1.0)
+    read: dict[str, Array] = {}
+    faults: list[object] = []
+    try:
+        for name in filter(table.cells.__contains__, COLUMNS):
+            read[name] = _position(table, name, scale, bare=bare)
+    except InputError as fault:  # one for all positions
+        faults.append(fault)
+    counts = "frame" in table.cells and "time" not in table.cells
+    if counts and rate is None:
+        faults.append("frame_rate: missing; the track has frames, give e.g. '1000 Hz'")
+    elif not counts and "time" not in table.cells:
+        faults.append("time: column missing; give time, or frame with the frame rate")
+    refuse(*faults)
+    time = _column(table, "frame", "1") / (rate or 1.0) if counts else _column(table, "time", "s")
     mark = np.full(len(table), np.nan)
     if "mark_angle" in table.cells:
         mark = _column(table, "mark_angle", "rad")
     for name, points in (("score", ("x", "y")), ("mark_score", ("mark_x", "mark_y"))):
         if name in table.cells:
             unsure = ~(_column(table, name, "1") >= SURE)
-            for each in points:
+            for each in filter(read.__contains__, points):
                 read[each] = np.where(unsure, np.nan, read[each])
     seen = np.isfinite(time) & np.isfinite(read["x"]) & np.isfinite(read["y"])
     if {"mark_x", "mark_y"} <= {*read}:
