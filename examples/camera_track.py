@@ -20,7 +20,7 @@ import numpy as np
 import pandas as pd
 
 import carom
-from carom.plots.style import BLUE, VERMILION, new_figure, save_figure, styled
+from carom.plots.style import BLUE, DOUBLE, VERMILION, new_figure, save_figure, styled
 
 RATE, PIXELS_PER_MM, NOISE = 1000.0, 10.0, 0.2
 FRAMES, GRAVITY = 12, 9.80665  # on each side; m/s^2
@@ -108,7 +108,7 @@ def store(folder):
 @styled
 def main(folder="."):
     hits = impacts()
-    tracks = [filmed(hit, seed) for seed, hit in enumerate(hits)]
+    tracks = [filmed(hit, seed) for seed, hit in enumerate(hits, 100)]
     motions = carom.track(tracks, frame_rate=RATE, pixels_per_mm=PIXELS_PER_MM)
     truth = {name: np.array([getattr(hit, name) for hit in hits]) for name in NAMES}
     off = [(motions[n] - truth[n]).values / motions[f"{n}_error"].values for n in NAMES]
@@ -119,7 +119,7 @@ def main(folder="."):
     assert found.friction.low < 0.15 < found.friction.high
     assert found.kappa.low < PAIR.kappa < found.kappa.high
 
-    figure, (path, spins) = new_figure(1, 2)
+    figure, ((path, spins),) = new_figure(1, 2, width=DOUBLE)
     metre = 1e-3 / PIXELS_PER_MM
     path.plot(1e3 * metre * tracks[4]["x"], -1e3 * metre * tracks[4]["y"], "o", color=BLUE)
     path.set(xlabel="$x$ (mm)", ylabel="$y$ (mm)")

@@ -95,6 +95,20 @@ def test_a_spin_before_leaves_one_sign_or_it_is_asked(spin):
 
 
 REFUSED = {
+    r"surface_angle: 1.74533 in row 1 .* between 0 and pi/2, 90 deg": {
+        "surface_angle [deg]": [100.0, 70.0],
+        "rebound_angle": [0.1, 0.2],
+    },
+    "bounce_time: it needs no drop_height": {
+        "bounce_time": [0.0, 0.4, 0.7],
+        "drop_height": [0.2, 0.2, 0.2],
+    },
+    r"spin_out_magnitude: 36 in row 2 .*both signs are possible": {  # -34 at least, by scatter
+        "speed": [1.0, 1.0],
+        "angle": [0.5, 0.0],
+        "spin": [0.0, 80.0],
+        "spin_out_magnitude": [50.0, 36.0],
+    },
     r"spin_out_magnitude: 50 in row 2 cannot be used; both signs are possible": {
         "speed": [1.0, 1.0],
         "angle": [0.5, 0.5],

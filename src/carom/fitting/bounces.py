@@ -113,6 +113,9 @@ def _with_intervals(rows: UserTable) -> UserTable:
     """Return the columns with the intervals between times of bounces; another drop begins anew."""
     if TIME not in rows.columns:
         return rows
+    for other in (INTERVAL, "drop_height", *HEIGHTS.values()):
+        if other in rows.columns:
+            raise InputError(f"{TIME}: it needs no {other}; leave one of them out")
     gone = np.diff(rows[TIME], prepend=np.nan)
     columns = {**rows.columns, INTERVAL: np.where(gone > 0.0, gone, np.nan)}
     if TIME + ERROR in columns:
@@ -193,17 +196,21 @@ def _down_the_rows(rows: UserTable, speeds: Series) -> tuple[UserTable, list[str
     return unfolded.kept(np.isfinite(unfolded[AFTER])), [remark]
 
 
+def _repeated(rows: UserTable, count: int) -> UserTable:
+    places = np.repeat(np.arange(len(rows)), count)
+    cells = {
+        name: column._replace(cells=[column.cells[i] for i in places if not column.fault])
+        for name, column in rows.cells.items()
+    }
+    columns = {name: values[places] for name, values in rows.columns.items()}
+    return replace(rows, cells=cells, columns=columns, rows=rows.rows[places])
+
+
 def _unfolded(rows: UserTable, way: str, series: Series) -> UserTable:
     """Return one row for each bounce: the speed after one is that before the next."""
     speeds, count = np.stack(series.speeds, axis=-1), len(series.speeds) - 1
     before, after = speeds[:, :-1].ravel(), speeds[:, 1:].ravel()
-    places = np.repeat(np.arange(len(rows)), count)
-    whole = replace(
-        rows,
-        cells={n: c._replace(cells=[c.cells[i] for i in places]) for n, c in rows.cells.items()},
-        columns={name: values[places] for name, values in rows.columns.items()},
-        rows=rows.rows[places],
-    )
+    whole = rows if count == 1 else _repeated(rows, count)
     lost = np.isfinite(after) & ~np.isfinite(before)
     if count > 1 and lost.any():
         rows.faults.add(f"{way}: one is missing before a later one in {whole.named(lost)}")
@@ -224,7 +231,7 @@ def _unfolded(rows: UserTable, way: str, series: Series) -> UserTable:
         allowed = "must, apart from scatter, be no larger than the height before"
         result.refuse(way, after > MOST_RESTITUTION * before, allowed)
     elif way != AFTER:
-        cause = "it is longer than the one before; a bounce was missed or another sound counted"
+        cause = "it is longer than the flight before; a bounce was missed or another sound counted"
         result.refuse(way, after > MOST_GROWTH * before, cause)
     there = np.isfinite(before) & (np.isfinite(after) | (count == 1))
     return result.kept(there)

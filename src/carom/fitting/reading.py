@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,6 +38,9 @@ from carom.quantities.units import WHY_POSITIVE
 
 LARGEST = 1e9  # of what has no unit
 NO_LARGER = "must be positive and, apart from scatter, no larger than {}"
+TRACK = "track"  # whose names of tracks say which impact a row is
+NEARLY = 0.1  # of a spin: so far outside of what friction allows it may be by scatter
+ROUNDING = 1e-9  # rad
 START_FRICTION = 0.3  # of bodies of which none is known
 FROM_SURFACE = {"surface_angle": "angle", "surface_angle_out": "rebound_angle"}
 UNSIGNED = {"spin_out_magnitude": "spin_out"}
@@ -53,10 +57,15 @@ def read_rebounds(
     data: Any, columns: Mapping[str, str] | None = None, what: str = "results"
 ) -> UserTable:
     """Return the cells of a table, which may have one column if that is times of bounces."""
-    table = read_table(data, columns, what=what, fewest=1)
-    if len(table.names) > 1 or base(table.names[0]) in (INTERVAL, TIME):
-        return table
-    return read_table(data, columns, what=what)
+    try:
+        return read_table(data, columns, what=what)
+    except InputError:
+        if isinstance(data, str | Path) and Path(data).is_file():
+            with suppress(InputError):
+                table = read_table(data, columns, what=what, fewest=1)
+                if len(table.names) == 1 and base(table.names[0]) in (INTERVAL, TIME):
+                    return table
+        raise
 
 
 def case_of_data(data: Any) -> Mapping[str, Any]:
@@ -94,7 +103,7 @@ def read_measurements(
     """
     names = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more))
     table, later = parted(table, faults)
-    ignored = others(table, names, faults)
+    ignored = tuple(name for name in others(table, names, faults) if name != TRACK)
     gaps = (*OBSERVABLES, *RECORDED, DURATION)
     rows = in_units(table, names, [name for name in gaps if name not in NEVER_MISSING], faults)
     rows, remarks = with_speeds(_from_normal(rows), later)
@@ -108,8 +117,11 @@ def _from_normal(rows: UserTable) -> UserTable:
         angle = FROM_SURFACE[name]
         if angle in columns:
             raise InputError(f"{name}: it gives the same as {angle}; leave one of them out")
-        allowed = f"must lie between 0 and pi, 180 deg; for degrees write '{name} [deg]'"
-        rows.refuse(name, (columns[name] <= 0.0) | (columns[name] >= np.pi), allowed)
+        is_out = angle == "rebound_angle"  # which may turn back
+        most = "pi, 180 deg" if is_out else "pi/2, 90 deg"
+        allowed = f"must lie between 0 and {most}; for degrees write '{name} [deg]'"
+        far = columns[name] >= np.pi if is_out else columns[name] > 0.5 * np.pi + ROUNDING
+        rows.refuse(name, (columns[name] <= 0.0) | far, allowed)
         columns[angle] = 0.5 * np.pi - columns[name]
         if name + ERROR in columns:
             columns[angle + ERROR] = columns[name + ERROR]
@@ -150,7 +162,8 @@ def with_signs(problem: FitProblem) -> tuple[FitProblem, list[str]]:
         ends = spin, spin - turned
         low, high = np.minimum(*ends), np.maximum(*ends)
         up, down = (np.maximum(0.0, np.maximum(low - s, s - high)) for s in (size, -size))
-        unsure = own & (size > 0.0) & (up == down)
+        near = np.maximum(up, down) <= NEARLY * size
+        unsure = own & (size > 0.0) & (near | (up == down))
         rows.refuse(name, unsure, f"both signs are possible there; give {whole} with its sign")
         signs = np.where(up < down, 1.0, -1.0)
         column = np.where(own, signs * size, rows[whole])
@@ -180,7 +193,7 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
             f"data: there is no value in {', '.join(measured)}; '-' means not measured"
             if measured
             else f"data: no measured response among the columns {', '.join(table.names)}; there "
-            f"must be one or more of {', '.join(possible)}, or heights or times of bounces"
+            f"must be one or more of {', '.join(possible)}, or drop_height and rebound_height"
         )
     empty = (f"{name} (no value in it)" for name in measured if name not in responses)
     bodies, knows_friction = _bodies(pair, table.case)
