@@ -1,5 +1,6 @@
 """Measured rebounds as a user gives them to a fit, read and checked."""
 
+import os
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -60,7 +61,7 @@ def read_rebounds(
     try:
         return read_table(data, columns, what=what)
     except InputError:
-        if isinstance(data, str | Path) and Path(data).is_file():
+        if isinstance(data, str | Path) and os.path.isfile(data):
             with suppress(InputError):
                 table = read_table(data, columns, what=what, fewest=1)
                 if len(table.names) == 1 and base(table.names[0]) in (INTERVAL, TIME):
