@@ -57,6 +57,7 @@ COMMANDS = (
     "carom curve --chi 1.44 --points 3",
     "carom sweep sweep.toml",
     "carom fit kharaz2001.csv",
+    "carom track track_deeplabcut.csv --frame-rate 1000 --pixels-per-mm 10",
     "carom materials",
     "carom verify laws --case steel_ball.toml",
     "carom verify tune steel_ball.toml",
@@ -78,7 +79,8 @@ def printed(command: str) -> Any:
     """Return what a command prints with --json, lists and tables cut."""
     measured = carom.datasets.path("kharaz2001")
     with TemporaryDirectory() as folder, chdir(folder), redirect_stdout(StringIO()) as said:
-        for file in (EXAMPLES / "steel_ball.toml", EXAMPLES / "sweep.toml", measured):
+        tracked = EXAMPLES / "data" / "track_deeplabcut.csv"
+        for file in (EXAMPLES / "steel_ball.toml", EXAMPLES / "sweep.toml", measured, tracked):
             Path(file.name).write_bytes(file.read_bytes())
         Path("results.csv").write_text(SCORED, encoding="utf-8")
         with redirect_stderr(StringIO()):

@@ -11,7 +11,8 @@ import carom
 from carom.fitting import plates
 from carom.fitting.model import EXACT, Model, suited
 from carom.fitting.options import read_options
-from carom.fitting.reading import GRAVITY, read_problem
+from carom.fitting.reading import read_problem
+from carom.impacts.validity import GRAVITY
 
 SEED = 20261126
 BALL = carom.Sphere(radius="5 mm", material="bearing steel")

@@ -187,7 +187,7 @@ def commands(of=app, path=""):
 
 
 def test_all_commands_are_found():
-    text = "impact curve fit sweep explore materials verify"
+    text = "impact curve fit track sweep explore materials verify"
     of_verify = "laws lammps liggghts yade pack score tune"
     names = {command.split()[-1] for command in commands()}
     assert names == {*text.split(), *of_verify.split(), "build", "examples"}

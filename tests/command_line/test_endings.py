@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -216,6 +217,8 @@ def test_a_signal_at_any_time_ends_in_one_line(arguments, number, there):
         assert not list(there.rglob("*.partial"))
 
 
+TRACKED = Path(__file__).parents[2] / "examples" / "data" / "track_deeplabcut.csv"
+TRACK = ["track", str(TRACKED), "--frame-rate", "1 kHz", "--pixels-per-mm", "10"]
 PRINTING = {
     "impact": IMPACT,
     "json": [*IMPACT, "--json"],
@@ -224,6 +227,7 @@ PRINTING = {
     "sweep": SWEEP_COMMAND,
     "fit": FIT,
     "template": ["fit", "--template"],
+    "track": TRACK,
     "materials": ["materials"],
     "laws": ["verify", "laws", "--law", "mindlin", "--json"],
     "explore": ["explore", "--no-open", "--port", "0"],

@@ -85,6 +85,11 @@ LAWS = {
 }
 
 
+TRACK = {"frame": range(12), "x": [10.0 * i + 0.1 * (i % 3) for i in range(12)]}
+TRACK |= {"y": [500.0 - 20.0 * abs(i - 5.4) + 0.1 * (i % 2) for i in range(12)]}
+TRACK |= {"mark_x": [x + 30.0 for x in TRACK["x"]], "mark_y": TRACK["y"]}
+
+
 class Calls(dict):
     """Callables with valid arguments by name; a name says what is called, and in which way."""
 
@@ -119,6 +124,10 @@ def bodies_and_losses(calls):
     sticky = {**CARTESIAN, "spin": 3.0, "spin2": 1.0, "work_of_adhesion": 0.1}
     calls.add("adhesive_impact", classical.adhesive_impact, pair=BALLS, **sticky)
     calls.add("critical_obliquity", classical.critical_obliquity, pair=PAIR)
+    scale = {"frame_rate": 1000.0, "pixels_per_mm": 10.0}
+    calls.add("track", lambda **columns: carom.track(columns, **scale), **TRACK)
+    options = {"plate_angle": 0.1, "gravity": 9.8, "y_down": True, "columns": None, **scale}
+    calls.add("track, all", carom.track, source=TRACK, **options)
     calls.add("dataset", carom.datasets.table, name="kharaz2001")
     calls.add("table", read_table, source=RECORDS, columns=None)
 

@@ -19,6 +19,7 @@ LINES = [
     "materials --json",
     "sweep sweep.toml --no-progress",
     "verify score curve.csv --chi 1.44 --tolerance 0.01 --json",
+    "track track.csv --frame-rate '1 kHz' --pixels-per-mm 10 --plate-angle '1 deg' --json",
     "fit measured.csv --case ball.toml --fix restitution=0.98 --vary friction --confidence 0.9",
 ]
 CURVE = "psi_1,psi_2\n0.5,0.04\n1.5,-0.4\n3.5,-1.5\n6,0.2\n"
@@ -30,6 +31,7 @@ def folder(tmp_path, monkeypatch):
     ball = (EXAMPLES / "steel_ball.toml").read_text(encoding="utf-8").partition("[output]")[0]
     sweep = '[sweep.axes]\nangle = ["10 deg", "40 deg"]\n'
     files = {"ball.toml": ball, "sweep.toml": ball + sweep}
+    files["track.csv"] = (EXAMPLES / "data" / "track_sleap.csv").read_text(encoding="utf-8")
     for name, text in (files | {"curve.csv": CURVE, "measured.csv": MEASURED}).items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)

@@ -122,6 +122,48 @@ def measured(rng, pair):
     return table
 
 
+def as_recorded(rng, table):
+    """Return a table with what people record instead: angles from the surface, spins unsigned."""
+    turned = {"angle": "surface_angle", "rebound_angle": "surface_angle_out"}
+    for name in filter(table.__contains__, turned):
+        if rng.random() < 0.2:
+            cells = table.pop(name)
+            table[turned[name]] = [c if c == "-" else 0.5 * np.pi - c for c in cells]
+            if f"{name}_error" in table:
+                table[f"{turned[name]}_error"] = table.pop(f"{name}_error")
+    if "spin_out" in table and rng.random() < 0.2:
+        cells = table.pop("spin_out")
+        table["spin_out_magnitude"] = [c if c == "-" else abs(c) for c in cells]
+        if "spin_out_error" in table:
+            table["spin_out_magnitude_error"] = table.pop("spin_out_error")
+    return table
+
+
+def bounces(rng):
+    """Return a table of bounces, in one of the ways of telling them."""
+    rows, count = int(rng.choice([1, 2, 5, 9])), int(rng.choice([1, 2, 4]))
+    steps = rng.choice([0.3, 0.6, 0.9, 1.0]) * rng.uniform(0.95, 1.05, (rows, count))
+    first = rng.choice([1e-3, 0.5, 2.0, 7.0])
+    speeds = first * np.cumprod(np.concatenate([np.ones((rows, 1)), steps], axis=1), axis=1)
+    heights, times = speeds**2 / 19.6, speeds / 4.9
+    ways = (
+        {f"h{i}": column for i, column in enumerate(heights.T)},
+        {"normal_speed": speeds[:, 0], "rebound_height": heights[:, 1]},
+        {f"bounce_interval{f'_{i + 1}' if i else ''}": c for i, c in enumerate(times.T)},
+        {"bounce_interval": times.ravel()},
+        {"bounce_time": np.cumsum(times)},
+        {"drop_height": heights[:, 0], "normal_restitution": steps[:, 0]},
+        {"drop_height": heights[:, 0], "bounce_interval": times[:, 1]},
+    )
+    table = {name: c.tolist() for name, c in ways[rng.integers(len(ways))].items()}
+    for name in list(table):
+        if rng.random() < 0.1:
+            table[name][rng.integers(len(table[name]))] = str(rng.choice(["-", "0", "-1", "1e9"]))
+        if rng.random() < 0.1:
+            table[f"{name}_error"] = [float(rng.choice([0.0, 1e-3, 1.0]))] * len(table[name])
+    return table
+
+
 def habits(rng, table, before, names):
     """Write gaps, an outlier, and errors of all kinds into a table."""
     rows = len(table[names[0]])
@@ -220,7 +262,7 @@ def attempt(seed, folder, pictures=True):
     """Make up measurements and fit them; return the fit, or the line that refuses them."""
     rng = np.random.default_rng(seed)
     pair = bodies(rng)
-    table = measured(rng, pair)
+    table = bounces(rng) if seed % 6 == 5 else as_recorded(rng, measured(rng, pair))
     other = carom.Pair(pair.first, pair.second, float(rng.choice([0.0, 0.3, pair.friction])))
     inputs = options(rng, pair)
     with warnings.catch_warnings():

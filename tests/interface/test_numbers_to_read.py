@@ -19,7 +19,7 @@ from carom.quantities.prefixes import DIGITS, READ, column, prefixed, shared, sp
 from carom.quantities.texts import read_text
 
 UNITS = sorted({entry.unit for entry in GLOSSARY.values()})
-UNCHANGED = {"1", "rad/s", "kg/m^3", "m^2/N"}
+UNCHANGED = {"1", "rad/s", "kg/m^3", "m^2/N", "m/s^2"}
 WRITTEN = [  # SI value, its unit, how people write it
     *((0.000187666, "m", "187.666 µm"), (0.005, "m", "5 mm")),
     (1.25, "m", "1.25 m"),
@@ -40,6 +40,7 @@ WRITTEN = [  # SI value, its unit, how people write it
     *((3e-12, "m^2", "3 µm^2"), (5e-6, "m^3", "5 cm^3")),
     *((5e-7, "m^3", "500 mm^3"), (4e-17, "m^3", "40 µm^3")),
     *((4e-11, "m^3", "0.04 mm^3"), (1e-13, "m^2/N", "1e-13 m^2/N")),
+    (9.80665, "m/s^2", "9.80665 m/s^2"),
     *((7850.0, "kg/m^3", "7850 kg/m^3"), (-208.4781, "rad/s", "-208.478 rad/s")),
     *((23456.7, "rad/s", "23456.7 rad/s"), (44e3, "Hz", "44 kHz")),
     *((1.441177, "1", "1.44118"), (math.pi / 9.0, "rad", "20 deg (0.349066 rad)")),

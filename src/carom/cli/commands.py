@@ -15,6 +15,7 @@ from carom.cli.materials import materials_command
 from carom.cli.options import Commands, Interrupted
 from carom.cli.programs import lammps_app, liggghts_app
 from carom.cli.sweep import sweep_command
+from carom.cli.track import track_command
 from carom.cli.verify import app as verify_app
 from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant, remark
@@ -34,6 +35,7 @@ app.command("impact")(impact_command)
 app.command("curve")(curve_command)
 app.command("sweep")(sweep_command)
 app.command("fit")(fit_command)
+app.command("track")(track_command)
 app.command("explore")(explore_command)
 app.command("materials")(materials_command)
 app.add_typer(verify_app)

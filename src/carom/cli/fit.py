@@ -81,6 +81,10 @@ def fit_command(
     normal_speed_out, tangential_restitution, tangential_speed_out, rebound_speed, rebound_angle,
     spin_out, contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio and psi_out;
     on a plate also duration, the contact time. A column thickness holds those of many plates.
+    surface_angle and surface_angle_out are angles from the surface, spin_out_magnitude is a spin
+    without sign. Of vertical drops give drop_height or normal_speed, and rebound_height,
+    normal_speed_out or normal_restitution; or times, bounce_interval or bounce_time. Further
+    bounces of a drop are in rebound_height_2, rebound_height_3 and so on.
     Write '-' where nothing was measured. Standard deviations are in columns such as spin_out_error
     and angle_error.
 

@@ -21,11 +21,18 @@ from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.explorer.results import in_words
 from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View
 from carom.fitting import Estimate, Fit, fit
+from carom.fitting.bounces import BOUNCES, base
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
 from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.reading import HEIGHTS, read_measurements, read_problem
-from carom.io.tables import read_table
+from carom.fitting.reading import (
+    FROM_SURFACE,
+    RECORDED,
+    UNSIGNED,
+    read_measurements,
+    read_problem,
+    read_rebounds,
+)
 from carom.io.user_table import Column, entry
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -35,7 +42,9 @@ from carom.quantities.refusals import InputError, refusal
 COLUMN_KINDS = {
     **dict.fromkeys(BEFORE, "before the impact"),
     **dict.fromkeys(OBSERVABLES, "after the impact"),
-    **dict.fromkeys(HEIGHTS, "drop and rebound"),
+    **dict.fromkeys(BOUNCES, "drop and rebound"),
+    **dict.fromkeys((*FROM_SURFACE, *UNSIGNED), "after the impact"),
+    "surface_angle": "before the impact",
     THICKNESS: "the plate",
     DURATION: "after the impact",
 }
@@ -96,13 +105,13 @@ def _decoded(contents: str) -> bytes:
 
 
 def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
-    table = read_table(file, what="file")
+    table = read_rebounds(file, what="file")
     if len(table) > MOST_UPLOADED_ROWS:
         allowed = f"must be at most {MOST_UPLOADED_ROWS} rows; use carom fit for more"
         raise refusal("file", f"{len(table)} rows", allowed)
     if table.case is None and (view is None or view.in_numbers):
         read_measurements(table)  # what no bodies make right is said before they are asked for
-        if not {*table.names} & {*OBSERVABLES, *HEIGHTS}:
+        if not {*table.names} & {*OBSERVABLES, *RECORDED}:
             read_problem(table, View().pair)
         asked = BODIES_ASKED.format(name=name)
         return {"asks": "bodies", "name": name, "message": asked, "columns": taken(table.cells)}
@@ -119,7 +128,7 @@ def taken(columns: Mapping[str, Column], fitted: Fit | None = None) -> list[dict
 
 
 def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
-    quantity = entry(name)
+    quantity = entry(base(name))
     if quantity not in COLUMN_KINDS:
         return {"head": column.head, "kind": "not used", "meaning": "", "unit": ""}
     si, kind, meaning = GLOSSARY[quantity].unit, COLUMN_KINDS[quantity], plain_words(quantity)

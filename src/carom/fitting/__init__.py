@@ -50,10 +50,14 @@ def fit(
         motion after give any of normal_restitution, normal_speed_out, tangential_restitution,
         tangential_speed_out, rebound_speed, rebound_angle, spin_out, contact_restitution,
         contact_beta, contact_rebound_angle, impulse_ratio, psi_out; on a plate also duration, the
-        contact time. For vertical drops give drop_height and rebound_height instead, in a file with
-        their unit, or normal_speed. A column thickness holds those of many plates. Standard
-        deviations are in columns `<name>_error`, also for the motion before; where none are given
-        they come from the scatter. "-" means not measured.
+        contact time. surface_angle and surface_angle_out, from the surface, may replace angle and
+        rebound_angle, and spin_out_magnitude, of which friction gives the sign, spin_out. For
+        vertical drops give drop_height or normal_speed, and rebound_height, normal_speed_out or
+        normal_restitution; later bounces as rebound_height_2, normal_speed_out_2; or times between
+        bounces alone, bounce_interval or bounce_time. Heights in a file need their unit. A column
+        thickness holds those of many plates. Standard deviations are in columns `<name>_error`,
+        also for the motion before; where none are given they come from the scatter. "-" means not
+        measured.
     pair : Pair, optional
         The bodies, by default those in the comment "# case:" of the file.
     vary : names, optional

@@ -36,6 +36,7 @@ class FitProblem:
 
     NaN stands for what was not measured, and for errors that are not known; `doi` is that of the
     publication, if the data tell it. If nobody `knows_friction`, that of the pair is a guess.
+    `remarks` say how columns were read.
     """
 
     pair: Pair
@@ -48,6 +49,7 @@ class FitProblem:
     ignored: tuple[str, ...] = ()
     knows_friction: bool = True
     doi: str = ""
+    remarks: tuple[str, ...] = ()
 
     @property
     def present(self) -> Mask:

@@ -1,14 +1,16 @@
 """Measured rebounds as a user gives them to a fit, read and checked."""
 
+import os
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from carom.bodies.cases import check_case, pair_of
-from carom.bodies.kinematics import Tangential
+from carom.bodies.kinematics import Tangential, inertia
 from carom.bodies.pairs import Pair, alike, checked_pair
 from carom.bodies.shapes import HalfSpace
 from carom.datasets import observables
@@ -16,9 +18,18 @@ from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting import plates
+from carom.fitting.air import about_air
+from carom.fitting.bounces import (
+    BOUNCES,
+    INTERVAL,
+    MOST_RESTITUTION,
+    TIME,
+    base,
+    parted,
+    with_speeds,
+)
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import NO_SPEED, FitProblem, IncomingMotion
-from carom.impacts.validity import GRAVITY
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
@@ -26,13 +37,16 @@ from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError
 from carom.quantities.units import WHY_POSITIVE
 
-MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit
 LARGEST = 1e9  # of what has no unit
 NO_LARGER = "must be positive and, apart from scatter, no larger than {}"
+TRACK = "track"  # whose names of tracks say which impact a row is
+NEARLY = 0.1  # of a spin: so far outside of what friction allows it may be by scatter
+ROUNDING = 1e-9  # rad
 START_FRICTION = 0.3  # of bodies of which none is known
-HEIGHTS = {"drop_height": "normal_speed", "rebound_height": "normal_speed_out"}
-TWICE = ("speed", "angle", "tangential_speed", "contact_angle", "psi_in", "normal_restitution")
-DRAG, AIR = 0.45, 1.2  # drag coefficient of a sphere at Reynolds numbers of 1e3 to 1e5; kg/m^3
+FROM_SURFACE = {"surface_angle": "angle", "surface_angle_out": "rebound_angle"}
+UNSIGNED = {"spin_out_magnitude": "spin_out"}
+NEVER_MISSING = ("surface_angle", "drop_height")
+RECORDED = (*FROM_SURFACE, *UNSIGNED, *BOUNCES)  # what is read as something else
 NO_BODIES = (
     "pair: missing, and the data do not name the bodies; give pair=carom.Pair(...) in Python or "
     "--case FILE in a shell, or write the bodies as JSON into a comment '# case: {...}' of the file"
@@ -40,9 +54,24 @@ NO_BODIES = (
 FAR_OFF = 30.0  # times: a contact time in another unit
 
 
+def read_rebounds(
+    data: Any, columns: Mapping[str, str] | None = None, what: str = "results"
+) -> UserTable:
+    """Return the cells of a table, which may have one column if that is times of bounces."""
+    try:
+        return read_table(data, columns, what=what)
+    except InputError:
+        if isinstance(data, str | Path) and os.path.isfile(data):
+            with suppress(InputError):
+                table = read_table(data, columns, what=what, fewest=1)
+                if len(table.names) == 1 and base(table.names[0]) in (INTERVAL, TIME):
+                    return table
+        raise
+
+
 def case_of_data(data: Any) -> Mapping[str, Any]:
     """Return the case that stands in the data, or raise InputError if there is none."""
-    case = read_table(data, None).case
+    case = read_rebounds(data).case
     if case is None:
         raise InputError(NO_BODIES)
     check_case(case)
@@ -53,27 +82,109 @@ def read_problem(
     data: Any, pair: Pair | None, columns: Mapping[str, str] | None = None
 ) -> FitProblem:
     """Return what was measured, or raise InputError for all that cannot be used."""
-    table = read_table(data, columns)
+    table = read_rebounds(data, columns)
     with Faults() as faults:
         return _problem(table, pair, faults)
 
 
+class Measurements(NamedTuple):
+    """Measurements in SI units, columns that mean nothing here, what is to be said of the rest."""
+
+    rows: UserTable
+    ignored: tuple[str, ...]
+    remarks: list[str]
+
+
 def read_measurements(
     table: UserTable, faults: Faults | None = None, more: Sequence[str] = ()
-) -> tuple[UserTable, tuple[str, ...]]:
-    """Return measurements in SI units, with speeds of drops, and what the table holds besides.
+) -> Measurements:
+    """Return measurements in SI units, with what follows from angles, heights and times.
 
     `more` are names of columns that are read as well.
     """
-    names = with_errors((*BEFORE, *OBSERVABLES, *HEIGHTS, *more))
-    ignored = others(table, names, faults)
-    rows = in_units(table, names, (*OBSERVABLES, "rebound_height", DURATION), faults)
-    return with_speeds(rows), ignored
+    names = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more))
+    table, later = parted(table, faults)
+    ignored = tuple(name for name in others(table, names, faults) if name != TRACK)
+    gaps = (*OBSERVABLES, *RECORDED, DURATION)
+    rows = in_units(table, names, [name for name in gaps if name not in NEVER_MISSING], faults)
+    rows, remarks = with_speeds(_from_normal(rows), later)
+    return Measurements(_with_magnitudes(rows), ignored, remarks)
+
+
+def _from_normal(rows: UserTable) -> UserTable:
+    """Return the columns with angles from the normal in place of those from the surface."""
+    columns = dict(rows.columns)
+    for name in filter(columns.__contains__, FROM_SURFACE):
+        angle = FROM_SURFACE[name]
+        if angle in columns:
+            raise InputError(f"{name}: it gives the same as {angle}; leave one of them out")
+        is_out = angle == "rebound_angle"  # which may turn back
+        most = "pi, 180 deg" if is_out else "pi/2, 90 deg"
+        allowed = f"must lie between 0 and {most}; for degrees write '{name} [deg]'"
+        far = columns[name] >= np.pi if is_out else columns[name] > 0.5 * np.pi + ROUNDING
+        rows.refuse(name, (columns[name] <= 0.0) | far, allowed)
+        columns[angle] = 0.5 * np.pi - columns[name]
+        if name + ERROR in columns:
+            columns[angle + ERROR] = columns[name + ERROR]
+    return replace(rows, columns=columns)
+
+
+def _with_magnitudes(rows: UserTable) -> UserTable:
+    """Return the columns with magnitudes of spins where there is none with a sign."""
+    columns = dict(rows.columns)
+    for name, whole in UNSIGNED.items():
+        for end in ("", ERROR) if name in columns else ():
+            own = columns.get(name + end)
+            if own is None:
+                continue
+            signed = columns.get(whole + end, np.full(len(rows), np.nan))
+            columns[whole + end] = np.where(np.isnan(signed), own, signed)
+            if not end:
+                rows.refuse(name, own < 0.0, f"a magnitude is not negative; call it {whole}")
+                both = np.isfinite(signed) & np.isfinite(own)
+                rows.refuse(name, both, f"{whole} is there, too; leave one of them out")
+    return replace(rows, columns=columns)
+
+
+def with_signs(problem: FitProblem) -> tuple[FitProblem, list[str]]:
+    """Return the problem with signs of spins that have none, and what is to be said of them.
+
+    Friction opposes the slide and does no more than turn it, 0 <= J_t <= 2 m_t V_x, so that the
+    spin afterwards lies between omega and omega - 2 m_t V_x R/I. Adds to the faults the rows in
+    which both signs are possible, or neither is nearer.
+    """
+    remarks, rows, pair = [], problem.rows, problem.pair
+    for name, whole in UNSIGNED.items():
+        if name not in rows.columns or whole not in problem.responses:
+            continue
+        own, ball = np.isfinite(rows[name]), pair.first
+        size, spin = np.where(own, rows[name], 0.0), problem.motion.spin
+        turned = 2.0 * pair.tangential_mass * problem.contact_velocity * ball.radius / inertia(ball)
+        ends = spin, spin - turned
+        low, high = np.minimum(*ends), np.maximum(*ends)
+        up, down = (np.maximum(0.0, np.maximum(low - s, s - high)) for s in (size, -size))
+        near = np.maximum(up, down) <= NEARLY * size
+        unsure = own & (size > 0.0) & (near | (up == down))
+        rows.refuse(name, unsure, f"both signs are possible there; give {whole} with its sign")
+        signs = np.where(up < down, 1.0, -1.0)
+        column = np.where(own, signs * size, rows[whole])
+        place = problem.responses.index(whole)
+        measured = problem.measured.copy()
+        measured[:, place] = column
+        rows = replace(rows, columns={**rows.columns, whole: column})
+        problem = replace(problem, measured=measured, rows=rows)
+        there = own & (size > 0.0)
+        remarks += [
+            f"{name}: {word} in {rows.named(there & which)}, as friction opposes the slide"
+            for word, which in (("negative", signs < 0.0), ("positive", signs > 0.0))
+            if np.any(there & which)
+        ]
+    return problem, remarks
 
 
 def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
     of_plates = _columns_of_plates(pair, table)
-    rows, ignored = read_measurements(table, faults, of_plates)
+    rows, ignored, remarks = read_measurements(table, faults, of_plates)
     possible = (*OBSERVABLES, *of_plates[1:])
     measured = tuple(name for name in possible if name in rows.columns)
     responses = tuple(name for name in measured if np.isfinite(rows[name]).any())
@@ -91,9 +202,10 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
         rows.refuse(THICKNESS, rows[THICKNESS] <= 0.0, "must be positive")
         faults.settle()
         bodies = plates.with_thickness(bodies, float(np.median(rows[THICKNESS])))
-    if "drop_height" in rows.columns and len(bodies.moving) > 1:
+    dropped = [name for name in BOUNCES if name in rows.columns]
+    if dropped and len(bodies.moving) > 1:
         raise InputError(
-            "drop_height: the second body flies off, too, so that the heights of the first do not "
+            f"{dropped[0]}: the second body flies off, too, so that bounces of the first do not "
             "give the speed at which they part; drop the ball on a half-space, or give "
             "normal_speed and normal_speed_out"
         )
@@ -125,6 +237,11 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
         knows_friction=knows_friction,
         doi=table.comments.get("doi", ""),
     )
+    problem, signs = with_signs(problem)
+    faults.settle()
+    remarks += [*signs, *about_air(rows, {*dropped, *table.names}, bodies)]
+    problem = replace(problem, remarks=tuple(remarks))
+    rows = problem.rows
     _check_responses(bodies, rows, problem.motion, problem.contact_velocity)
     return problem
 
@@ -258,39 +375,3 @@ def _check_sense(rows: UserTable, motion: IncomingMotion, velocity: Array) -> No
             f"spin_out: friction would have speeded up the contact point in {rows.named(moving)}; "
             "positive spin adds to its tangential speed, so change the signs of the spins"
         )
-
-
-def with_speeds(rows: UserTable) -> UserTable:
-    """Return the columns with the speeds of drops, V = sqrt(2 g h) and V' = sqrt(2 g h')."""
-    there = [name for name in HEIGHTS if name in rows.columns]
-    if not there:
-        return rows
-    rows.require("drop_height")
-    twice = [name for name in (*TWICE, *HEIGHTS.values()) if name in rows.columns]
-    if twice:
-        raise InputError(f"{there[0]}: it gives the same as {twice[0]}; leave one of them out")
-    columns = dict(rows.columns)
-    for height, speed in HEIGHTS.items():
-        if height in columns:
-            rows.refuse(height, columns[height] <= 0.0, "must be positive")
-            values = np.where(columns[height] > 0.0, columns[height], np.nan)
-            columns[speed] = np.sqrt(2.0 * GRAVITY * values)
-        if height + ERROR in columns:
-            with np.errstate(divide="ignore", invalid="ignore"):
-                columns[speed + ERROR] = GRAVITY * columns[height + ERROR] / columns[speed]
-    columns["tangential_speed"] = np.zeros(len(rows))
-    if "rebound_height" in columns:
-        too_high = columns["normal_speed_out"] > MOST_RESTITUTION * columns["normal_speed"]
-        allowed = "must, apart from scatter, be no larger than drop_height"
-        rows.refuse("rebound_height", too_high, allowed)
-    return replace(rows, columns=columns)
-
-
-def taken_by_air(heights: Mapping[str, Array], radius: float, mass: float) -> float:
-    """Return by which part of itself a restitution from heights is too small, to first order.
-
-    e = sqrt(h'/h) (1 + k (h + h')/4), k = C_d rho pi R^2/m, in air.
-    """
-    k = DRAG * AIR * np.pi * radius**2 / mass
-    whole = heights["drop_height"] + heights["rebound_height"]
-    return float(0.25 * k * np.nanmedian(whole))

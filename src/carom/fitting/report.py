@@ -15,7 +15,6 @@ from carom.fitting.intervals import ProfiledFit
 from carom.fitting.model import Model
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
-from carom.fitting.reading import HEIGHTS, taken_by_air
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 
@@ -86,7 +85,9 @@ class Trial(NamedTuple):
 def _trials(problem: FitProblem) -> Iterator[Trial]:
     """Yield what may have been mistaken in the columns that there are."""
     if _has(problem, ANGLES):
-        yield _changed("angles from the surface", problem, ANGLES, lambda a: pi / 2.0 - a)
+        turned = {"surface_angle", "surface_angle_out"} & {*problem.rows.columns}
+        words = f"angles from the {'normal' if turned else 'surface'}"
+        yield _changed(words, problem, ANGLES, lambda a: pi / 2.0 - a)
         if all(np.nanmax(np.abs(v)) < 0.5 * pi * DEGREE for v in _columns(problem, ANGLES)):
             yield _scaled("angles in radians", problem, ANGLES, 1.0 / DEGREE)
     if _has(problem, SPINS):
@@ -193,7 +194,6 @@ COLUMN = 14
 ONE_INCIDENCE = (
     "one incidence determines friction or kappa, not both; fix one, or measure at other angles"
 )
-THIN = 2e-3  # part of a restitution that air may take unsaid
 ELASTIC_KAPPA = (2.0 / 3.0, 1.0)  # for Poisson's ratios from 1/2 to 0
 
 
@@ -230,7 +230,7 @@ def notes(fit: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> t
     if {"friction", "kappa"} <= set(whole.model.free) and problem.is_one:  # all psi_1 are one
         lines.append(ONE_INCIDENCE)
     lines += [*_about_others(whole, estimates), *_about_bodies(estimates["kappa"])]
-    lines += [*_likely_mistake(whole, estimates), *_about_air(problem)]
+    lines += [*_likely_mistake(whole, estimates), *problem.remarks]
     lines += _about_plate(best, estimates)
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
@@ -260,17 +260,6 @@ def _about_errors(best: Best) -> list[str]:
                 "the accuracy of the curves that are fitted"
             )
     return lines
-
-
-def _about_air(problem: FitProblem) -> list[str]:
-    """Return by how much air falsifies a restitution that comes from heights."""
-    if not set(HEIGHTS) <= set(problem.rows.columns):
-        return []
-    ball = problem.pair.first
-    part = taken_by_air(problem.rows.columns, ball.radius, ball.mass)
-    if part < THIN:
-        return []
-    return [f"air: drag makes the restitution about {100.0 * part:.2g} % of its value too small"]
 
 
 def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> list[str]:

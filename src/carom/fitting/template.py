@@ -8,6 +8,8 @@ TEMPLATE = """\
 #   positive if it adds to the tangential speed of the contact point (backspin). A ball that strikes
 #   without spin leaves with topspin, which is negative.
 # For vertical drops write drop_height [mm] and rebound_height [mm] instead of all these columns.
+# Angles from the surface are surface_angle and surface_angle_out, spins without sign
+#   spin_out_magnitude.
 # For a plate thinner than some six radii add its "thickness" to the "second" body below; then
 #   duration [us], the contact time, may be a column after the impact, too.
 # Standard deviations, if you know them, have columns of their own: spin_out_error [rpm].

@@ -279,7 +279,7 @@ def _check_values(name: str, table: UserTable) -> None:
         if bare and not unit and (table.word == "line" or np.any(np.abs(values) > HIGHEST_DROP)):
             heads = " or ".join(f"'{name} [{each}]'" for each in ("m", "cm", "mm"))
             table.faults.add(f"{name}: no unit, and heights may be in m, cm or mm; write {heads}")
-    if name in GLOSSARY and GLOSSARY[name].unit == "rad":
+    if name in GLOSSARY and GLOSSARY[name].unit == "rad" and not name.startswith("surface"):
         allowed = "must be below pi/2, 90 deg, from the normal"
         if not unit:
             allowed += f"; for degrees write '{name} [deg]' at the head of the column"

@@ -1,0 +1,70 @@
+"""`carom track`: the motion before and after an impact from the positions of a video."""
+
+import json
+
+import typer
+
+import carom
+from carom.cli.cases import check_outputs, named_values, stored
+from carom.cli.options import described, file_argument
+
+OPTIONS = {
+    "data": file_argument(
+        "Tracks, one impact a file: CSV, or an export of Tracker, DeepLabCut or SLEAP."
+    ),
+    "frame_rate": "Frames per second, where the frames are counted, e.g. '1000 Hz'.",
+    "pixels_per_mm": "Scale of positions in pixels.",
+    "pixels_per_diameter": "Diameter of the ball in pixels, as their scale, with --radius.",
+    "radius": "Radius of the ball, e.g. '5 mm' [m].",
+    "plate_angle": "Angle of the plate from the horizontal, counterclockwise in the picture.",
+    "gravity": "Acceleration of gravity [m/s^2], or 'fit' to find it from the paths.",
+    "y_down": typer.Option(
+        "--y-down/--y-up", help="Whether y is counted downwards (default: as the ball flies)."
+    ),
+    "output": "Store the motions as a table for carom fit: .csv or .nc.",
+}
+
+
+@described(OPTIONS)
+def track_command(
+    data: list[str],
+    frame_rate: str | None = None,
+    pixels_per_mm: str | None = None,
+    pixels_per_diameter: str | None = None,
+    radius: str | None = None,
+    plate_angle: str = "0 deg",
+    gravity: str = "9.80665 m/s^2",
+    y_down: bool | None = None,
+    column: list[str] | None = None,
+    output: str | None = None,
+    as_json: bool = False,
+) -> None:
+    """Find speeds and spins before and after an impact from positions in a video.
+
+    Use this command before carom fit if you have tracked the ball in a video. The columns of a
+    track are x and y of the centre, time or frame, and for spins mark_x and mark_y of a mark on the
+    ball, or mark_angle. Parabolas are fitted to the frames before and after the impact; standard
+    errors follow from the scatter of the positions.
+
+    \b
+    Example: carom track ball.csv --frame-rate "1 kHz" --pixels-per-mm 12 --output rebounds.csv
+    An export of Tracker in metres: carom track ball.txt --column "x=x [m]" --column "y=y [m]"
+    Many impacts: carom track 10deg.csv 20deg.csv 30deg.csv --frame-rate 1000 --pixels-per-mm 12
+    """
+    check_outputs({"output": output}, **{f"track {i}": each for i, each in enumerate(data)})
+    motions = carom.track(
+        data,
+        frame_rate=frame_rate,
+        pixels_per_mm=pixels_per_mm,
+        pixels_per_diameter=pixels_per_diameter,
+        radius=radius,
+        plate_angle=plate_angle,
+        gravity=gravity,
+        y_down=y_down,
+        columns=named_values("column", column, "'ball x=x [px]'"),
+    )
+    if output is not None:
+        stored(carom.save(motions, output))
+    from carom.fitting.tracks import as_records, as_text
+
+    typer.echo(json.dumps(as_records(motions), indent=2) if as_json else as_text(motions))

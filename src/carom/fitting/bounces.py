@@ -1,0 +1,238 @@
+"""Bounces of a ball that is dropped: heights, times between them, several in a row."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.impacts.validity import GRAVITY
+from carom.io.user_table import ERROR, UserTable, in_units
+from carom.quantities.arrays import Array
+from carom.quantities.refusals import Faults, InputError
+
+HEIGHTS = {"drop_height": "normal_speed", "rebound_height": "normal_speed_out"}
+INTERVAL, TIME = "bounce_interval", "bounce_time"
+BOUNCES = (*HEIGHTS, INTERVAL, TIME)
+BEFORE, AFTER = HEIGHTS.values()
+AFTERWARDS = ("rebound_height", INTERVAL, AFTER)  # each tells the speed after a bounce
+NUMBERED = re.compile(rf"({'|'.join(AFTERWARDS)})_([2-9]|[1-9]\d)({ERROR})?")
+SHORT = re.compile(rf"h(\d|[1-9]\d)({ERROR})?")  # h0, h1, h2: successive heights
+TWICE = ("speed", "angle", "tangential_speed", "contact_angle", "psi_in")  # besides heights
+MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit
+MOST_GROWTH = 1.1  # of an interval over the one before it: beyond, a bounce was missed
+HIGHEST, LONGEST = 10.0, 3.0  # m and s, beyond which a unit is asked about
+
+
+class Series(NamedTuple):
+    """Speeds after successive bounces, and their errors, of shape (bounces,) of (rows,)."""
+
+    speeds: list[Array]
+    errors: list[Array | None]
+
+
+def base(name: str) -> str:
+    """Return the quantity in a column of a later bounce, as rebound_height in rebound_height_2."""
+    match = NUMBERED.fullmatch(_long(name))
+    return match[1] + (match[3] or "") if match else _long(name)
+
+
+def _long(name: str) -> str:
+    """Return the full name of h0, h1, h2: heights of a drop and of the rebounds that follow."""
+    match = SHORT.fullmatch(name)
+    if not match:
+        return name
+    ends = {"0": "drop_height", "1": "rebound_height"}
+    return ends.get(match[1], f"rebound_height_{match[1]}") + (match[2] or "")
+
+
+def parted(table: UserTable, faults: Faults | None) -> tuple[UserTable, Mapping[str, Array]]:
+    """Return the table without the columns of later bounces, and these in SI units."""
+    short = {name: _long(name) for name in table.names}
+    if {"drop_height", "rebound_height"} <= {*short.values()} - {*table.names}:
+        table = replace(table, cells={short[name]: cells for name, cells in table.cells.items()})
+    later = {}
+    for name in filter(NUMBERED.fullmatch, table.names):
+        first, whole = base(name), name.removesuffix(ERROR)
+        if whole not in table.names:
+            (faults or Faults()).add(f"{name}: its column {whole!r} is missing")
+            continue
+        both = {first.removesuffix(ERROR): table.cells[whole], first: table.cells[name]}
+        try:
+            later[name] = in_units(replace(table, cells=both), (first,), gaps=AFTERWARDS)[first]
+        except InputError as fault:
+            (faults or Faults()).add(str(fault).replace(first, name))
+    kept = {name: cells for name, cells in table.cells.items() if not NUMBERED.fullmatch(name)}
+    return replace(table, cells=kept), later
+
+
+def with_speeds(rows: UserTable, later: Mapping[str, Array]) -> tuple[UserTable, list[str]]:
+    """Return the columns with the normal speeds that bounces tell, and what is to be said of it.
+
+    V = sqrt(2 g h) of heights, V = g T/2 of the time T from one bounce to the next. Of several
+    bounces in a row of the table each has a row of its own.
+    """
+    rows = _with_intervals(rows)
+    there = [name for name in (*BOUNCES, *later) if name in rows.columns or name in later]
+    if not there:
+        return rows, []
+    ways = [name for name in AFTERWARDS if name in rows.columns]
+    _refuse_twice(rows, there, ways)
+    _check_units(rows, later)
+    way = ways[0] if ways else ""
+    series = [name for name in later if not name.endswith(ERROR)]
+    if any(base(name) != way for name in series) or (TIME in rows.columns and series):
+        raise InputError(
+            f"{series[0]}: give {base(series[0])}, too, and no other series of bounces"
+        )
+    speeds = _speeds(rows, way, later)
+    columns, remarks = dict(rows.columns), []
+    first = next((name for name in ("drop_height", BEFORE) if name in columns), "")
+    if way == INTERVAL and not series and not first:
+        return _down_the_rows(rows, speeds)
+    if first:
+        start = _speed(first, columns[first], columns.get(first + ERROR))
+        speeds = Series([start[0], *speeds.speeds], [start[1], *speeds.errors])
+    elif way != INTERVAL:
+        rows.require("drop_height")
+    if series:
+        measured = len(speeds.speeds) - 1
+        remarks.append(
+            f"{way}: up to {measured} bounces in a row of the table, each with its speed"
+        )
+    if len(speeds.speeds) < 2:  # a drop height with another quantity after
+        columns[BEFORE] = speeds.speeds[0]
+        if speeds.errors[0] is not None:
+            columns[BEFORE + ERROR] = speeds.errors[0]
+        return replace(rows, columns=columns | _straight(len(rows))), remarks
+    return _unfolded(rows, way, speeds), remarks
+
+
+def _with_intervals(rows: UserTable) -> UserTable:
+    """Return the columns with the intervals between times of bounces; another drop begins anew."""
+    if TIME not in rows.columns:
+        return rows
+    for other in (INTERVAL, "drop_height", *HEIGHTS.values()):
+        if other in rows.columns:
+            raise InputError(f"{TIME}: it needs no {other}; leave one of them out")
+    gone = np.diff(rows[TIME], prepend=np.nan)
+    columns = {**rows.columns, INTERVAL: np.where(gone > 0.0, gone, np.nan)}
+    if TIME + ERROR in columns:
+        columns[INTERVAL + ERROR] = np.hypot(
+            columns[TIME + ERROR], np.roll(columns[TIME + ERROR], 1)
+        )
+    return replace(rows, columns=columns)
+
+
+def _refuse_twice(rows: UserTable, there: list[str], ways: list[str]) -> None:
+    oblique = [name for name in TWICE if name in rows.columns]
+    before = [name for name in ("drop_height", BEFORE) if name in rows.columns]
+    after = [*ways, *(n for n in ("normal_restitution",) if n in rows.columns and ways)]
+    for same in (([there[0], *oblique] if oblique else []), before, after):
+        if len(same) > 1:
+            words = f"it gives the same as {same[1]}; leave one of them out"
+            raise InputError(f"{same[0]}: {words}")
+
+
+def _check_units(rows: UserTable, later: Mapping[str, Array]) -> None:
+    """Add to the faults heights and times that drops in a laboratory do not have."""
+    checked = replace(rows, columns={**rows.columns, **later})
+    for name in (n for n in checked.columns if base(n) in (*HEIGHTS, INTERVAL)):
+        checked.refuse(name, checked[name] <= 0.0, "must be positive")
+        largest = float(np.max(np.nan_to_num(checked[name]), initial=0.0))
+        bare = name in rows.cells and not str(rows.cells[name].unit)  # asked for already
+        if base(name) in HEIGHTS and largest > HIGHEST and not bare:
+            fast = np.sqrt(2.0 * GRAVITY * largest)
+            rows.faults.add(
+                f"{name}: {largest:.3g} m is {fast:.3g} m/s at the plate; is the unit cm or mm? If "
+                "it is right, give normal_speed and normal_speed_out"
+            )
+        elif base(name) == INTERVAL and largest > LONGEST:
+            height, head = GRAVITY * largest**2 / 8.0, TIME if TIME in rows.columns else name
+            rows.faults.add(
+                f"{head}: {largest:.3g} s is a bounce {height:.3g} m high; is the unit ms, "
+                f"'{head} [ms]'?"
+            )
+
+
+def _speed(name: str, values: Array, error: Array | None) -> tuple[Array, Array | None]:
+    """Return the speed at which a flight begins or ends, and its error."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if name in HEIGHTS:
+            speed = np.sqrt(2.0 * GRAVITY * np.where(values > 0.0, values, np.nan))
+            return speed, None if error is None else GRAVITY * error / speed
+    factor = 0.5 * GRAVITY if name == INTERVAL else 1.0
+    return factor * values, None if error is None else factor * error
+
+
+def _speeds(rows: UserTable, way: str, later: Mapping[str, Array]) -> Series:
+    """Return the speeds after the first bounce of each row, after the second, ..."""
+    if not way:
+        return Series([], [])
+    numbers = sorted(int(name.rpartition("_")[2]) for name in later if not name.endswith(ERROR))
+    if numbers != [*range(2, len(numbers) + 2)]:
+        raise InputError(f"{way}_{numbers[0]}: columns of later bounces are numbered from 2 on")
+    values = {**rows.columns, **later}
+    names = (way, *(f"{way}_{number}" for number in numbers))
+    pairs = [_speed(way, values[name], values.get(name + ERROR)) for name in names]
+    return Series(*map(list, zip(*pairs, strict=True)))
+
+
+def _straight(count: int) -> dict[str, Array]:
+    return {"tangential_speed": np.zeros(count)}
+
+
+def _down_the_rows(rows: UserTable, speeds: Series) -> tuple[UserTable, list[str]]:
+    """Return one row for each bounce whose intervals before and after stand in successive rows."""
+    (speed,), (error,) = speeds
+    two = Series([speed[:-1], speed[1:]], [None if error is None else error[:-1]] * 2)
+    if error is not None:
+        two.errors[1] = error[1:]
+    kept = rows.kept(np.arange(len(rows)) > 0)
+    drops = int((~np.isfinite(speed[1:]) & np.isfinite(speed[:-1])).sum()) + 1
+    way = TIME if TIME in rows.columns else INTERVAL
+    remark = f"{way}: rows are successive bounces" + f" of {drops} drops" * (drops > 1)
+    unfolded = _unfolded(kept, INTERVAL, two)
+    return unfolded.kept(np.isfinite(unfolded[AFTER])), [remark]
+
+
+def _repeated(rows: UserTable, count: int) -> UserTable:
+    places = np.repeat(np.arange(len(rows)), count)
+    cells = {
+        name: column._replace(cells=[column.cells[i] for i in places if not column.fault])
+        for name, column in rows.cells.items()
+    }
+    columns = {name: values[places] for name, values in rows.columns.items()}
+    return replace(rows, cells=cells, columns=columns, rows=rows.rows[places])
+
+
+def _unfolded(rows: UserTable, way: str, series: Series) -> UserTable:
+    """Return one row for each bounce: the speed after one is that before the next."""
+    speeds, count = np.stack(series.speeds, axis=-1), len(series.speeds) - 1
+    before, after = speeds[:, :-1].ravel(), speeds[:, 1:].ravel()
+    whole = rows if count == 1 else _repeated(rows, count)
+    lost = np.isfinite(after) & ~np.isfinite(before)
+    if count > 1 and lost.any():
+        rows.faults.add(f"{way}: one is missing before a later one in {whole.named(lost)}")
+    columns = {**whole.columns, BEFORE: before, AFTER: after, **_straight(len(before))}
+    ends = {BEFORE: series.errors[:-1], AFTER: series.errors[1:]}
+    for name, errors in ends.items():
+        if any(each is not None for each in errors):
+            none = 0.0 if name == BEFORE else np.nan
+            each = [np.full(len(rows), none) if e is None else e for e in errors]
+            columns[name + ERROR] = np.stack(each, axis=-1).ravel()
+    if way == "rebound_height":
+        fallen = {"drop_height": before, way: after} if "drop_height" in columns else {way: after}
+        columns |= {name: speed**2 / (2.0 * GRAVITY) for name, speed in fallen.items()}
+    elif way == INTERVAL:
+        columns[way] = 2.0 * after / GRAVITY
+    result = replace(whole, columns=columns)
+    if way == "rebound_height":
+        allowed = "must, apart from scatter, be no larger than the height before"
+        result.refuse(way, after > MOST_RESTITUTION * before, allowed)
+    elif way != AFTER:
+        cause = "it is longer than the flight before; a bounce was missed or another sound counted"
+        result.refuse(way, after > MOST_GROWTH * before, cause)
+    there = np.isfinite(before) & (np.isfinite(after) | (count == 1))
+    return result.kept(there)

@@ -1,0 +1,286 @@
+"""Tracks of a camera: the motion of a ball before and after an impact, with standard errors.
+
+A parabola is fitted to each side; where the two meet is the impact. A mark gives the spins.
+"""
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.special import fdtrc
+
+from carom.fitting.estimates import significant
+from carom.fitting.parabolas import FEWEST, Motion, at_impact, parabolas, parted
+from carom.fitting.track_files import Frames, read_track
+from carom.impacts.validity import GRAVITY
+from carom.io.labels import labelled_dataset
+from carom.io.user_table import ERROR
+from carom.quantities.arrays import Array
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.keywords import known_keywords
+from carom.quantities.prefixes import text
+from carom.quantities.refusals import InputError, flag, refusal, refuse
+from carom.quantities.units import Value, finite, or_none, positive
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SPEEDS = ("normal_speed", "tangential_speed", "normal_speed_out", "tangential_speed_out")
+SPINS = ("spin", "spin_out")
+SHARP = 1e-4  # probability below which paths are no parabolas
+DOUBTFUL = 0.8 * np.pi  # turn from frame to frame, beyond which the sense of a spin may be wrong
+FITTED = "fit"
+GRAVITIES, RATES, SCALES = (-1e3, 1e3), (1e-3, 1e9), (1e-6, 1e6)  # that are accepted
+AS_GRAVITY, SIGMAS = 0.02, 4.0  # by which a fitted gravity may differ unsaid, both
+
+
+@known_keywords
+def track(
+    source: Any,
+    *,
+    frame_rate: Value | None = None,
+    pixels_per_mm: Value | None = None,
+    pixels_per_diameter: Value | None = None,
+    radius: Value | None = None,
+    plate_angle: Value = 0.0,
+    gravity: Value = GRAVITY,
+    y_down: bool | None = None,
+    columns: Mapping[str, str] | None = None,
+) -> "xr.Dataset":
+    """Return the motion before and after an impact from positions in a video, for `carom.fit`.
+
+    Straight lines in x and parabolas in y are fitted to the frames before and after the impact by
+    least squares, which is where the parabolas meet; velocities and spins hold at that time.
+    Standard errors follow from the residuals, which count as independent and equally large.
+
+    Parameters
+    ----------
+    source : str, mapping, data frame or list of these
+        A file, or columns by name: x and y of the centre, time or frame, and for spins mark_x and
+        mark_y of a mark, or mark_angle, counterclockwise. Exports of Tracker, and of DeepLabCut and
+        SLEAP with points ball and mark, are read as they are. Frames without a position are left
+        out. Of a list each is an impact.
+    frame_rate : float or str, optional
+        Frames per second, where the frames are counted: "1000 Hz".
+    pixels_per_mm, pixels_per_diameter : float, optional
+        Scale of positions in pixels; the latter with the radius of the ball.
+    radius : float or str, optional
+        Radius of the ball.
+    plate_angle : float or str
+        Angle of the plate from the horizontal, counterclockwise in the picture.
+    gravity : float, str or "fit"
+        Acceleration downwards in the picture; "fit" finds it from the paths, 0 makes them straight.
+    y_down : bool, optional
+        Whether y is counted downwards, as in pixels; by default as the ball flies.
+    columns : mapping, optional
+        Names by the heads of columns that have other ones, e.g. {"t (s)": "time"}.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along `track`: normal_speed, tangential_speed, normal_speed_out, tangential_speed_out in m/s
+        and, with a mark, spin and spin_out in rad/s, each with its `_error`. The attribute `tracks`
+        has, as JSON, time and frames of each impact, the scatter of positions, and notes.
+
+    Raises
+    ------
+    InputError
+        If a column, the scale or the frame rate is missing, or there is no impact.
+
+    Examples
+    --------
+    >>> import carom
+    >>> time = [-0.03, -0.02, -0.01, 0.01, 0.02, 0.03]
+    >>> path = {"time": time, "x": [0.5 * t for t in time],
+    ...         "y": [abs(t) - 4.903325 * t * t + 1e-5 * (-1) ** i for i, t in enumerate(time)]}
+    >>> carom.track(path).normal_speed.values.round(3)
+    array([1.])
+    """
+    many = isinstance(source, Sequence) and not isinstance(source, str | bytes)
+    sources = list(source) if many else [source]
+    refuse(not sources and "track: no tracks; give a file or columns by name")
+    steepest = finite("plate_angle", plate_angle)
+    refuse(abs(steepest) >= 0.5 * np.pi and refusal("plate_angle", plate_angle, "below 90 deg"))
+    is_fitted = isinstance(gravity, str) and gravity == FITTED
+    downwards = None if is_fitted else _within("gravity", finite("gravity", gravity), GRAVITIES)
+    down = None if y_down is None else flag("y_down", y_down)
+    scale = _metres_per_pixel(pixels_per_mm, pixels_per_diameter, radius)
+    rate = None
+    if frame_rate is not None:
+        rate = _within("frame_rate", positive("frame_rate", frame_rate), RATES)
+    found = [
+        _measured(read_track(each, columns, rate, scale), steepest, downwards, down)
+        for each in sources
+    ]
+    names = [
+        str(each) if isinstance(each, str | Path) else f"{i}" for i, each in enumerate(sources)
+    ]
+    return _dataset(names, found)
+
+
+def _within(name: str, value: float, ends: tuple[float, float]) -> float:
+    low, high = ends
+    span = f"must lie between {low:g} and {high:g} {GLOSSARY[name].unit}; check its unit"
+    refuse(not low <= value <= high and refusal(name, value, span))
+    return value
+
+
+def _metres_per_pixel(
+    per_mm: Value | None, per_diameter: Value | None, radius: Value | None
+) -> float | None:
+    both = per_mm is not None and per_diameter is not None
+    refuse(both and "pixels_per_mm: it gives the same as pixels_per_diameter; leave one out")
+    if per_mm is not None:
+        return 1e-3 / _within("pixels_per_mm", positive("pixels_per_mm", per_mm), SCALES)
+    if per_diameter is None:
+        return None
+    refuse(radius is None and "radius: missing; pixels_per_diameter needs it, e.g. '5 mm'")
+    pixels = _within("pixels_per_diameter", positive("pixels_per_diameter", per_diameter), SCALES)
+    return 2.0 * positive("radius", radius) / pixels
+
+
+def _measured(
+    frames: Frames, tilt: float, gravity: float | None, down: bool | None
+) -> tuple[dict[str, float], dict[str, Any]]:
+    """Return speeds and spins with their errors, and what else is to be known of a track."""
+    motions = {}
+    for sign in (1.0, -1.0) if down is None else (-1.0 if down else 1.0,):
+        upright = frames._replace(y=sign * frames.y)
+        motion = parted(upright, tilt, gravity)
+        if motion is not None:
+            motions[sign] = motion
+    if not motions:
+        raise InputError(
+            f"track: no impact is seen, with at least {FEWEST} frames before and after, at which "
+            "the ball turns back from the plate; cut the track to one impact, or check plate_angle"
+        )
+    sign = min(motions, key=lambda each: motions[each].squares)
+    motion, upright = motions[sign], frames._replace(y=sign * frames.y)
+    values, errors, instant = at_impact(motion, tilt)
+    _check_instant(frames.time, motion.split, motion.origin + instant)
+    forwards = -1.0 if values[1] < 0.0 else 1.0
+    values[[1, 3]] *= forwards
+    row = {**dict(zip(SPEEDS, values.tolist(), strict=True))}
+    row |= {n + ERROR: e for n, e in zip(SPEEDS, errors.tolist(), strict=True)}
+    spins, notes = _spins(upright, motion.split, sign)
+    row |= {name: forwards * value for name, (value, _) in spins.items()}
+    row |= {name + ERROR: error for name, (_, error) in spins.items()}
+    about = {
+        "time": motion.origin + instant,
+        "frames": [motion.split, len(frames.time) - motion.split],
+        "position_error": float(np.sqrt(motion.squares / motion.freedom)),
+        "notes": [*_doubts(upright, motion, gravity), *notes],
+    }
+    return row, about
+
+
+def _check_instant(time: Array, split: int, instant: float) -> None:
+    """Raise InputError if the paths do not meet between the frames at which they part."""
+    before, after = float(time[split - 1]), float(time[split])
+    room = 0.5 * (after - before)
+    if not before - room <= instant <= after + room:
+        raise InputError(
+            f"track: the paths before and after meet at {instant:.6g} s, but part between "
+            f"{before:.6g} and {after:.6g} s; leave out frames in contact and wrong positions, or "
+            "check gravity, the scale and the frame rate"
+        )
+
+
+def _spins(
+    frames: Frames, split: int, sign: float
+) -> tuple[dict[str, tuple[float, float]], list[str]]:
+    """Return spins with their errors from straight lines through the angles of the mark."""
+    mark = frames.mark
+    if mark.ndim > 1:
+        mark = np.arctan2(sign * mark[:, 1], mark[:, 0])
+    seen = np.isfinite(mark)
+    first = np.arange(len(mark)) < split
+    if min((seen & first).sum(), (seen & ~first).sum()) < FEWEST:
+        few = "in too few frames" if seen.any() else "at all"
+        return {}, [f"spin: no mark is seen {few}; a fit takes the spin before as zero"]
+    lines, squares, freedom, largest, step = [], 0.0, 0, 0.0, 0.0
+    for side in (seen & first, seen & ~first):
+        t, angle = frames.time[side], np.unwrap(mark[side])
+        slope, at = np.polyfit(t - t.mean(), angle, 1)
+        residual = angle - at - slope * (t - t.mean())
+        lines.append((float(slope), float(np.square(t - t.mean()).sum())))
+        squares, freedom = squares + float(np.square(residual).sum()), freedom + len(t) - 2
+        largest = max(largest, float(np.abs(np.diff(angle)).max()))
+        step = max(step, float(np.diff(t).max()))
+    sigma = np.sqrt(squares / freedom)
+    spins = {n: (s, float(sigma / np.sqrt(w))) for n, (s, w) in zip(SPINS, lines, strict=True)}
+    limit = GLOSSARY["spin"].text(np.pi / step, 3)
+    notes = [f"spin: right below {limit}, half a turn of the mark from frame to frame"]
+    if largest > DOUBTFUL:
+        turned = GLOSSARY["angle"].text(largest, 3)
+        notes = [
+            f"spin: the mark turns by {turned} from frame to frame, so that its sense may be "
+            "the other one; take more frames per second"
+        ]
+    return spins, notes
+
+
+def _doubts(frames: Frames, motion: Motion, gravity: float | None) -> list[str]:
+    """Return whether the paths are bent otherwise than by gravity (F test), or gravity is odd."""
+    notes = []
+    bent = parabolas(frames, motion.split, gravity, bent=True)
+    more = motion.freedom - bent.freedom
+    if bent.freedom > 0 and more > 0 and bent.squares > 0.0:
+        ratio = (motion.squares - bent.squares) / more / (bent.squares / bent.freedom)
+        if fdtrc(more, bent.freedom, max(ratio, 0.0)) < SHARP:
+            notes.append(
+                "path: it is bent otherwise than by gravity; check scale, frame rate and gravity, "
+                "or that the track has one impact"
+            )
+    if gravity is None:
+        value, error = float(motion.numbers[8]), float(np.sqrt(motion.covariance[8, 8]))
+        off = abs(value - GRAVITY)
+        said = f"gravity: the paths give {value:.4g} +- {error:.2g} m/s^2"
+        odd = off > SIGMAS * error and off > AS_GRAVITY * GRAVITY
+        notes.append(f"{said}; check the scale and the frame rate" if odd else said)
+    return notes
+
+
+def _dataset(
+    names: list[str], found: list[tuple[dict[str, float], dict[str, Any]]]
+) -> "xr.Dataset":
+    columns = dict.fromkeys(name for row, _ in found for name in row)
+    variables: dict[str, Any] = {}
+    for name in columns:
+        values = np.array([row.get(name, np.nan) for row, _ in found])
+        entry = GLOSSARY[name.removesuffix(ERROR)]
+        words = "standard deviation of the " * name.endswith(ERROR) + entry.meaning
+        variables[name] = ("track", values, {"units": entry.unit, "long_name": words})
+    about = [{"track": name, **details} for name, (_, details) in zip(names, found, strict=True)]
+    attrs = {"title": "motion before and after impacts, from tracks", "tracks": json.dumps(about)}
+    return labelled_dataset(variables, {"track": ("track", names, {"long_name": "track"})}, attrs)
+
+
+def as_records(motions: "xr.Dataset") -> list[dict[str, Any]]:
+    """Return tracks as plain numbers, texts and lists; what was not measured is None."""
+    details = json.loads(motions.attrs["tracks"])
+    values = {str(name): motions[name].values.tolist() for name in motions.data_vars}
+    return [
+        {**about, **{key: or_none(column[i]) for key, column in values.items()}}
+        for i, about in enumerate(details)
+    ]
+
+
+def as_text(motions: "xr.Dataset") -> str:
+    """Return tracks to read: each speed and spin with its standard error."""
+    lines = []
+    for each in as_records(motions):
+        before, after = each["frames"]
+        time, error = text(each["time"], "s"), text(each["position_error"], "m", 2)
+        lines.append(
+            f"{each['track']}: {before} frames before and {after} after the impact at {time}; "
+            f"positions scatter by {error}"
+        )
+        for name in (n for n in (*SPEEDS, *SPINS) if each.get(n) is not None):
+            unit, deviation = GLOSSARY[name].unit, each[name + ERROR]
+            value = text(each[name], unit, significant(each[name], 4.0 * deviation))
+            lines.append(f"  {name:20s} {value} +- {text(deviation, unit, 2)}")
+        lines += [f"  note: {note}" for note in each["notes"]]
+    return "\n".join(lines)

@@ -1,0 +1,196 @@
+"""Tracks of known impacts with pixel noise: the truth, and errors that are those of the noise."""
+
+import json
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from tests.checks import refused
+
+import carom
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLE = runpy.run_path(str(EXAMPLES / "camera_track.py"))
+NAMES, PAIR, filmed = (EXAMPLE[name] for name in ("NAMES", "PAIR", "filmed"))
+HIT = carom.impact(
+    PAIR, speed=1.5, angle="32 deg", spin=-50.0, losses=carom.KelvinVoigt(restitution=0.9)
+)
+SCALE = {"frame_rate": "1 kHz", "pixels_per_mm": 10}
+SETS = 400
+FILES = {  # how each is read
+    "track_deeplabcut.csv": SCALE,
+    "track_sleap.csv": SCALE,
+    "track_tracker.txt": {"columns": {"x": "x [m]", "y": "y [m]"}},
+}
+
+
+def truth(hit, names=NAMES):
+    return np.array([getattr(hit, name) for name in names])
+
+
+def values(motions, end="", names=NAMES):
+    return np.array([motions[name + end].values[0] for name in names])
+
+
+CONDITIONS = {
+    "level": ({}, {}),
+    "tilted plate": ({"tilt": 0.35}, {"plate_angle": 0.35}),
+    "gravity fitted": ({}, {"gravity": "fit"}),
+    "few frames": ({"frames": 6, "noise": 0.5}, {}),
+}
+
+
+@pytest.mark.parametrize(("film", "asked"), CONDITIONS.values(), ids=CONDITIONS)
+def test_errors_are_those_of_the_noise(film, asked):
+    """Over 400 seeds: what is off has the standard deviation that is told, to 10 %, and no bias."""
+    tracks = [filmed(HIT, seed, **film) for seed in range(SETS)]
+    motions = carom.track(tracks, **SCALE, **asked)
+    off = np.array([motions[n].values - getattr(HIT, n) for n in NAMES])
+    told = np.sqrt(np.array([np.mean(motions[f"{n}_error"].values ** 2) for n in NAMES]))
+    np.testing.assert_allclose(off.std(axis=1), told, rtol=0.1)
+    assert np.all(np.abs(off.mean(axis=1)) < 3.5 * told / np.sqrt(SETS))
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_exports_give_the_impact_within_three_errors(name):
+    """The files are those that the example writes: of the fifth of its impacts."""
+    hit = EXAMPLE["impacts"]()[4]
+    motions = carom.track(EXAMPLES / "data" / name, **FILES[name])
+    names = [each for each in NAMES if each in motions]
+    assert len(names) == (4 if "tracker" in name else 6)
+    off = values(motions, names=names) - truth(hit, names)
+    assert np.all(np.abs(off) < 3.0 * values(motions, "_error", names))
+
+
+def test_files_of_the_examples_are_what_their_script_writes(tmp_path):
+    EXAMPLE["store"](tmp_path)
+    for name in FILES:
+        stored = (EXAMPLES / "data" / name).read_text(encoding="utf-8")
+        assert (tmp_path / name).read_text(encoding="utf-8") == stored
+
+
+def table(**film):
+    return pd.DataFrame(filmed(HIT, 1, **film))
+
+
+def mirrored(track):
+    """Return the same impact seen from behind the plane of motion."""
+    return track.assign(x=-track.x, mark_x=-track.mark_x)
+
+
+def in_metres(track):
+    """Return it in units, with y upwards and times of its own."""
+    heads = {"x": "x [mm]", "y": "y [cm]", "mark_x": "mark_x [mm]", "mark_y": "mark_y [mm]"}
+    signed = track.assign(y=-0.1 * track.y, mark_y=-track.mark_y, t=0.5 + track.frame / 1e3)
+    scaled = signed.assign(**{name: 0.1 * signed[name] for name in heads})
+    return scaled.drop(columns="frame").rename(columns={**heads, "t": "t [s]"})
+
+
+def moved(track):
+    """Return it with the later half 60 pixels too low, as of another camera."""
+    return track.assign(y=track.y + 60.0 * (track.frame >= 12))
+
+
+def as_angles(track):
+    """Return it with the angle of the mark, wrapped, in place of its position."""
+    angle = np.degrees(np.arctan2(track.y - track.mark_y, track.mark_x - track.x))
+    return track.drop(columns=["mark_x", "mark_y"]).assign(**{"mark_angle [deg]": angle})
+
+
+WAYS = {
+    "mirrored": (mirrored, SCALE),
+    "in units": (in_metres, {}),
+    "angles of the mark": (as_angles, SCALE),
+    "scale by the ball": (
+        lambda track: track,
+        {"frame_rate": 1000.0, "pixels_per_diameter": 100.0, "radius": "5 mm"},
+    ),
+    "frames with gaps": (
+        lambda track: pd.concat([track, pd.DataFrame({"frame": [40]})], ignore_index=True),
+        SCALE,
+    ),
+    "a direction that is told": (lambda track: track, {**SCALE, "y_down": True}),
+}
+
+
+@pytest.mark.parametrize(("change", "asked"), WAYS.values(), ids=WAYS)
+def test_one_track_in_many_ways_is_one_motion(change, asked):
+    wanted, actual = carom.track(table(), **SCALE), carom.track(change(table()), **asked)
+    for end in ("", "_error"):
+        np.testing.assert_allclose(values(actual, end), values(wanted, end), rtol=1e-8)
+
+
+def test_a_stored_table_goes_into_a_fit(tmp_path):
+    """As .csv and as it is: one fit, in which the errors of the tracks count."""
+    tracks = [filmed(hit, seed) for seed, hit in enumerate(EXAMPLE["impacts"]())]
+    motions = carom.track(tracks, **SCALE)
+    found = carom.fit(motions, pair=PAIR)
+    again = carom.fit(carom.save(motions, tmp_path / "rebounds.csv"), pair=PAIR)
+    assert found.friction.low < PAIR.friction < found.friction.high
+    for name in ("friction", "kappa", "restitution"):
+        assert again[name].value == pytest.approx(found[name].value, rel=1e-6)
+
+
+def notes(track, **asked):
+    (about,) = json.loads(carom.track(track, **(SCALE | asked)).attrs["tracks"])
+    return about["notes"]
+
+
+def test_what_is_odd_is_said():
+    """A wrong frame rate bends the path, or gives a gravity of its own; few frames a turn."""
+    assert not any(note.startswith("path") for note in notes(table()))
+    slow = table(frames=40)
+    assert any("bent otherwise than by gravity" in note for note in notes(slow, frame_rate=500))
+    (said,) = [n for n in notes(slow, frame_rate=500, gravity="fit") if n.startswith("gravity")]
+    assert said.endswith("check the scale and the frame rate")
+    fast = carom.impact(PAIR, speed=1.5, angle="32 deg", spin=2900.0)
+    assert any("its sense may be the other one" in n for n in notes(filmed(fast, 1)))
+    bare = table().drop(columns=["mark_x", "mark_y"])
+    assert "spin: no mark is seen at all; a fit takes the spin before as zero" in notes(bare)
+
+
+BARE = "x,y,frame\n" + "\n".join(f"{i},{abs(i - 5)},{i}" for i in range(11)) + "\n"
+REFUSED = {
+    "time: column missing; give time, or frame": (table().drop(columns="frame"), SCALE),
+    "frame_rate: missing; the track has frames": (table(), {"pixels_per_mm": 10}),
+    "x: column missing; the columns are frame, a.x": (
+        pd.DataFrame({"frame": [1], "a.x": [1], "a.y": [1], "b.x": [1], "b.y": [1]}),
+        SCALE,
+    ),
+    "pixels_per_mm: it gives the same as": (table(), {**SCALE, "pixels_per_diameter": 3}),
+    "radius: missing": (table(), {"pixels_per_diameter": 100, "frame_rate": 1000}),
+    "x: it is in mm; leave the scale of pixels out": (in_metres(table()), SCALE),
+    "track: no impact is seen": (table()[:12], SCALE),
+    "track: the paths before and after meet at": (moved(table()), SCALE),
+    "time: it does not grow": (pd.concat([table(), table()]), SCALE),
+}
+
+
+@pytest.mark.parametrize(("words", "case"), REFUSED.items(), ids=REFUSED)
+def test_what_cannot_be_used_is_refused(words, case):
+    refused(words, carom.track, case[0], **case[1])
+
+
+def test_lengths_of_a_file_without_a_unit_are_asked_for(tmp_path):
+    path = tmp_path / "track.csv"
+    path.write_text(BARE)
+    refused(
+        r"x: no unit; give pixels_per_mm .*--column 'x=x \[m\]'", carom.track, path, frame_rate=9
+    )
+
+
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_decimal_commas_and_columns_of_two_masses(tmp_path, separator):
+    """As Tracker writes them in a German system, the ball and the mark side by side."""
+    track = table()
+    heads = ["#multi:", separator.join(["", "ball", "", "mark", ""]), separator.join("txyxy")]
+    rows = [
+        separator.join(f"{value:.9f}".replace(".", ",") for value in row)
+        for row in track.assign(frame=track.frame / 1e3).to_numpy()
+    ]
+    path = tmp_path / "track.txt"
+    path.write_text("\n".join([*heads, *rows]))
+    actual, wanted = carom.track(path, pixels_per_mm=10), carom.track(track, **SCALE)
+    np.testing.assert_allclose(values(actual), values(wanted), rtol=1e-6)
