@@ -25,8 +25,9 @@ from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.reading import HEIGHTS, read_measurements, read_problem
+from carom.io.rows import Column
 from carom.io.tables import read_table
-from carom.io.user_table import Column, entry
+from carom.io.user_table import entry
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text
