@@ -100,7 +100,9 @@ def matlab():
 
 def numpy_savetxt():
     """NumPy's savetxt: the names of the columns are in a comment."""
-    values = np.array([[a, SPEED, np.nan if s is None else s] for a, s in zip(ANGLES, SPINS)])
+    values = np.array(
+        [[a, SPEED, np.nan if s is None else s] for a, s in zip(ANGLES, SPINS, strict=True)]
+    )
     file = io.StringIO()
     np.savetxt(file, values, delimiter=",", header=f"by camera\n{ENGLISH}")
     return file.getvalue().encode()
@@ -116,7 +118,7 @@ def phyphox():
     """Phyphox's CSV with semicolons and decimal points: all in quotes."""
     head = '"angle (deg)";"speed (m/s)";"spin_out (rpm)"'
     rows = [
-        f'{angle:.9E};{SPEED:.9E};{"NaN" if spin is None else f"{spin:.9E}"}'
+        f"{angle:.9E};{SPEED:.9E};{'NaN' if spin is None else f'{spin:.9E}'}"
         for angle, spin in zip(ANGLES, SPINS, strict=True)
     ]
     return "\n".join([head, *rows]).encode()

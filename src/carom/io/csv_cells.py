@@ -18,6 +18,7 @@ from carom.quantities.refusals import refusal
 QUOTED = re.compile(r'"((?:[^"]|"")*)"[\s,;]*')  # by a spreadsheet, as a comment with commas is
 PERCENT = re.compile(r"%\s*[,;\t]|%\s*$")  # which is a unit
 SEPARATORS = ",;\t"
+NO_CELL = '#%" \t\n\r\v\f\x1c\x1d\x1e\x1f'  # begins a comment, or a line that may be blank
 NAMED_SEPARATOR = re.compile(rf"sep=([{SEPARATORS}])\s*", re.IGNORECASE)  # Excel's first line
 LONGEST_LINE = 1_000_000  # characters
 UTF16 = (b"\xff\xfe", b"\xfe\xff")
@@ -38,6 +39,8 @@ def read_csv(
     with io.TextIOWrapper(file, *how) as text:
         try:
             return read_rows(_CsvFile(what, path, text), fewest, decimal)
+        except csv.Error as error:
+            raise refusal(what, path, f"it is not CSV; {error}") from None
         except UnicodeError:
             raise refusal(what, path, "it is not text; give a CSV file") from None
 
@@ -52,16 +55,13 @@ class _CsvFile(RowSource):
         self.reader: Any = None
 
     def rows(self) -> Iterator[list[str]]:
-        """Yield the cells of each line that has any."""
+        """Return the cells of each line that has any."""
         lines = self._lines()
+        first = list(islice(lines, HEAD_ROWS))
+        self.separator = self.separator or self._likely_separator(first)
         how: dict[str, Any] = {"skipinitialspace": True, "strict": True}
-        try:
-            first = list(islice(lines, HEAD_ROWS))
-            self.separator = self.separator or self._likely_separator(first)
-            self.reader = csv.reader(chain(first, lines), delimiter=self.separator, **how)
-            yield from self.reader
-        except csv.Error as error:
-            raise self.refusal(f"it is not CSV; {error}") from None
+        self.reader = csv.reader(chain(first, lines), delimiter=self.separator, **how)
+        return iter(self.reader)
 
     def commented_head(self) -> list[str]:
         """Return the cells of the last comment before the first row."""
@@ -75,24 +75,30 @@ class _CsvFile(RowSource):
 
     def _lines(self) -> Iterator[str]:
         """Yield the lines that are neither empty nor comments."""
-        read_line = partial(self.text.readline, LONGEST_LINE + 1)
-        preambles = 0
-        for number, line in enumerate(iter(read_line, ""), 1):
-            long = len(line) > LONGEST_LINE and f"a line has more than {LONGEST_LINE} characters"
-            if allowed := "it is not text; give a CSV file" if "\0" in line else long:
-                raise self.refusal(allowed)
-            if not line.isascii():
+        numbered = enumerate(iter(partial(self.text.readline, LONGEST_LINE + 1), ""), 1)
+        for number, line in self._after_preamble(numbered):
+            if len(line) > LONGEST_LINE:
+                raise self.refusal(f"a line has more than {LONGEST_LINE} characters")
+            if "\0" in line:
+                raise self.refusal("it is not text; give a CSV file")
+            if line[0] in NO_CELL or not line.isascii():
                 line = self._decoded(line)
-            text = line.strip()
-            if number == 1 and (separator := NAMED_SEPARATOR.fullmatch(line)):
-                self.separator = separator[1]
-            elif number == 1 and text.startswith(LABVIEW):
-                preambles = LABVIEW_PREAMBLES
-            elif preambles:
-                preambles -= text.startswith(LABVIEW_END)
-            elif text and not (text[0] in '#%"' and self._is_comment(text)):
-                self.numbers.append(number)
-                yield line
+                if self._is_empty(line.strip()):
+                    continue
+            self.numbers.append(number)
+            yield line
+
+    def _after_preamble(self, lines: Iterator[tuple[int, str]]) -> Iterator[tuple[int, str]]:
+        """Return the lines below what Excel or LabVIEW have put first."""
+        number, line = next(lines, (1, "\n"))
+        if separator := NAMED_SEPARATOR.fullmatch(line):
+            self.separator = separator[1]
+        elif line.startswith(LABVIEW):
+            ends = (number for number, line in lines if line.startswith(LABVIEW_END))
+            next(islice(ends, LABVIEW_PREAMBLES - 1, None), None)
+        else:
+            return chain([(number, line)], lines)
+        return lines
 
     def _decoded(self, line: str) -> str:
         """Return a line beyond ASCII as it is in UTF-8 or UTF-16, else in the Western encoding."""
@@ -110,10 +116,10 @@ class _CsvFile(RowSource):
         self.encoding = own
         return line
 
-    def _is_comment(self, text: str) -> bool:
-        """Tell whether a line is a comment, which a spreadsheet may have put into quotes."""
-        if PERCENT.match(text):
-            return False
+    def _is_empty(self, text: str) -> bool:
+        """Tell whether a line is blank or a comment, which may be in quotes of a spreadsheet."""
+        if not text or PERCENT.match(text):
+            return not text
         if text[0] == '"':
             quoted = QUOTED.fullmatch(text)
             text = quoted[1].replace('""', '"').strip() if quoted else ""

@@ -100,6 +100,13 @@ def is_missing(cell: Any) -> bool:
     return cell is None or type(cell).__name__ in MISSING_TYPES
 
 
+def is_nan(cell: Any) -> bool:
+    """Tell whether a cell is the number NaN, or says so: as programs write what they cannot."""
+    if isinstance(cell, str):
+        return cell.strip().lower() == "nan"
+    return isinstance(cell, float | np.floating) and bool(cell != cell)
+
+
 def is_blank(row: Sequence[Any]) -> bool:
     """Tell whether a row has nothing in it."""
     return not any(cell if not isinstance(cell, str) else cell.strip() for cell in map(_shown, row))

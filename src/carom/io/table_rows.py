@@ -29,6 +29,9 @@ COMMENT = re.compile(r"[#%]+\s*([A-Za-z]\w*)\s*:\s*(.*)", re.DOTALL)
 SPREADSHEET_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
 
 
+CSV = "CSV"
+
+
 class RowSource:
     """A file while its rows are read: what it is called, the numbers of its rows, its comments.
 
@@ -36,7 +39,7 @@ class RowSource:
     """
 
     word = "line"
-    kind = "CSV"
+    kind = CSV
 
     def __init__(self, what: str, path: str) -> None:
         self.what, self.path = what, path
@@ -103,7 +106,7 @@ def read_rows(source: RowSource, fewest: int, decimal: str) -> tuple[list[Column
             if stop - head.above > MOST_ROWS:
                 raise source.refusal(f"it has more than {MOST_ROWS} rows")
             for column, cells in zip(columns, zip(*block, strict=True), strict=False):
-                column.add(cells)
+                (column.add_texts if source.kind == CSV else column.add)(cells)
             start = stop
             advance(len(block))
     rows = np.concatenate([np.asarray(each, np.int64) for each in numbers or [array("q")]])

@@ -10,7 +10,7 @@ import numpy as np
 from carom.io.csv_cells import read_csv
 from carom.io.heads import TableFormat, one_unit, renamed, spelled, table_format
 from carom.io.paths import accessing, checked_path, opened
-from carom.io.rows import GAP, Column
+from carom.io.rows import GAP, Column, is_missing
 from carom.io.spreadsheets import STARTS, read_spreadsheet
 from carom.io.table_rows import MOST_COLUMNS
 from carom.io.user_table import UserTable
@@ -126,14 +126,14 @@ def _by_name(what: str, source: Any) -> Any:
     return source
 
 
-def _column(name: str, values: Any) -> Column:
-    """Return a column of a user's, in which what is masked is missing."""
+def _column(name: str, values: Any, *, gaps: bool = False) -> Column:
+    """Return a column of a user's; a gap is what is masked, with `gaps` what is no number, too."""
     plain, unit = without_unit(name, values)
     cells: Any = None
     if isinstance(plain, Sequence) and not isinstance(plain, TEXT_TYPES):
         cells = list(plain)
     elif _depth(plain) == 1:
-        cells = _of_array(name, plain)
+        cells = _of_array(name, plain, gaps)
     if cells is None or (isinstance(cells, list) and any(map(_depth, cells))):
         raise refusal(name, values, "a column must be a list of numbers")
     return Column(name, cells, "" if unit is None else unit)
@@ -145,18 +145,21 @@ def _depth(value: Any) -> int:
     return 1 if isinstance(value, list | tuple) else len(shape) if isinstance(shape, tuple) else 0
 
 
-def _of_array(name: str, values: Any) -> Any:
-    """Return an array of numbers, NaN where it is masked, or a list of whatever else there is."""
+def _of_array(name: str, values: Any, gaps: bool) -> Any:
+    """Return an array of numbers, or a list of whatever else there is; with gaps, a list."""
     real = getattr(getattr(values, "dtype", None), "kind", "") in REAL_KINDS
     array = np.asanyarray(values)
     if real and array.dtype.kind not in REAL_KINDS:  # with pandas' own sign of what is missing
         array = np.asarray(values, dtype=np.float64)
     if array.dtype.kind == "V":  # of records
         return None
-    plain, gone = np.ma.getdata(array), np.ma.getmaskarray(array)
-    if real:
-        return np.where(gone, np.nan, floats(name, plain)) if gone.any() else floats(name, plain)
-    return [GAP if empty else cell for cell, empty in zip(plain, gone.tolist(), strict=True)]
+    cells = floats(name, np.ma.getdata(array)) if real else list(np.ma.getdata(array))
+    gone = np.ma.getmaskarray(array)
+    if gaps:
+        gone = gone | (np.isnan(cells) if real else [is_missing(cell) for cell in cells])
+    if not gone.any():
+        return cells
+    return [GAP if empty else cell for cell, empty in zip(cells, gone.tolist(), strict=True)]
 
 
 def _of_dataset(dataset: Any) -> Iterator[Column]:
@@ -169,7 +172,7 @@ def _of_dataset(dataset: Any) -> Iterator[Column]:
     for key, item in dataset.variables.items():
         name, whole = str(key), item if item.dims else item.set_dims(sizes)
         if sizes and whole.dims == (*sizes,):
-            yield _column(name, whole)
+            yield _column(name, whole, gaps=True)
         else:
             along, rows = (" and ".join(map(str, dims)) for dims in (item.dims, sizes))
             fault = f"it runs along {along}, but the rows along {rows}; select with .sel or .isel"

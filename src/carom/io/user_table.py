@@ -103,11 +103,13 @@ class UserTable(Rows, Printed):
         for name in names:
             if name not in self.columns:
                 there = [spelled(key) for key in self.columns if key not in names]
-                hint = nearest(spelled(name), there) or f"found {', '.join(there) or 'no other'};"
+                near = nearest(spelled(name), there)
+                hint = near or f"found {', '.join(there) or 'no other'};"
                 needed = ", ".join(spelled(key) for key in names)
-                asked = f'; if it is there by another name, add --column "ITS HEAD={name}"'
+                there_as = f'; if it is there by another name, add --column "ITS HEAD={name}"'
+                asked = there_as if self.is_of_file and not near else ""
                 words = f"column missing; {hint} needed are {needed}"
-                raise InputError(f"{spelled(name)}: {words}{asked if self.is_of_file else ''}")
+                raise InputError(f"{spelled(name)}: {words}{asked}")
 
     def require_rows(self, fewest: int) -> None:
         """Raise InputError if there are too few rows."""

@@ -11,6 +11,8 @@ import numpy as np
 from carom.bodies.pairs import Pair
 from carom.dem.base import Law
 from carom.impacts.exact import Impact
+from carom.io.heads import spelled
+from carom.io.rows import is_nan
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, in_units, others
 from carom.quantities.arrays import Array
@@ -130,6 +132,7 @@ def score(
         raise refusal("chi", chi, "it follows from the case; leave it out")
     with Faults() as faults:
         unused = [name for name in others(table, names, faults) if name not in NAMES]
+        _refuse_nan(table, faults)
         quantities = in_units(table, names, (*AFTER, "psi_out"), faults)
         faults.settle()
         quantities, gaps = _measured(quantities)
@@ -139,6 +142,16 @@ def score(
     ignored = (f"columns that were not used: {', '.join(unused)}",) if unused else ()
     notes = *found.notes, *notes, *gaps, *ignored, *law_notes
     return Score(kind, limit, found.points, found.audit, notes, found.inputs, found.forces, origins)
+
+
+def _refuse_nan(table: UserTable, faults: Faults) -> None:
+    """Add to the faults results that are NaN: a program has failed there, which is no gap."""
+    for name in filter(table.names.__contains__, (*AFTER, "psi_out")):
+        column = table.cells[name]
+        failed = np.fromiter(map(is_nan, column.cells), np.bool_, len(column.cells))
+        if failed.any():
+            where = table.cells_named(column.letter, failed)
+            faults.add(f"{spelled(name)}: NaN in {where}; write '-' to leave such rows out")
 
 
 def _measured(quantities: UserTable) -> tuple[UserTable, tuple[str, ...]]:
