@@ -5,7 +5,7 @@ import pytest
 
 import carom
 from carom.fitting.reading import read_problem
-from carom.io import csv_cells
+from carom.io import table_rows
 from carom.io.tables import read_table
 from carom.io.user_table import column_in_si
 
@@ -91,6 +91,6 @@ def test_the_ends_of_blocks_change_nothing(calls, file, rng, mutated, monkeypatc
         lines = [",".join(rng.choices(numbers, k=3)) for _ in range(rng.randrange(1, 9))]
         path = file("a,b,c\n" + "\n".join([*lines[:-1], mutated(lines[-1])]))
         with monkeypatch.context() as small:
-            small.setattr(csv_cells, "BLOCK_ROWS", 2)
+            small.setattr(table_rows, "BLOCK_ROWS", 2)
             dataset = read(path)
         assert read(path) == dataset
