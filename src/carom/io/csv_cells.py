@@ -82,7 +82,7 @@ class _CsvFile(RowSource):
             if "\0" in line:
                 raise self.refusal("it is not text; give a CSV file")
             if line[0] in NO_CELL or not line.isascii():
-                line = self._decoded(line)
+                line = line if line.isascii() else self._decoded(line)
                 if self._is_empty(line.strip()):
                     continue
             self.numbers.append(number)

@@ -23,7 +23,7 @@ from carom.quantities.units import factor_of, two_units
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
-HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*", re.DOTALL)
+HEAD = re.compile(r"\s*(.*?)\s*(?:/?\s*\[(.*)\]|/?\s*\((.*)\))?\s*", re.DOTALL)  # also v / (m/s)
 EXAMPLE = "{'omega': 'spin_out'}"
 
 

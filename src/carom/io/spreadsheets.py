@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import reduce
 from typing import Any
-from zipfile import BadZipFile, ZipFile
+from zipfile import ZipFile
 
 from carom.io.decimals import is_number
 from carom.io.extras import extra
@@ -54,15 +54,15 @@ def read_spreadsheet(
 
 def _check_size(what: str, path: str, content: bytes) -> None:
     """Raise InputError for a sheet with cells too far apart: all between them would take room."""
-    with suppress(BadZipFile, RuntimeError), ZipFile(io.BytesIO(content)) as archive:
-        for name in archive.namelist():
-            if name.startswith(SHEETS):
-                with archive.open(name) as part:
-                    far = DIMENSION.search(part.read(BEGINNING))
-                if far and _place(far[1]) * int(far[2]) > MOST_CELLS:
-                    last = f"{far[1].decode()}{far[2].decode()}"
-                    words = f"a sheet extends to {last}; delete what stands far from the table"
-                    raise refusal(what, path, words)
+    last = ""
+    with suppress(Exception), ZipFile(io.BytesIO(content)) as archive:  # as the reader tells
+        for name in filter(lambda name: name.startswith(SHEETS), archive.namelist()):
+            with archive.open(name) as part:
+                far = DIMENSION.search(part.read(BEGINNING))
+            if far and _place(far[1]) * int(far[2]) > MOST_CELLS:
+                last = f"{far[1].decode()}{far[2].decode()}"
+    words = f"a sheet extends to {last}; delete what stands far from the table"
+    refuse(last and refusal(what, path, words))
 
 
 def _place(letters: bytes) -> int:

@@ -272,6 +272,8 @@ def _whole_name(name: str) -> str:
     Capital letters are taken for small ones in names that are written out, such as Pascal.
     """
     parse, small = _registry().parse_unit_name, name.lower()
+    if small == "grad":
+        raise Unreadable(f"{name!r} may be degrees or gon; write deg or gon", enough=True)
     for each, ends in ((SPELT.get(name, name), ()), (small, (small, small.removesuffix("s")))):
         for prefix, unit, _ in parse(each)[:1]:
             if unit in PINT_NAMES and prefix + unit in (ends or (prefix + unit,)):
