@@ -47,6 +47,7 @@ def read(source):
         TEXT.replace("\n", "\r\n").replace(",", ";").encode("utf-8-sig"),
         TEXT.replace(",", " , ").replace("[", "(").replace("]", ")"),
         *(TEXT.replace("[", "[ ").replace("]", " ]"), "sep=,\n" + TEXT),
+        *(TEXT.replace("[", "/ [").replace("]", "]"), TEXT.replace("[", "/ (").replace("]", ")")),
         *("sep=;\r\n" + TEXT.replace(",", ";"), TEXT.rstrip("\n")),
         '"angle [deg]","spin_out [rpm]"\n"30","-60"\n\n# remark, of no account; none\n45,-120\n',
         "angle,spin_out\n30 deg,-60 rpm\n45 deg,-120 rpm\n",
