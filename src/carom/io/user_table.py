@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.heads import spelled
-from carom.io.rows import Column, Mask, Rows, is_missing
+from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, clipped, heading, nearest
@@ -131,15 +131,19 @@ class UserTable(Rows, Printed):
 
     def about_missing(self) -> tuple[str, ...]:
         """Return a note on the values that are missing in columns that have others, if any."""
-        gaps = {name: where for name, where in self.missing.items() if not where.all()}
-        if not gaps:
-            return ()
-        total = sum(int(where.sum()) for where in gaps.values())
-        listed = "; ".join(
-            f"{spelled(name)} in {self.cells_named(self._letter(name), where)}"
-            for name, where in gaps.items()
-        )
-        return (f"{total} {'values' if total > 1 else 'value'} missing: {listed}",)
+        gaps = {
+            name: int(gone.sum())
+            for name, gone in self.missing.items()
+            if name == entry(name) and not gone.all()
+        }
+        total = sum(gaps.values())
+        listed = ", ".join(self._gaps(name, count) for name, count in gaps.items())
+        return (f"{total} {'values' if total > 1 else 'value'} missing: {listed}",) if total else ()
+
+    def _gaps(self, name: str, count: int) -> str:
+        if count > MOST_NAMED_ROWS:
+            return f"{count} of {spelled(name)}"
+        return f"{spelled(name)} in {self.cells_named(self._letter(name), self.missing[name])}"
 
     def kept(self, where: Mask) -> "UserTable":
         """Return a table of some of the rows."""
