@@ -1,6 +1,7 @@
 """Cells of files: decimal commas, what is missing, sheets, and all faults at once, by cell."""
 
 import io
+import re
 from datetime import datetime
 
 import numpy as np
@@ -12,7 +13,7 @@ import carom
 from carom.io import table_rows
 from carom.io.heads import TableFormat, as_toml, table_format
 from carom.io.tables import read_table
-from carom.io.user_table import column_in_si
+from carom.io.user_table import column_in_si, in_units
 
 
 @pytest.fixture
@@ -113,6 +114,46 @@ def test_all_faults_are_said_at_once_with_the_options_that_mend_them(stored):
     assert 'If so, add --column "theta_r=rebound_angle"' in line
     assert "spin_out: -1,234 in cell D3 and 0.5 in cell D4 have different decimal signs" in line
     assert "speed: no value in cell C3" in line
+
+
+UNITS_SAID = {  # in the head, by --column, and the factor to SI units, 0 where both cannot be true
+    ("1/min", "spin_out [rpm]"): np.pi / 30.0,
+    ("min^-1", "spin_out [rad/s]"): 0.0,
+    ("1/s", "spin_out [rad/s]"): 1.0,
+    ("Hz", "spin_out [rps]"): 2.0 * np.pi,
+    ("Umdr./min", "spin_out [rpm]"): np.pi / 30.0,
+    ("rad/s", "spin_out [rpm]"): 0.0,
+    ("mm", "spin_out [rpm]"): 0.0,
+    ("Grad", "angle [deg]"): np.pi / 180.0,
+    ("deg", "angle [rad]"): 0.0,
+    ("Ohm", "speed [m/s]"): 1.0,
+    ("s", "speed [m/s]"): 0.0,
+}
+
+
+@pytest.mark.parametrize(("own", "said"), UNITS_SAID)
+def test_a_unit_that_cannot_be_read_may_be_said(own, said, stored):
+    """Not one that can be read as another."""
+    file, name = stored(f"x [{own}];b\n0,5;1\n"), said.partition(" ")[0]
+    if not (factor := UNITS_SAID[own, said]):
+        refused("x: it has two units", read_table, file, {"x": said})
+        return
+    table = in_units(read_table(file, {"x": said}), [name])
+    assert table[name] == pytest.approx([0.5 * factor], rel=1e-15)
+
+
+def test_the_option_that_mends_a_column_has_a_unit_where_it_is_needed(stored):
+    text = "Winkel [Grad];v_in;Drehzahl [1/min]\n10;1;-200\n20;1;-300\n30;1;-9\n"
+    line = refused("^3 faults: ", carom.fit, stored(text), pair=PAIR)
+    assert "did you mean 'angle'? It is measured from the normal." in line
+    options = re.findall('add --column "([^"]*)"', line)
+    names = dict(option.rsplit("=", 1) for option in options)
+    assert names == {
+        "Winkel [Grad]": "angle [deg]",
+        "v_in": "speed",
+        "Drehzahl [1/min]": "spin_out [rpm]",
+    }
+    assert carom.fit(stored(text), pair=PAIR, columns=names, fixed={"restitution": 1.0}).friction
 
 
 def sheets(**rows):

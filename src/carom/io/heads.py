@@ -5,10 +5,12 @@ import re
 import tomllib
 from collections.abc import Mapping
 from contextlib import suppress
+from math import isclose, pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from carom.io.files import read_text
+from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import (
     InputError,
     checked_type,
@@ -18,7 +20,7 @@ from carom.quantities.refusals import (
     refusal,
     refuse,
 )
-from carom.quantities.texts import LONGEST_TEXT, UNCHANGED
+from carom.quantities.texts import LONGEST_TEXT, UNCHANGED, is_unit
 from carom.quantities.units import factor_of, two_units
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
@@ -110,7 +112,8 @@ def renamed(heads: list[str], columns: Mapping[str, str], what: str) -> list[tup
         wanted = left.pop(head, None) or left.pop(own, None)
         words = (head if wanted is None else wanted).strip()
         name, new_unit = parts_of(ALIASES.get(words, words))
-        new_unit = new_unit if wanted is None else one_unit(own, unit, new_unit)
+        if wanted is not None and not is_open(ALIASES.get(name, name), unit, new_unit):
+            new_unit = one_unit(own, unit, new_unit)
         new.append((ALIASES.get(name, name), new_unit))
     missing = (
         refusal("columns", name, f"{what} has no column of that name; {_there(name, heads)}")
@@ -128,6 +131,27 @@ def parts_of(head: str) -> tuple[str, str]:
     """Return what stands before and in the brackets of a head."""
     match = HEAD.fullmatch(head) if len(head) <= LONGEST_TEXT else None
     return (match[1], (match[2] or match[3] or "").strip()) if match else (head, "")
+
+
+def is_open(name: str, own: str, said: str = "") -> bool:
+    """Tell whether the unit in a head cannot be read, so that it must be said what it means.
+
+    A frequency in the head of a spin may mean turns or radians, but no other unit than these.
+    """
+    quantity = name.removesuffix("_error")
+    si = GLOSSARY[quantity].unit if quantity in GLOSSARY else ""
+    if not own or not si:
+        return False
+    with suppress(InputError):
+        factor_of(name, own, si)
+        return False
+    if si != "rad/s":
+        return not is_unit(own)
+    with suppress(InputError):
+        radians = factor_of(name, own, "Hz").apply(1.0)
+        spin = factor_of(name, said, si).apply(1.0) if said else radians
+        return any(isclose(spin, each) for each in (radians, 2.0 * pi * radians))
+    return not is_unit(own)
 
 
 def one_unit(name: str, one: Any, other: Any) -> Any:

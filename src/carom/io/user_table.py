@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.heads import spelled
+from carom.io.heads import is_open, spelled
 from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
@@ -31,6 +31,8 @@ HEIGHTS = ("drop_height", "rebound_height")  # which are measured in cm and mm a
 HIGHEST_DROP = 3.0  # m, of a drop that is given without a unit
 LEAST_SIMILARITY = 0.8  # from which a column is taken for a misspelt one
 UNITS_IN_NAMES = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}
+ANGLES = ("angle", "rebound_angle")
+USUAL_UNITS = {"rad": "deg", "rad/s": "rpm"}
 PERCENT = ("%", "percent")
 
 
@@ -235,13 +237,22 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
         if (hint := _likely(name, names)) and (column.fault or not column.missing.all()):
             asked = f"did you mean {hint!r}?"
             if column.letter:
-                meaning = hint.partition(" [")[0] if str(column.unit) else hint
-                asked += f' If so, add --column "{clipped(column.head)}={meaning}"'
+                angle = hint.partition(" [")[0] in ANGLES
+                asked += " It is measured from the normal." if angle else ""
+                asked += f' If so, add --column "{clipped(column.head)}={_meaning(hint, column)}"'
             faults.add(f"{heading(name)}: unknown column; {asked}")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
             faults.add(f"{heading(name)}: its column {entry(name)!r} is missing")
     return unknown
+
+
+def _meaning(hint: str, column: Column) -> str:
+    """Return what a column is to be called, with a unit where that of its head is not enough."""
+    name, unit = hint.partition(" [")[0], str(column.unit)
+    if is_open(name, unit):
+        return f"{name} [{USUAL_UNITS.get(GLOSSARY[entry(name)].unit, 'ITS UNIT')}]"
+    return name if unit else hint
 
 
 def entry(name: str) -> str:
