@@ -198,6 +198,15 @@ def test_cells_of_sheets_keep_their_types(stored):
     assert values_of(sheets(A=texts), stored)[0] == [0.5, 1.25]
 
 
+def test_what_is_a_comment_in_a_sheet_stands_alone(stored):
+    """A label of a row, which begins as a comment does, is none."""
+    rows = [["# by hand"], ['# case: {"friction": 0.3}'], ["ball", *ROWS[0]], ["#1", *ROWS[1]]]
+    table = read_table(stored(sheets(A=[*rows, ["% warm"], [], ["#2", *ROWS[2]]])))
+    assert table.rows.tolist() == [4, 7]
+    assert table.case == {"friction": 0.3}
+    assert read_table(stored("a;b;c\n;\n1;2;3\n")).names == ("a", "b", "c")
+
+
 def test_a_percentage_of_a_sheet_is_not_taken_for_a_ratio_of_one(stored):
     rows = [["normal_speed", "normal_restitution [%]"], [1.0, 0.95], [2.0, 0.93]]
     refused("may show as 95 %; write ratios", carom.fit, stored(sheets(A=rows)), pair=PAIR)

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from carom.quantities.arrays import plain_numbers
-from carom.quantities.refusals import one_of
 from carom.quantities.texts import BLANKS, LONGEST_TEXT, SIGN
 
 POINT, COMMA = ".", ","
@@ -23,11 +22,6 @@ NUMBER = re.compile(
 BARE = re.compile(rf"[{BLANKS}]*{SIGN}(?:[0-9][0-9.,]*|[.,][0-9]+)(?:[eE]{SIGN}[0-9]+)?[{BLANKS}]*")
 GROUPED = re.compile(r"[1-9][0-9]{0,2}[.,][0-9]{3}")  # maybe thousands
 LOOKED_AT = 1000  # plain numbers of a block, to see whether a point must be decimal
-
-
-def checked_decimal(decimal: Any) -> str:
-    """Return the decimal sign that a user says, "" for none, or raise InputError."""
-    return "" if decimal is None else one_of("decimal", decimal, (POINT, COMMA))
 
 
 def is_number(cell: Any) -> bool:

@@ -1,6 +1,6 @@
 """Rows and cells of a table: what they are called, which cells are empty, and what a column is."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -107,10 +107,6 @@ def is_nan(cell: Any) -> bool:
     return isinstance(cell, float | np.floating) and bool(cell != cell)
 
 
-def is_blank(row: Sequence[Any]) -> bool:
-    """Tell whether a row has nothing in it."""
-    return not any(cell if not isinstance(cell, str) else cell.strip() for cell in map(_shown, row))
-
-
-def _shown(cell: Any) -> Any:
-    return cell if isinstance(cell, str) or cell is None else str(cell)
+def is_blank(cell: Any) -> bool:
+    """Tell whether a cell has nothing in it."""
+    return not (cell.strip() if isinstance(cell, str) else cell is not None)

@@ -80,7 +80,11 @@ def _chosen(
         hint = nearest(sheet, sheets) or f"its sheets are {_listed(sheets)}"
         refuse(sheet not in sheets and refusal("sheet", sheet, f"{path} has no such sheet; {hint}"))
         return sheet, []
-    filled = [name for name, rows in sheets.items() if not all(map(is_blank, rows))]
+    filled = [
+        name
+        for name, rows in sheets.items()
+        if any(not is_blank(cell) for row in rows for cell in row)
+    ]
     likely = [name for name in filled if _holds_numbers(sheets[name])] or filled
     if not likely:
         raise refusal(what, path, "it is empty; there must be a header and numbers")
@@ -111,8 +115,9 @@ class _Sheet(RowSource):
     def rows(self) -> Iterator[Sequence[Any]]:
         """Yield the rows that are no comments."""
         for number, row in enumerate(self.cells, 1):
-            first = next((cell for cell in row if not is_blank([cell])), "")
-            if not (isinstance(first, str) and self.is_comment(first)):
+            cells = [cell for cell in row if not is_blank(cell)]
+            is_text = len(cells) == 1 and isinstance(cells[0], str)
+            if not (is_text and self.is_comment(cells[0])):
                 self.numbers.append(number)
                 yield [cell if isinstance(cell, str | float | int) else str(cell) for cell in row]
 

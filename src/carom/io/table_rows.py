@@ -99,8 +99,8 @@ def read_rows(source: RowSource, fewest: int, decimal: str) -> tuple[list[Column
         while block := list(islice(head.rows, BLOCK_ROWS)):
             stop = start + len(block)
             source.check(max(stop, head.taken))
-            width = width or min(len(block[0]), len(columns))
             where, block = _without_blanks(source.numbers[start:stop], block)
+            width = width or min(len(block[0]) if block else 0, len(columns))
             _make_even(source, where, block, width, len(columns))
             numbers.append(where)
             if stop - head.above > MOST_ROWS:
@@ -143,11 +143,11 @@ def _text(cell: Any) -> str:
 
 def _is_title(row: Sequence[Any], below: Sequence[Sequence[Any]]) -> bool:
     """Tell whether a row is blank, or one text above rows of several cells."""
-    cells = [cell for cell in row if not is_blank([cell])]
+    cells = [cell for cell in row if not is_blank(cell)]
     if len(cells) != 1 or is_number(cells[0]):
         return not cells
-    following = next((each for each in below if not is_blank(each)), ())
-    return sum(not is_blank([cell]) for cell in following) > 1
+    following = next((each for each in below if not all(map(is_blank, each))), ())
+    return sum(not is_blank(cell) for cell in following) > 1
 
 
 def _units(heads: list[str], below: Sequence[Sequence[Any]]) -> list[tuple[str, str]]:
@@ -179,7 +179,7 @@ def _without_blanks(
     """Return the rows with something in them, and their numbers."""
     if all(map(itemgetter(0), block)):  # as in most files
         return numbers, block
-    kept = [i for i, row in enumerate(block) if not is_blank(row)]
+    kept = [i for i, row in enumerate(block) if not all(map(is_blank, row))]
     return array("q", [numbers[i] for i in kept]), [block[i] for i in kept]
 
 
@@ -190,7 +190,7 @@ def _make_even(
     if {*map(len, block)} <= {width}:
         return
     for i, row in enumerate(block):
-        if len(row) != width and (len(row) < width or not is_blank(row[width:])):
+        if len(row) != width and (len(row) < width or not all(map(is_blank, row[width:]))):
             message = f"{source.word} {numbers[i]} has {len(row)} values"
             other = f"the header has {names} names"
             if len(row) == names:
