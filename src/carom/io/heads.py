@@ -130,7 +130,9 @@ def _there(name: str, heads: list[str]) -> str:
 def parts_of(head: str) -> tuple[str, str]:
     """Return what stands before and in the brackets of a head."""
     match = HEAD.fullmatch(head) if len(head) <= LONGEST_TEXT else None
-    return (match[1], (match[2] or match[3] or "").strip()) if match else (head, "")
+    if match is None or not match[1]:  # brackets alone are no unit of a name
+        return head, ""
+    return match[1], (match[2] or match[3] or "").strip()
 
 
 def is_open(name: str, own: str, said: str = "") -> bool:

@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import reduce
+from itertools import chain
 from typing import Any
 from zipfile import ZipFile
 
@@ -80,11 +81,7 @@ def _chosen(
         hint = nearest(sheet, sheets) or f"its sheets are {_listed(sheets)}"
         refuse(sheet not in sheets and refusal("sheet", sheet, f"{path} has no such sheet; {hint}"))
         return sheet, []
-    filled = [
-        name
-        for name, rows in sheets.items()
-        if any(not is_blank(cell) for row in rows for cell in row)
-    ]
+    filled = [name for name, rows in sheets.items() if not all(map(is_blank, chain(*rows)))]
     likely = [name for name in filled if _holds_numbers(sheets[name])] or filled
     if not likely:
         raise refusal(what, path, "it is empty; there must be a header and numbers")
