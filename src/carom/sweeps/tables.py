@@ -24,6 +24,7 @@ from carom.sweeps.designs import Box, Design, Grid, LatinHypercube
 from carom.sweeps.inputs import (
     CHOSEN,
     CODE,
+    INPUTS,
     UNREADABLE,
     Choice,
     Choices,
@@ -105,10 +106,11 @@ def _read(table: UserTable) -> tuple[Choices, dict[str, NDArray[Any]]]:
     """Return what the codes of names stand for, and the inputs by name."""
     inputs: dict[str, NDArray[Any]] = {}
     choices: dict[str, tuple[Choice, ...]] = {}
+    unknown = [name for name in table.names if name not in INPUTS] or [""]
     with Faults() as faults:
         for name in table.names:
             try:
-                checked_names([name])
+                checked_names([name], listing=name == unknown[0])
                 _, cells, unit, *_ = table.column(name)
                 if name in CHOSEN:
                     inputs[name], choices[name] = _chosen(name, cells)
