@@ -4,6 +4,8 @@ Rebounds of a steel ball at six angles, of which one spin was not measured, and 
 """
 
 import io
+import json
+from pathlib import Path
 
 import numpy as np
 import openpyxl
@@ -14,6 +16,7 @@ from odf.table import Table, TableCell, TableRow
 from odf.text import P
 
 import carom
+from carom.cli import main
 from carom.io.tables import read_table
 from carom.io.user_table import in_units
 
@@ -22,6 +25,7 @@ SPINS = (-118.25, -210.5, -405.0, None, -471.5, -383.75)  # rpm
 SPEED = 0.6
 WORDS = {"Winkel": "angle", "Drehzahl": "spin_out", "Geschwindigkeit": "speed"}
 NAMES = ("angle", "speed", "spin_out")
+BODY = '\nradius = "5 mm"\nmaterial = "steel"\n'
 GERMAN = "Winkel [°];Geschwindigkeit [m/s];Drehzahl [U/min];Bemerkung"
 ENGLISH = "angle [deg],speed [m/s],spin_out [rpm]"
 
@@ -256,3 +260,38 @@ def test_a_data_frame_is_read_with_what_else_it_holds():
     with_none = frame().astype({"spin_out (rpm)": object}).replace({np.nan: None})
     assert is_the_table(in_units(read_table(with_none), NAMES, ("spin_out",)))
     assert is_the_table(in_units(read_table(frame().convert_dtypes()), NAMES, ("spin_out",)))
+
+
+def test_commands_read_files_in_one_way_and_store_it(tmp_path, capsys, monkeypatch):
+    """Columns, sheet and decimal sign by options, by what they stored, and by a case file."""
+    monkeypatch.chdir(tmp_path)
+    book = openpyxl.Workbook()
+    for name, factor in (("Alt", 2.0), ("Neu", 1.0)):
+        sheet = book.create_sheet(name)
+        sheet.append(["Winkel [°]", "v_in", "Drehzahl [1/min]", "n", "m", "l"])
+        for angle, spin in zip(ANGLES, SPINS, strict=True):
+            sheet.append([angle, factor * SPEED, spin, 0.3, 0.0, 0.5])
+    book.save("lab.xlsx")
+    Path("case.toml").write_text("friction = 0.2\n[first]" + BODY)
+    options = ["--column", "v_in=speed", "--column", "Winkel=angle"]
+    options += ["--column", "Drehzahl [1/min]=spin_out [rpm]"]
+    how = [*options, "--sheet", "Neu", "--save-columns", "map.toml"]
+    fit = ["fit", "--case", "case.toml", "--fix", "restitution=1", "--json"]
+    assert main([*fit, "lab.xlsx", *how]) == 0
+    first = json.loads(capsys.readouterr().out)
+    assert main([*fit, "lab.xlsx", "--columns", "map.toml"]) == 0
+    assert json.loads(capsys.readouterr().out) == first
+    assert main([*fit, "lab.xlsx:Neu", *options]) == 0
+    assert json.loads(capsys.readouterr().out) == first
+    assert main([*fit, "lab.xlsx", *options]) == 2
+    assert "its sheets 'Alt', 'Neu' may be meant" in capsys.readouterr().err
+    columns = 'columns = {"Winkel" = "angle", "v_in" = "speed"}\nsheet = "Alt"\n'
+    table = '[sweep]\ntable = "two.xlsx"\n' + columns
+    for sheet in book:
+        sheet.delete_cols(3, 4)
+    book.save("two.xlsx")
+    Path("sweep.toml").write_text("friction = 0.2\n[first]" + BODY + table, encoding="utf-8")
+    for sheet, speed in ([], 1.2), (["--sheet", "Neu"], 0.6):
+        assert main(["sweep", "sweep.toml", "--json", "--output", "out.nc", *sheet]) == 0
+        with carom.read("out.nc") as stored:
+            assert stored["speed"].values.tolist() == [speed] * len(ANGLES)
