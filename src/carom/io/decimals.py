@@ -65,8 +65,9 @@ class Cells:
                 if not {POINT} & {*self.sure, *self.unsure}:
                     self._look(texts)
         else:
-            self._look(texts)
             whole = "".join(texts)
+            if COMMA not in self.sure or POINT in whole:
+                self._look(texts)
             if COMMA in whole and POINT not in whole and self.decimal != POINT:
                 numbers = plain_numbers([text.replace(COMMA, POINT) for text in texts])
         self._append(list(texts) if numbers is None else numbers)
