@@ -162,9 +162,10 @@ def lost_in_a_cycle(springs, part, depth, steps=200):
     pressed = np.array([1.0, 0.0, 0.0])
     for i in range(steps):
         lattice.step(memory, springs, (i + 1) * rate, pressed, rate, 0.0, 0.0, load)
-    largest = 1.0 - (1.0 - part) ** (2.0 / 3.0)
+    largest, lost = 1.0 - (1.0 - part) ** (2.0 / 3.0), 0.0
     for way in (0.5, -1.0, 1.0, -1.0, 1.0):
-        lost = 0.0 if way < 1.0 else lost
+        if way < 0.0:
+            lost = 0.0
         shear = np.array([0.0, 2.0 * way * depth * largest / steps, 0.0])
         for _ in range(steps):
             before = load[1]

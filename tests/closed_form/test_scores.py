@@ -126,7 +126,7 @@ def test_rows_in_which_nothing_was_measured_are_left_out(tmp_path):
     psi.write_text("psi_1,psi_2\n1,-0.0612\n2,-\n3,-1.4\n4,-1.5\n")
     assert score(psi, chi=1.44).points.rows.tolist() == [2, 4, 5]
     psi.write_text("psi_1,psi_2\n1,-0.0612\n-,-0.5\n3,-1.4\n4,-1.5\n")
-    with pytest.raises(carom.InputError, match=r"^psi_1: not a number in line 3; '-' cannot be"):
+    with pytest.raises(carom.InputError, match=r"^psi_1: no value in cell A3; write it there"):
         score(psi, chi=1.44)
 
 

@@ -93,8 +93,8 @@ def test_files_are_stored(run, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ((), "give a CSV file, or --dataset"),
-        (("data.csv", "--dataset", "kharaz2001"), "give a CSV file, or --dataset"),
+        ((), "give a file, or --dataset"),
+        (("data.csv", "--dataset", "kharaz2001"), "give a file, or --dataset"),
         (
             ("data.csv",),
             "; give pair=carom.Pair(...) in Python or --case FILE in a shell, or write",

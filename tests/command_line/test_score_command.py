@@ -123,18 +123,18 @@ BAD = {
     "psi_1,psi2\n0.1,0.2\n": "psi2: unknown column; did you mean 'psi_2'?",
     "omega,angel\n1,2\n": "no column of omega, angel is known; did you mean 'angle'?",
     "psi_1,psi_2\n1,1\n2,2\n3,3\n": "chi: missing; give a column chi, or --chi",
-    "psi_1,psi_2,chi\n1,1,1\n2,2,-1\n3,3,1\n": "chi: -1 in line 3",
+    "psi_1,psi_2,chi\n1,1,1\n2,2,-1\n3,3,1\n": "chi: -1 in cell C3",
     "psi_1,psi_2,chi\n1,1,1\n2,2,1\n": "too few points: 2",
-    "psi_1,psi_2,chi\n1,1,1\n\n# a\n2,nan,1\n3,,1\n": "psi_2: not a number in lines 5 and 6",
-    "psi_1,psi_2,chi\n1,1,1\n2,one,1\n3,3,1\n": "psi_2: not a number in line 3; 'one'",
+    "psi_1,psi_2,chi\n1,1,1\n\n# a\n2,nan,1\n3,,1\n": "psi_2: NaN in cell B5; write '-'",
+    "psi_1,psi_2,chi\n1,1,1\n2,one,1\n3,3,1\n": "psi_2: not a number in cell B3; 'one'",
     "psi_1 [mm],psi_2,chi\n1,1,1\n": "psi_1: 'mm' cannot be used; it has a unit",
     SPEEDS + "1,0,0,0\n" * 3: "case: missing; give the bodies, --case",
 }
 BAD_WITH_CASE = {
     "normal_speed,tangential_speed,tangential_speed_out,spinout\n": "did you mean 'spin_out'",
-    SPEEDS + "1,1,1,0\n1,0,0,0\n0,1,1,0\n": "normal_speed: 0 in line 4",
+    SPEEDS + "1,1,1,0\n1,0,0,0\n0,1,1,0\n": "normal_speed: 0 in cell A4",
     SPEEDS.replace("\n", ",spin2_out\n") + "1,0,0,0,1\n" * 3: "only a second sphere can spin",
-    FORCES + "0,0,0\n2e-6,10,1\n1e-6,20,2\n3e-6,0,0\n": "time: 1e-06 in line 4 .* it must rise",
+    FORCES + "0,0,0\n2e-6,10,1\n1e-6,20,2\n3e-6,0,0\n": "time: 1e-06 in cell A4 .* it must rise",
     FORCES + "0,0,0\n1e-5,900,0\n2e-5,800,0\n3e-5,0,0\n": "does not start at the first touch",
 }
 
@@ -168,7 +168,7 @@ def test_bad_velocities_and_forces_are_refused(refusal, text):
         (lambda f: f | {"normal_force": -f["normal_force"]}, "change its sign"),
         (
             lambda f: f | {"normal_force": f["normal_force"] * (np.arange(60) != 30)},
-            "normal_force: 0 in line 32 .* the history of one impact",
+            "normal_force: 0 in cell B32 .* the history of one impact",
         ),
     ],
 )

@@ -1,11 +1,12 @@
 """Tables as people have them, mutated: a result, or one line; and no cell read otherwise."""
 
 import numpy as np
+import openpyxl
 import pytest
 
 import carom
 from carom.fitting.reading import read_problem
-from carom.io import csv_cells
+from carom.io import table_rows
 from carom.io.tables import read_table
 from carom.io.user_table import column_in_si
 
@@ -91,6 +92,62 @@ def test_the_ends_of_blocks_change_nothing(calls, file, rng, mutated, monkeypatc
         lines = [",".join(rng.choices(numbers, k=3)) for _ in range(rng.randrange(1, 9))]
         path = file("a,b,c\n" + "\n".join([*lines[:-1], mutated(lines[-1])]))
         with monkeypatch.context() as small:
-            small.setattr(csv_cells, "BLOCK_ROWS", 2)
+            small.setattr(table_rows, "BLOCK_ROWS", 2)
             dataset = read(path)
         assert read(path) == dataset
+
+
+def dialect(rng, rows, commas):
+    """Return a table of texts of numbers as some program may write it, and its encoding."""
+    between = rng.choice(";\t" if commas else ",;\t")
+    wide = between * rng.choice([0, 0, 1, 3])
+    lines = [between.join(row) + wide for row in rows]
+    for _ in range(rng.choice([0, 0, 1, 2])):
+        blank = rng.choice(["", between * (len(rows[0]) - 1) + wide, "# n, 0,5; 1.5", "% done"])
+        lines.insert(rng.randrange(1, len(lines) + 1), blank)
+    lines[:0] = rng.choice([[], [], ["# spun, by hand; 0,5"], ["Versuche vom Montag" + wide]])
+    encoding = rng.choice(["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+    return rng.choice(["\n", "\r\n"]).join([*lines, ""]).encode(encoding)
+
+
+def test_one_table_in_any_dialect_is_one_table_or_asked(calls, tmp_path, rng):
+    """No decimal sign, separator, encoding or blank row changes a number; thousands are asked."""
+    path, asked = tmp_path / "lab.txt", 0
+    count = calls // 8
+    for _ in range(count):
+        digits, most = rng.choice([1, 2, 3, 5]), rng.choice([2000.0, 999.0])
+        values = [[f"{rng.uniform(-most, most):.{digits}f}" for _ in range(2)] for _ in range(4)]
+        commas = rng.random() < 0.6
+        sign = "," if commas else "."
+        rows = [["a [°]", "b"], *([t.replace(".", sign) for t in row] for row in values)]
+        path.write_bytes(dialect(rng, rows, commas))
+        try:
+            table = read_table(path)
+            columns = [table.column(name).cells for name in ("a", "b")]
+        except carom.InputError:
+            asked += 1
+            assert digits == 3
+            table = read_table(path, decimal=sign)
+            columns = [table.column(name).cells for name in ("a", "b")]
+        assert np.array_equal(np.transpose(columns), np.array(values, dtype=float))
+        assert table.cells["a"].unit == "°"
+    assert 0 < asked < count // 3
+
+
+def test_damaged_spreadsheets_are_read_or_refused(calls, tmp_path, rng, answered):
+    """Any bytes changed, lost or put in: a table, or one line."""
+    book, sheet = openpyxl.Workbook(), tmp_path / "lab.xlsx"
+    for row in [["psi_1", "psi_2"], *([psi, -0.1 * psi] for psi in (0.5, 1.0, 2.0, 4.0))]:
+        book.active.append(row)
+    book.save(sheet)
+    stored, path = sheet.read_bytes(), tmp_path / "damaged.xlsx"
+    assert answered(read_table, sheet)
+    for _ in range(calls // 8):
+        content = bytearray(stored)
+        for _ in range(rng.choice([1, 3, 30])):
+            place = rng.randrange(len(content))
+            content[place : place + rng.choice([0, 1, 1, 40])] = rng.randbytes(
+                rng.choice([0, 1, 4])
+            )
+        path.write_bytes(content)
+        answered(read_table, path)

@@ -47,6 +47,7 @@ def read(source):
         TEXT.replace("\n", "\r\n").replace(",", ";").encode("utf-8-sig"),
         TEXT.replace(",", " , ").replace("[", "(").replace("]", ")"),
         *(TEXT.replace("[", "[ ").replace("]", " ]"), "sep=,\n" + TEXT),
+        *(TEXT.replace("[", "/ [").replace("]", "]"), TEXT.replace("[", "/ (").replace("]", ")")),
         *("sep=;\r\n" + TEXT.replace(",", ";"), TEXT.rstrip("\n")),
         '"angle [deg]","spin_out [rpm]"\n"30","-60"\n\n# remark, of no account; none\n45,-120\n',
         "angle,spin_out\n30 deg,-60 rpm\n45 deg,-120 rpm\n",
@@ -76,12 +77,12 @@ def test_errors_have_the_unit_of_their_head():
     np.testing.assert_allclose(dataset["angle_error"], math.pi / 180, rtol=1e-14)
 
 
-def test_gaps_are_told_by_a_dash_alone(stored):
+def test_gaps_are_told_by_a_dash(stored):
     text = "angle [deg],spin_out,tangential_restitution\n10,-,0.7\n20,-500,-\n"
     dataset = read(stored(text))
     np.testing.assert_array_equal(dataset["spin_out"], [np.nan, -500.0])
     np.testing.assert_array_equal(dataset["tangential_restitution"], [0.7, np.nan])
-    refused("angle: not a number in line 3", read, stored(text.replace("20", "-")))
+    refused("angle: no value in cell A3", read, stored(text.replace("20", "-")))
 
 
 def test_comments_are_read_by_key(stored):
@@ -107,8 +108,8 @@ def test_a_labelled_dataset_is_a_table():
     np.testing.assert_allclose(dataset["angle"], np.radians([10.0, 20.0]), rtol=1e-14)
     np.testing.assert_array_equal(dataset["spin_out"], [np.nan, -5.0])
     assert read_table(data).case == {"friction": 0.3}
-    gap = data.assign(angle=("point", [np.nan, 20.0], {"units": "deg"}))
-    refused("angle: not a number in row 1", read, gap)
+    gap = data.assign(angle=("point", [10.0, np.nan], {"units": "deg"}))
+    refused("angle: no value in row 2", read, gap)
 
 
 @pytest.mark.parametrize(
@@ -285,23 +286,23 @@ def test_a_decimal_comma_is_refused_and_not_dropped(name, text, plate):
 
 ROWS = "\n1,1\n1,1\n1,1\n"
 BAD = {
-    "angle,spin_out\n0.1,1\n30,1\n45,1\n": "angle: 30, 45 in lines 3 and 4 .* write 'angle [deg]'",
-    "angle [rad],spin_out\n30,1\n": "angle: 30 in line 2 .* says rad; for .* 'angle [deg]'",
-    "angle [deg],spin_out\n90,1\n": "angle: 1.5708 in line 2 .* below pi/2, 90 deg",
-    "angle [deg],rebound_angle\n9,-7\n": "rebound_angle: -7 in line 2 .* 'rebound_angle [deg]'",
+    "angle,spin_out\n0.1,1\n30,1\n45,1\n": "30, 45 in cells A3 and A4 .* write 'angle [deg]'",
+    "angle [rad],spin_out\n30,1\n": "angle: 30 in cell A2 .* says rad; for .* 'angle [deg]'",
+    "angle [deg],spin_out\n90,1\n": "angle: 1.5708 in cell A2 .* below pi/2, 90 deg",
+    "angle [deg],rebound_angle\n9,-7\n": "rebound_angle: -7 in cell B2 .* 'rebound_angle [deg]'",
     "angle [m],spin_out" + ROWS: "angle: 'm' cannot be used; that is not a value in rad",
     "angle [dog],spin_out" + ROWS: "unit 'dog' is not known",
     "angle,spin_out [Hz]" + ROWS: "a spin is not in Hz",
     "angle,tangential_restitution [kg]"
     + ROWS: "tangential_restitution: 'kg' cannot be used; .* pure number",
     "angle [deg],angle_error" + ROWS: "angle_error: no unit, but angle is in deg; write 'angle_e",
-    "angle,spin_out\n1,1\n1,\n1,nan\n1,1\n": "spin_out: not a number in lines 3 and 4; write '-'",
-    "angle,spin_out\n,1\n1,1\n": "angle: not a number in line 2; correct or delete",
-    "angle,spin_out\n1,1\n1,inf\n": "spin_out: not a number in line 3",
-    "angle,spin_out\n1,fast\n": "spin_out: not a number in line 2; 'fast' cannot",
-    "angle;spin_out\n0,5;1\n": "angle: not a number in line 2; '0,5' cannot .* a decimal point",
+    "speed,angle\n1,1\n1,\n1,nan\n1,1\n": "angle: no value in cells B3 and B4; write it there",
+    "angle,spin_out\n,1\n1,1\n": "angle: no value in cell A2; write it there, or delete the row",
+    "angle,spin_out\n1,1\n1,inf\n": "spin_out: not a number in cell B3",
+    "angle,spin_out\n1,fast\n": "spin_out: not a number in cell B2; 'fast' cannot",
+    "angle;spin_out\n0,5 m;1\n": "angle: not a number in cell A2; '0.5 m' cannot",
     "angle|spin_out\n0.5|1\n": "separated by commas, semicolons or tabs",
-    "angle,angle [deg]" + ROWS: "'angle': two columns have this name",
+    "angle,angle [deg]" + ROWS: "'angle': two columns, A and B, have this name",
     "# case: {\nangle,spin_out" + ROWS: "there is no JSON",
 }
 
@@ -324,7 +325,13 @@ def test_bad_columns_are_refused_in_one_line(stored, text):
         ('psi_1,angle\n"3"0,0.2\n', "not CSV"),  # not 30
         ('psi_1,angle\n"1\n2",3\n', "not CSV; a text in quotes extends over several lines"),
         ("psi_1,psi_1,angle\n1,1,1\n", "'psi_1': two columns"),
-        *((TEXT.encode("utf-16"), "is not text"), (b"a,b\n1,\xff\n", "is not text")),
+        *((TEXT.encode("utf-16")[:-1], "is not text"), (b"a,b\n1,\0\xff\n", "is not text")),
+        (TEXT.encode("utf-16-le"), "is not text"),
+        (b"a,b\n\xc3\xa4,\n\xe4,1\n", "its lines are in two encodings"),
+        *(
+            ("a,b;c\nx,y;z\n", "may be separated by ';' or by ','"),
+            (b"PK\x03\x04", "no spreadsheet"),
+        ),
     ],
 )
 def test_what_is_no_table_is_refused_by_all_who_read_one(stored, content, words):
@@ -334,7 +341,7 @@ def test_what_is_no_table_is_refused_by_all_who_read_one(stored, content, words)
 
 def test_rows_of_a_mapping_are_counted_from_one():
     refused(
-        "angle: not a number in rows 1 and 3",
+        "angle: no value in rows 1 and 3",
         read,
         {"angle": [None, 0.1, math.nan, 0.2], "spin_out": [1, 2, 3, 4]},
     )

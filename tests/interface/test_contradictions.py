@@ -103,7 +103,9 @@ def test_a_score_is_against_one_restitution(pair):
 def test_an_error_of_a_spreadsheet_is_no_comment(tmp_path, pair):
     table = tmp_path / "rows.csv"
     table.write_text("angle [deg],speed,spin_out [rpm]\n#N/A,1,-230\n30,1,-660\n50,1,-680\n")
-    refused("angle: not a number in line 2", carom.fit, table, pair=pair)
+    refused("angle: no value in cell A2", carom.fit, table, pair=pair)
+    table.write_text(table.read_text().replace("#N/A", "#DIV/0!"))
+    refused("angle: not a number in cell A2; '#DIV/0!' cannot", carom.fit, table, pair=pair)
 
 
 def test_names_with_blanks_are_one_name():

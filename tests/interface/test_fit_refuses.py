@@ -100,8 +100,8 @@ def test_too_few_values_are_counted():
 
 def test_lines_of_a_file_are_named(tmp_path):
     path = tmp_path / "rebounds.csv"
-    path.write_text("# mine\nangle [deg],contact_beta\n10,0.1\n20,\n30,0.0\n")
-    refused("contact_beta: not a number in line 4", fit, path, pair=PAIR)
+    path.write_text("# mine\nangle [deg],contact_beta\n10,0.1\n20,few\n30,0.0\n")
+    refused("contact_beta: not a number in cell B4", fit, path, pair=PAIR)
 
 
 @pytest.fixture

@@ -89,7 +89,7 @@ def test_bodies_are_asked_for_where_the_file_does_not_tell_them():
 
 
 WRONG = [
-    ("angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
+    ("angle [deg],contact_beta\nten,half\n", "not a number in cell A2"),
     ("angel [deg],contact_beta\n10,0.5\n", "did you mean"),
     ("colour,size\n1,2\n", "no measured response"),
     ("angle,contact_beta\n10,0.5\n", "for degrees write"),

@@ -66,6 +66,7 @@ REFUSED = [  # text, quantity, part of the message
     ("—2 m/s", "speed", "give a number"),  # em dash
     ("‐2 m/s", "speed", "give a number"),  # hyphen
     ("1 500 mm/s", "speed", "not a unit"),  # 0.5 m/s
+    *((f"30 {unit}", "angle", "write deg or gon") for unit in ("grad", "Grad")),
     ("1'500 mm/s", "speed", "not a unit"),  # 0.5 m/s
     ("5 mm; 3", "radius", "not a unit"),  # 15 mm
     ("5.5.5 mm", "radius", "not a unit"),  # 2.75 mm

@@ -19,7 +19,7 @@ def named_values(option: str, texts: list[str] | None, example: str) -> dict[str
     """Return the values by name of texts like "restitution=0.98", or raise InputError."""
     values: dict[str, str] = {}
     for text in texts or []:
-        name, equals, value = (part.strip() for part in text.partition("="))
+        name, equals, value = (part.strip() for part in text.rpartition("="))
         if not (name and equals and value):
             raise refusal(option, text, f"write a name and a value, e.g. {example}")
         if name in values:

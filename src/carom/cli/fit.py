@@ -10,17 +10,19 @@ import typer
 import carom
 from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
 from carom.cli.options import described, file_argument, file_option, whole_option
+from carom.cli.tables import table_format_of
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import whole
 
 if TYPE_CHECKING:
     from carom.bodies.pairs import Pair
     from carom.fitting import Fit
+    from carom.io.user_table import UserTable
 
 
 OPTIONS = {
     "data": file_argument(
-        "CSV file with one impact per row and units in its head, e.g. 'angle [deg]'."
+        "CSV file or spreadsheet with one impact per row and units in its head, e.g. 'angle [deg]'."
     ),
     "dataset": "Published measurements that come with Carom, e.g. kharaz2001, instead.",
     "case": file_option(
@@ -59,6 +61,10 @@ def fit_command(
     fix: list[str] | None = None,
     confidence: str = "0.95",
     column: list[str] | None = None,
+    columns: str | None = None,
+    sheet: str | None = None,
+    decimal: str | None = None,
+    save_columns: str | None = None,
     squares: bool = False,
     template: bool = False,
     advice: str | None = None,
@@ -85,12 +91,13 @@ def fit_command(
     without sign. Of vertical drops give drop_height or normal_speed, and rebound_height,
     normal_speed_out or normal_restitution; or times, bounce_interval or bounce_time. Further
     bounces of a drop are in rebound_height_2, rebound_height_3 and so on.
-    Write '-' where nothing was measured. Standard deviations are in columns such as spin_out_error
-    and angle_error.
+    Leave a cell blank, or write '-', where nothing was measured. Standard deviations are in columns
+    such as spin_out_error and angle_error.
 
     \b
     Example: carom fit --dataset kharaz2001 --plot kharaz.png
     Your own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
+    A sheet with names of your own: carom fit "lab.xlsx:Run 2" --column "Drehzahl [U/min]=spin_out"
     A plate of unknown thickness: carom fit drops.csv --case ball.toml --thickness "3 mm"
     An empty table: carom fit --template > rebounds.csv
     """
@@ -99,6 +106,7 @@ def fit_command(
         return
     from carom.fitting.advice import MOST_LISTED
     from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
+    from carom.io.tables import read_table
 
     source = _source(data, dataset)
     if about is not None and advice is None:
@@ -107,14 +115,15 @@ def fit_command(
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
     outputs = {"plot": plot, "output": output, "posterior": posterior}
     check_outputs(outputs, data=source, case=case)
+    how = table_format_of(column, columns, sheet, decimal, save_columns)
+    table = read_table(source, **how._asdict())
     fit = carom.fit(
-        source,
-        pair=_pair(case, thickness, source),
+        table,
+        pair=_pair(case, thickness, table),
         vary=None if vary is None else [name.strip() for name in vary.split(",")],
         fixed=named_values("fix", fix, "restitution=0.98"),
         robust=not squares,
         confidence=confidence,
-        columns=named_values("column", column, "omega=spin_out"),
     )
     advised = None if count is None else fit.advice(count, about)
     store(fit, output, plot)
@@ -138,18 +147,18 @@ def _tell_template(source: str | None, as_json: bool) -> None:
 def _source(data: str | None, dataset: str | None) -> str | Path:
     if (data is None) == (dataset is None):
         names = ", ".join(carom.datasets.names())
-        raise InputError(f"data: give a CSV file, or --dataset with one of {names}")
+        raise InputError(f"data: give a file, or --dataset with one of {names}")
     return data if data is not None else carom.datasets.path(str(dataset))
 
 
-def _pair(case: str | None, thickness: str | None, source: str | Path) -> "Pair | None":
+def _pair(case: str | None, thickness: str | None, table: "UserTable") -> "Pair | None":
     """Return the bodies of a case file, or of the data if these get another thickness."""
     from carom.bodies.cases import LOSSES, RATIO, pair_of
     from carom.fitting.reading import START_FRICTION, case_of_data
 
     if case is None and thickness is None:
         return None
-    content = case_of_data(source) if case is None else read_case_file(case, losses=True)
+    content = case_of_data(table) if case is None else read_case_file(case, losses=True)
     if thickness is not None:
         content = {**content, "second": {**content.get("second", {}), "thickness": thickness}}
     hint = "a fit finds the restitution; if you know it, leave it out of the case and give --fix, "

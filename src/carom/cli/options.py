@@ -11,10 +11,22 @@ from carom.quantities.refusals import InputError
 
 Command = TypeVar("Command", bound=Callable[..., None])
 
+
+def file_option(words: str) -> Any:
+    """Return the option of a file that is read; it is a text, as "" is a folder for `Path`."""
+    return typer.Option(help=words, metavar="FILE")
+
+
 COMMON: dict[str, Any] = {
     "as_json": typer.Option("--json", help="Print JSON instead of a table."),
     "column": "The quantity in a column of your table that has another name, e.g. omega=spin, or "
     "'w=spin [rpm]' with its unit. You can repeat this option.",
+    "columns": file_option(
+        "TOML file that says it for many columns, in a table [columns], as --save-columns writes."
+    ),
+    "sheet": "The sheet of a spreadsheet; FILE:SHEET says it, too.",
+    "decimal": "Decimal sign of the numbers in the file, ',' or '.', where they leave it open.",
+    "save_columns": file_option("Store --column, --sheet and --decimal for --columns: .toml."),
     "plot": "Store a figure of the result: .png, .pdf or .svg.",
 }
 
@@ -70,11 +82,6 @@ def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
         return command
 
     return decorate
-
-
-def file_option(words: str) -> Any:
-    """Return the option of a file that is read; it is a text, as "" is a folder for `Path`."""
-    return typer.Option(help=words, metavar="FILE")
 
 
 def file_argument(words: str) -> Any:

@@ -10,16 +10,9 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
-from carom.cli.cases import (
-    check_outputs,
-    named_values,
-    outputs,
-    read_case_file,
-    require_some,
-    stored,
-    tell,
-)
+from carom.cli.cases import check_outputs, outputs, read_case_file, require_some, stored, tell
 from carom.cli.options import described, file_argument, whole_option
+from carom.cli.tables import table_format_of
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
 from carom.quantities.refusals import refusal
@@ -49,6 +42,10 @@ OPTIONS = {
 def sweep_command(
     case: str,
     column: list[str] | None = None,
+    columns: str | None = None,
+    sheet: str | None = None,
+    decimal: str | None = None,
+    save_columns: str | None = None,
     store: str | None = None,
     resume: bool = False,
     quantities: str | None = None,
@@ -77,7 +74,8 @@ def sweep_command(
     content = read_case_file(case, losses=True, swept=True)
     file = _file(content) if output is None else output
     check_outputs({"output": file})
-    design, chosen = plan(content, Path(case), named_values("column", column, "omega=spin"))
+    table = table_format_of(column, columns, sheet, decimal, save_columns, "omega=spin")
+    design, chosen = plan(content, Path(case), table)
     if quantities is not None:
         chosen = [name.strip() for name in quantities.split(",")]
     tell(design._doubts())

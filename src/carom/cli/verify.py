@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
-from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
+from carom.cli.cases import check_outputs, read_case_file, store, stored
 from carom.cli.options import Commands, described, file_argument, file_option, whole_option
+from carom.cli.tables import table_format_of
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
 from carom.quantities.units import finite, positive, whole
@@ -222,7 +223,7 @@ def pack_command(folder: str, as_json: bool = False) -> None:
 
 SCORE_OPTIONS = {
     "results": file_argument(
-        "CSV file with the names of its columns in a head; # starts a comment."
+        "CSV file or spreadsheet with the names of its columns in a head; # starts a comment."
     ),
     "case": file_option(
         "Case file, as for carom impact, with the bodies; to score forces it must have the "
@@ -248,6 +249,10 @@ def score_command(
     restitution: str | None = None,
     tolerance: str = "0.01",
     column: list[str] | None = None,
+    columns: str | None = None,
+    sheet: str | None = None,
+    decimal: str | None = None,
+    save_columns: str | None = None,
     code: str | None = None,
     law: str | None = None,
     plot: str | None = None,
@@ -284,7 +289,7 @@ def score_command(
         chi=chi,
         restitution=restitution,
         tolerance=tolerance,
-        columns=named_values("column", column, "omega=spin_out"),
+        **table_format_of(column, columns, sheet, decimal, save_columns)._asdict(),
         code=code,
         law=law,
     )

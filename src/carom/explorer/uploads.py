@@ -3,6 +3,7 @@
 What is shown of a fit: parameters, laws, charts with residuals, bodies, notes.
 """
 
+import re
 from base64 import b64decode
 from binascii import Error as NotBase64
 from collections.abc import Iterable, Mapping
@@ -33,7 +34,8 @@ from carom.fitting.reading import (
     read_problem,
     read_rebounds,
 )
-from carom.io.user_table import Column, entry
+from carom.io.rows import Column
+from carom.io.user_table import entry
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text
@@ -53,6 +55,7 @@ BODIES_ASKED = (
     "density and their elastic constants."
 )
 PAGE_SUBJECTS = {"data": "file", "results": "file", "pair": "bodies"}  # by those of Python
+OPTION_ASKED = re.compile(r'(?: If so,|; if it is there by another name,) add --column "[^"]*"')
 SHOWN_DIGITS = 6
 NO_NUMBER = "-"
 LEAST_WEIGHT = 1e-3  # of a law; of less it is said that it is below
@@ -90,6 +93,7 @@ def shown_name(name: str) -> str:
 def _in_words_of_the_page(message: str, path: str, name: str) -> str:
     subject, colon, rest = message.replace(path, name).partition(": ")
     rest = rest.replace(", or fix some, e.g. fixed={'restitution': 0.98}", "")
+    rest = OPTION_ASKED.sub("", rest)
     return in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Mapping
 from math import inf
+from pathlib import Path
 from typing import Any
 
 from carom.bodies.pairs import Pair
@@ -12,6 +13,7 @@ from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import RobustLoss
 from carom.fitting.reading import read_problem
 from carom.fitting.result import Fit, assembled
+from carom.io.tables import read_table
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
 from carom.quantities.units import Value
@@ -28,7 +30,9 @@ def fit(
     fixed: Mapping[str, Any] | None = None,
     robust: bool = True,
     confidence: Value = 0.95,
-    columns: Mapping[str, str] | None = None,
+    columns: Mapping[str, str] | str | Path | None = None,
+    sheet: str | None = None,
+    decimal: str | None = None,
 ) -> Fit:
     """Return friction, stiffness and restitution from measured rebounds, or a plate's thickness.
 
@@ -44,20 +48,20 @@ def fit(
     Parameters
     ----------
     data : str, mapping or data frame
-        A CSV file, or columns by name, in SI units or with a unit in the head: "angle [deg]". The
-        motion before is angle and speed; or normal_speed and tangential_speed; or angle,
-        contact_angle or psi_in alone if no speed is needed; spin and spin2 may be added. Of the
-        motion after give any of normal_restitution, normal_speed_out, tangential_restitution,
-        tangential_speed_out, rebound_speed, rebound_angle, spin_out, contact_restitution,
-        contact_beta, contact_rebound_angle, impulse_ratio, psi_out; on a plate also duration, the
-        contact time. surface_angle and surface_angle_out, from the surface, may replace angle and
-        rebound_angle, and spin_out_magnitude, of which friction gives the sign, spin_out. For
-        vertical drops give drop_height or normal_speed, and rebound_height, normal_speed_out or
-        normal_restitution; later bounces as rebound_height_2, normal_speed_out_2; or times between
-        bounces alone, bounce_interval or bounce_time. Heights in a file need their unit. A column
-        thickness holds those of many plates. Standard deviations are in columns `<name>_error`,
-        also for the motion before; where none are given they come from the scatter. "-" means not
-        measured.
+        A file, CSV or a spreadsheet, or columns by name, in SI units or with a unit in the head:
+        "angle [deg]". The motion before is angle and speed; or normal_speed and tangential_speed;
+        or angle, contact_angle or psi_in alone if no speed is needed; spin and spin2 may be added.
+        Of the motion after give any of normal_restitution, normal_speed_out,
+        tangential_restitution, tangential_speed_out, rebound_speed, rebound_angle, spin_out,
+        contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio, psi_out; on a plate
+        also duration, the contact time. surface_angle and surface_angle_out, from the surface, may
+        replace angle and rebound_angle, and spin_out_magnitude, of which friction gives the sign,
+        spin_out. For vertical drops give drop_height or normal_speed, and rebound_height,
+        normal_speed_out or normal_restitution; later bounces as rebound_height_2,
+        normal_speed_out_2; or times between bounces alone, bounce_interval or bounce_time. Heights
+        in a file need their unit. A column thickness holds those of many plates. Standard
+        deviations are in columns `<name>_error`, also for the motion before; where none are given
+        they come from the scatter. A blank cell, "-", NaN, NA or n/a means not measured.
     pair : Pair, optional
         The bodies, by default those in the comment "# case:" of the file.
     vary : names, optional
@@ -74,9 +78,13 @@ def fit(
         r^2; nu is 3, 5, 10 or 30, whichever is likeliest.
     confidence : float or str
         Confidence level of the intervals, e.g. 0.95 or "95 %".
-    columns : mapping, optional
+    columns : mapping or str, optional
         Quantities by the heads of columns that have other names, e.g. {"omega": "spin_out"} or
-        {"w": "spin_out [rpm]"}.
+        {"w": "spin_out [rpm]"}; or a TOML file with them in a table [columns].
+    sheet : str, optional
+        The sheet of a spreadsheet, if several could be meant.
+    decimal : str, optional
+        "," or ".", the decimal sign of a file where numbers such as 1,234 leave it open.
 
     Returns
     -------
@@ -113,7 +121,8 @@ def fit(
     3 mm (2.971 to 3.03)
     """
     level, limited = checked_confidence(confidence), flag("robust", robust)
-    problem = read_problem(data, pair, columns)
+    table = read_table(data, columns, sheet=sheet, decimal=decimal)
+    problem = read_problem(table, pair)
     options = read_options(problem, vary, fixed)
     check_count(problem, options.free)
     turns = OFFSET in options.free or options.start[OFFSET]

@@ -19,7 +19,7 @@ from carom.fitting.least_squares import descend
 from carom.fitting.loss_laws import CONSTANT, ON_PLATE, elastic, laws_of_losses
 from carom.fitting.model import EXACT, OFFSET, FittedLaw, Model
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
-from carom.io.user_table import Mask
+from carom.io.rows import Mask
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import span

@@ -13,7 +13,7 @@ from carom.fitting.least_squares import DIFFERENCE_STEP, Minimum, descend, jacob
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
 from carom.io.extras import extra
-from carom.io.user_table import Mask
+from carom.io.rows import Mask
 from carom.quantities.arrays import Array
 
 WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell

@@ -13,7 +13,7 @@ from carom.fitting.least_squares import descend
 from carom.fitting.model import OFFSET, Model
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import RobustLoss
-from carom.io.user_table import Mask
+from carom.io.rows import Mask
 from carom.quantities.arrays import Array
 
 TRIES = 4  # fits of which the ends are searched for, each better than the one before

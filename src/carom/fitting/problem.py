@@ -11,7 +11,8 @@ from scipy.special import gammaln
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import convert_observables
 from carom.fitting.plates import THICKNESS
-from carom.io.user_table import Mask, UserTable
+from carom.io.rows import Mask
+from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 

@@ -234,6 +234,7 @@ def notes(fit: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> t
     lines += _about_plate(best, estimates)
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
+    lines += [*problem.rows.notes, *problem.rows.about_missing()]
     gaps = np.asarray(~problem.present.any(axis=1))
     if gaps.any():
         lines.append(f"nothing was measured in {problem.rows.named(gaps)}")

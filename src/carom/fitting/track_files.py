@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.io.files import read_text
 from carom.io.tables import read_table
-from carom.io.user_table import EMPTY, GAP, UserTable, column_in_si
+from carom.io.user_table import UserTable, column_in_si
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, heading, refusal, refuse
 
@@ -169,10 +169,8 @@ def _position(table: UserTable, name: str, scale: float | None, *, bare: bool) -
 
 def _column(table: UserTable, name: str, si: str) -> Array:
     """Return a column in SI units, NaN where it has no value."""
-    _, cells, unit, _ = table.column(name)
-    gone = [str(cell).strip().lower() in (GAP, *EMPTY) for cell in cells]
-    plain = [np.nan if empty else cell for cell, empty in zip(cells, gone, strict=True)]
-    values, reason = column_in_si(name, si, unit, plain)
-    bad = ~np.isfinite(values) & ~np.array(gone, dtype=bool)
+    column = table.column(name)
+    values, reason = column_in_si(name, si, column.unit, column.cells)
+    bad = ~np.isfinite(values) & ~column.missing
     refuse(bad.any() and f"{name}: not a number in {table.named(bad)}; {reason or 'correct it'}")
     return values

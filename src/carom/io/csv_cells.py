@@ -1,136 +1,149 @@
-"""The cells of a user's CSV file: read strictly, and within limits that are told."""
+"""The lines of a user's CSV file: its encoding, its separator, its comments, and limits."""
 
 import csv
+import io
 import re
-from array import array
+from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from functools import partial
-from itertools import islice
-from pathlib import Path
+from itertools import chain, islice
 from typing import Any, TextIO
 
-import numpy as np
+from carom.io.decimals import is_number
+from carom.io.rows import Column
+from carom.io.table_rows import HEAD_ROWS, RowSource, read_rows
+from carom.io.user_table import UserTable
+from carom.quantities.refusals import refusal
 
-from carom.io.paths import accessing, opened
-from carom.io.progress import advancing
-from carom.io.user_table import Column, UserTable
-from carom.quantities.arrays import plain_numbers
-from carom.quantities.refusals import InputError, refusal, refuse
-
-COMMENT = re.compile(r"#\s*([A-Za-z]\w*)\s*:\s*(.*)")
-SPREADSHEET_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
+QUOTED = re.compile(r'"((?:[^"]|"")*)"[\s,;]*')  # by a spreadsheet, as a comment with commas is
+PERCENT = re.compile(r"%\s*[,;\t]|%\s*$")  # which is a unit
 SEPARATORS = ",;\t"
+NO_CELL = '#%" \t\n\r\v\f\x1c\x1d\x1e\x1f'  # begins a comment, or a line that may be blank
 NAMED_SEPARATOR = re.compile(rf"sep=([{SEPARATORS}])\s*", re.IGNORECASE)  # Excel's first line
-BLOCK_ROWS = 1 << 16  # rows that are texts at a time, before their numbers are
-MOST_COLUMNS = 1000
-MOST_ROWS = 10_000_000
 LONGEST_LINE = 1_000_000  # characters
+UTF16 = (b"\xff\xfe", b"\xfe\xff")
+WESTERN = "cp1252"  # of Windows; Latin-1, with letters where that has none
+LABVIEW, LABVIEW_END = "LabVIEW Measurement", "***End_of_Header***"
+LABVIEW_PREAMBLES = 2  # of the file and of its channels
 
 
-@dataclass
-class _CsvFile:
-    """A file while it is read: its name, the numbers of the lines with cells, its comments."""
-
-    what: str
-    path: Path
-    text: TextIO
-    separator: str = ""
-    lines: "array[int]" = field(default_factory=lambda: array("q"))
-    comments: dict[str, str] = field(default_factory=dict)
-
-    def lines_with_cells(self) -> Iterator[str]:
-        """Yield the lines that are neither empty nor comments; of comments the first counts."""
-        read_line = partial(self.text.readline, LONGEST_LINE + 1)
-        for number, line in enumerate(iter(read_line, ""), 1):
-            long = len(line) > LONGEST_LINE and f"a line has more than {LONGEST_LINE} characters"
-            if allowed := "it is not text; give a CSV file" if "\0" in line else long:
-                raise self.refusal(allowed)
-            text = line.strip()
-            if number == 1 and (separator := NAMED_SEPARATOR.fullmatch(line)):
-                self.separator = separator[1]
-            elif text.startswith("#") and not text.startswith(SPREADSHEET_ERRORS):
-                if comment := COMMENT.fullmatch(text):
-                    self.comments.setdefault(comment[1].lower(), comment[2].strip())
-            elif text:
-                self.separator = self.separator or max(SEPARATORS, key=line.count)
-                self.lines.append(number)
-                yield line
-
-    def rows(self) -> Iterator[list[str]]:
-        """Yield the cells of each line that has any, that of the heads first."""
-        lines = self.lines_with_cells()
-        first = next(lines, None)
-        if first is None:
-            raise self.refusal("it is empty; there must be a header and numbers")
-        try:
-            for texts in ((first,), lines):
-                yield from csv.reader(
-                    texts, delimiter=self.separator, skipinitialspace=True, strict=True
-                )
-        except csv.Error as error:
-            raise self.refusal(f"it is not CSV; {error}") from None
-
-    def refusal(self, allowed: str) -> InputError:
-        """Return the error that refuses the file."""
-        return refusal(self.what, str(self.path), allowed)
-
-
-def read_csv(what: str, path: Path, fewest: int) -> tuple[list[Column], UserTable]:
+def read_csv(
+    what: str, path: str, file: Any, fewest: int, decimal: str
+) -> tuple[list[Column], UserTable]:
     """Return the columns of a CSV file by their heads, and a table of its lines, yet without them.
 
-    Columns are separated by commas, semicolons or tabs. One is an array where all its cells are
-    plain numbers, else a list of texts and numbers.
-
-    Raises InputError, in which the file is called `what`, if it cannot be read, is not such a file,
-    or has fewer columns than are allowed.
+    `file` is open, and gives bytes. Raises InputError, in which it is called `what`, if it is no
+    such file.
     """
-    try:
-        with accessing(what, path, "read"), opened(path, encoding="utf-8-sig") as text:
-            return _read(_CsvFile(what, path, text), fewest)
-    except UnicodeDecodeError:
-        allowed = "it is not text in UTF-8; give a CSV file"
-        raise refusal(what, str(path), allowed) from None
+    how = ("utf-16", "strict") if file.peek(2)[:2] in UTF16 else ("utf-8-sig", "surrogateescape")
+    with io.TextIOWrapper(file, *how) as text:
+        try:
+            return read_rows(_CsvFile(what, path, text), fewest, decimal)
+        except csv.Error as error:
+            raise refusal(what, path, f"it is not CSV; {error}") from None
+        except UnicodeError:
+            raise refusal(what, path, "it is not text; give a CSV file") from None
 
 
-def _read(file: _CsvFile, fewest: int) -> tuple[list[Column], UserTable]:
-    rows = file.rows()
-    heads = [text.strip() for text in next(rows)]
-    _check_heads(file, heads, fewest)
-    parts: list[list[Any]] = [[] for _ in heads]
-    with advancing("reading the table", None, unit="rows") as advance:
-        while block := list(islice(rows, BLOCK_ROWS)):
-            lines = file.lines[-len(block) :]
-            if len(file.lines) - 1 - len(block) != sum(map(len, parts[0])):
-                raise file.refusal("it is not CSV; a text in quotes extends over several lines")
-            if {*map(len, block)} != {len(heads)}:
-                wrong = next(i for i, row in enumerate(block) if len(row) != len(heads))
-                message = f"line {lines[wrong]} has {len(block[wrong])} values"
-                raise file.refusal(f"it is not CSV; {message}, the header has {len(heads)} names")
-            if len(file.lines) - 1 > MOST_ROWS:
-                raise file.refusal(f"it has more than {MOST_ROWS} rows")
-            for part, cells in zip(parts, zip(*block, strict=True), strict=True):
-                numbers = plain_numbers(cells)
-                part.append(cells if numbers is None else numbers)
-            advance(len(block))
-    columns = [Column(head, _joined(part)) for head, part in zip(heads, parts, strict=True)]
-    return columns, UserTable({}, np.array(file.lines[1:], np.int64), "line", file.comments)
+class _CsvFile(RowSource):
+    """A CSV file while it is read; the encoding is that of its first letter beyond ASCII."""
 
+    def __init__(self, what: str, path: str, text: TextIO) -> None:
+        super().__init__(what, path)
+        self.text = text
+        self.separator = self.encoding = ""
+        self.reader: Any = None
 
-def _check_heads(file: _CsvFile, heads: list[str], fewest: int) -> None:
-    """Raise InputError for too few or too many names, or for numbers instead."""
-    fewer, count = "" if fewest == 1 else f", at least {fewest}", len(heads)
-    names = "put a line without # before it that names the columns, e.g. psi_1,psi_2,chi"
-    allowed = f"give columns separated by commas, semicolons or tabs{fewer}"
-    many = f"it has {count} columns; at most {MOST_COLUMNS} are allowed"
-    refuse(
-        count < fewest and file.refusal(f"it is not CSV; {allowed}"),
-        count > MOST_COLUMNS and file.refusal(many),
-        plain_numbers(heads) is not None and f"{file.what}: the first line holds numbers; {names}",
-    )
+    def rows(self) -> Iterator[list[str]]:
+        """Return the cells of each line that has any."""
+        lines = self._lines()
+        first = list(islice(lines, HEAD_ROWS))
+        self.separator = self.separator or self._likely_separator(first)
+        how: dict[str, Any] = {"skipinitialspace": True, "strict": True}
+        self.reader = csv.reader(chain(first, lines), delimiter=self.separator, **how)
+        return iter(self.reader)
 
+    def commented_head(self) -> list[str]:
+        """Return the cells of the last comment before the first row."""
+        text = self.comment.lstrip("#% ")
+        return [cell.strip() for cell in next(csv.reader([text], delimiter=self.separator), [])]
 
-def _joined(parts: list[Any]) -> Any:
-    if parts and all(isinstance(part, np.ndarray) for part in parts):
-        return np.concatenate(parts)
-    return [cell for part in parts for cell in (part if isinstance(part, tuple) else part.tolist())]
+    def check(self, count: int) -> None:
+        """Raise InputError if the rows that were taken, so many, are not of one line each."""
+        if self.reader.line_num != count:
+            raise self.refusal("it is not CSV; a text in quotes extends over several lines")
+
+    def _lines(self) -> Iterator[str]:
+        """Yield the lines that are neither empty nor comments."""
+        numbered = enumerate(iter(partial(self.text.readline, LONGEST_LINE + 1), ""), 1)
+        for number, line in self._after_preamble(numbered):
+            if len(line) > LONGEST_LINE:
+                raise self.refusal(f"a line has more than {LONGEST_LINE} characters")
+            if "\0" in line:
+                raise self.refusal("it is not text; give a CSV file")
+            if line[0] in NO_CELL or not line.isascii():
+                line = line if line.isascii() else self._decoded(line)
+                if self._is_empty(line.strip()):
+                    continue
+            self.numbers.append(number)
+            yield line
+
+    def _after_preamble(self, lines: Iterator[tuple[int, str]]) -> Iterator[tuple[int, str]]:
+        """Return the lines below what Excel or LabVIEW have put first."""
+        number, line = next(lines, (1, "\n"))
+        if separator := NAMED_SEPARATOR.fullmatch(line):
+            self.separator = separator[1]
+        elif line.startswith(LABVIEW):
+            ends = (number for number, line in lines if line.startswith(LABVIEW_END))
+            next(islice(ends, LABVIEW_PREAMBLES - 1, None), None)
+        else:
+            return chain([(number, line)], lines)
+        return lines
+
+    def _decoded(self, line: str) -> str:
+        """Return a line beyond ASCII as it is in UTF-8 or UTF-16, else in the Western encoding."""
+        try:
+            line.encode()
+            own = self.text.encoding
+        except UnicodeEncodeError:  # of bytes that were none of UTF-8
+            own = WESTERN
+            line = line.encode(errors="surrogateescape").decode(own)
+        if not self.encoding and own == WESTERN:
+            words = "its text is not in UTF-8 and was read as Latin-1 (Windows-1252)"
+            self.notes.append(f"{words}; look at letters such as ° and µ")
+        if own != (self.encoding or own):
+            raise self.refusal("its lines are in two encodings; store it in UTF-8")
+        self.encoding = own
+        return line
+
+    def _is_empty(self, text: str) -> bool:
+        """Tell whether a line is blank or a comment, which may be in quotes of a spreadsheet."""
+        if not text or PERCENT.match(text):
+            return not text
+        if text[0] == '"':
+            quoted = QUOTED.fullmatch(text)
+            text = quoted[1].replace('""', '"').strip() if quoted else ""
+        return self.is_comment(text.rstrip(" \t;,"))
+
+    def _likely_separator(self, lines: list[str]) -> str:
+        """Return the separator by which most lines have one number of cells, and most numbers.
+
+        Raises InputError if two are alike.
+        """
+        there = [each for each in SEPARATORS if any(each in line for line in lines)]
+        if len(there) < 2:
+            return (there or [","])[0]
+        (best, first), (most, second) = sorted(
+            ((self._suits(each, lines), each) for each in there), reverse=True
+        )[:2]
+        if best == most:
+            words = f"its columns may be separated by {first!r} or by {second!r}"
+            raise self.refusal(f"{words}; begin it with a line sep={first} or sep={second}")
+        return first
+
+    def _suits(self, separator: str, lines: list[str]) -> tuple[float, float]:
+        rows = [*csv.reader(lines, delimiter=separator, skipinitialspace=True)]
+        cells = [cell for row in rows for cell in row if cell]
+        alike = Counter(len(row) for row in rows if len(row) > 1)
+        numbers = sum(map(is_number, cells)) / max(len(cells), 1)
+        return max(alike.values(), default=0), numbers

@@ -1,36 +1,42 @@
-"""Reading a user's table: a CSV file, a mapping of columns, a data frame, a dataset."""
+"""Reading a user's table: a file, a mapping of columns, a data frame, a dataset."""
 
-import re
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from carom.io.csv_cells import MOST_COLUMNS, read_csv
-from carom.io.paths import checked_path
-from carom.io.user_table import ALIASES, GAP, Column, UserTable, spelled
+from carom.io.csv_cells import read_csv
+from carom.io.heads import TableFormat, one_unit, renamed, spelled, table_format
+from carom.io.paths import accessing, checked_path, opened
+from carom.io.rows import GAP, Column, is_missing
+from carom.io.spreadsheets import STARTS, read_spreadsheet
+from carom.io.table_rows import MOST_COLUMNS
+from carom.io.user_table import UserTable
 from carom.quantities.arrays import along_the_same, floats
-from carom.quantities.refusals import InputError, nearest, refusal, refuse
-from carom.quantities.texts import LONGEST_TEXT, UNCHANGED
-from carom.quantities.units import REAL_KINDS, factor_of, two_units, without_unit
+from carom.quantities.refusals import InputError, refusal, refuse
+from carom.quantities.units import REAL_KINDS, without_unit
 
 COMMENT_ATTRIBUTES = ("case", "code", "doi", "law")  # of a dataset; comments of a file
-HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
 TEXT_TYPES = (str, bytes, bytearray, memoryview)  # sequences that are no lists
 
 
 def read_table(
-    source: Any, columns: Mapping[str, str] | None = None, *, what: str = "results", fewest: int = 2
+    source: Any,
+    columns: Mapping[str, str] | str | Path | None = None,
+    *,
+    sheet: str | None = None,
+    decimal: str | None = None,
+    what: str = "results",
+    fewest: int = 2,
 ) -> UserTable:
-    """Return the cells of a CSV file, columns by name, a data frame, a structured array, a dataset.
+    """Return the cells of a file, columns by name, a data frame, a structured array, a dataset.
 
-    A file has a header, at least so many columns separated by commas, semicolons or tabs, and
-    comments after #. `columns` tells what heads stand for, {"omega [rpm]": "spin_out"}. A table
-    that was read is returned as it is.
+    A file is CSV, .xlsx, .xls or .ods, and has a header and at least so many columns. `columns`
+    tells what heads stand for, {"omega [rpm]": "spin_out"}, or names a TOML file that tells it.
+    `sheet` is one of a spreadsheet, as in "lab.xlsx:Sheet2"; `decimal` is "," or "." where numbers
+    may be read in both ways. A table that was read is returned as it is.
 
     Raises InputError, in which the table is called `what`, if it cannot be read, has no rows, too
     many columns, or columns of one name or unequal length.
@@ -42,23 +48,47 @@ def read_table(
     >>> table.names, table.word, len(table)
     (('angle', 'spin'), 'row', 2)
     """
-    if isinstance(source, UserTable) and not columns:
+    how = table_format(columns, sheet, decimal)
+    if isinstance(source, UserTable) and not how.columns:
         return source
     if isinstance(source, str | Path):
-        source_columns, table = read_csv(what, checked_path(what, source), fewest)
+        source_columns, table = _of_file(what, source, how, fewest)
     else:
+        for name in ("sheet", "decimal"):
+            refuse(getattr(how, name) and f"{name}: only a file has it; leave it out")
         source_columns, table = _of_object(what, source)
-    named = _renamed([column.head for column in source_columns], _checked_columns(columns), what)
-    for name, count in Counter(name for name, _ in named).items():
-        if count > 1:
-            words = "two columns have this name; leave one of them out"
-            raise InputError(f"{spelled(name)!r}: {words}")
+    named = renamed([column.head for column in source_columns], how.columns, what)
+    places: dict[str, list[str]] = {}
+    for (name, _), column in zip(named, source_columns, strict=True):
+        places.setdefault(name, []).append(column.letter)
+    refuse(*(_twice(name, letters) for name, letters in places.items() if len(letters) > 1))
     refuse(not len(table) and f"{what}: no rows; give names of columns, and numbers below them")
     cells = {
-        name: column._replace(unit=_one_unit(name, unit, column.unit))
+        name: column._replace(unit=one_unit(name, unit, column.unit))
         for (name, unit), column in zip(named, source_columns, strict=True)
     }
     return replace(table, cells=cells)
+
+
+def _twice(name: str, letters: list[str]) -> str:
+    where = f", {' and '.join(letters)}," if all(letters) else ""
+    return f"{spelled(name)!r}: two columns{where} have this name; leave one of them out"
+
+
+def _of_file(
+    what: str, source: str | Path, how: TableFormat, fewest: int
+) -> tuple[list[Column], UserTable]:
+    """Return the columns of a file by their heads, and a table of its rows; its start tells all."""
+    path, sheet = checked_path(what, source), how.sheet
+    name, colon, last = str(source).rpartition(":")
+    if colon and last and not path.exists() and Path(name).is_file():
+        refuse(sheet and f"sheet: {sheet!r} and {last!r} are named; leave one of them out")
+        path, sheet = Path(name), last
+    with accessing(what, path, "read"), opened(path, "rb") as file:
+        if file.peek(4).startswith(STARTS):
+            return read_spreadsheet(what, str(path), file, sheet, fewest, how.decimal)
+        refuse(sheet and refusal("sheet", sheet, f"{path} is no spreadsheet; leave it out"))
+        return read_csv(what, str(path), file, fewest, how.decimal)
 
 
 def _of_object(what: str, source: Any) -> tuple[list[Column], UserTable]:
@@ -91,54 +121,9 @@ def _by_name(what: str, source: Any) -> Any:
             words = f"{what}: its index has the name of a column; leave one of them out"
             raise InputError(words) from None
     if not hasattr(source, "items"):  # which a data frame has, too
-        raise refusal(what, source, "must be the name of a CSV file, or columns by name")
+        raise refusal(what, source, "must be the name of a file, or columns by name")
     along_the_same(**{str(name): values for name, values in source.items()})
     return source
-
-
-def _checked_columns(columns: Any) -> Mapping[str, str]:
-    names = {} if columns is None else columns
-    if not isinstance(names, Mapping) or not all(
-        isinstance(name, str) and name.strip() for name in names.values()
-    ):
-        example = "{'omega': 'spin_out'}"
-        raise refusal("columns", columns, f"must map heads of columns to names, e.g. {example}")
-    return {str(head): name for head, name in names.items()}
-
-
-def _renamed(heads: list[str], columns: Mapping[str, str], what: str) -> list[tuple[str, str]]:
-    """Return names and units of heads, users' names replaced by Carom's.
-
-    Raises InputError for a name that no column has, and for a unit that is told otherwise.
-    """
-    left, new = dict(columns), []
-    for head in heads:
-        own, unit = _parts(head)
-        wanted = left.pop(head, None) or left.pop(own, None)
-        words = (head if wanted is None else wanted).strip()
-        name, new_unit = _parts(ALIASES.get(words, words))
-        new_unit = new_unit if wanted is None else _one_unit(own, unit, new_unit)
-        new.append((ALIASES.get(name, name), new_unit))
-    for name in left:
-        hint = nearest(name, heads) or f"its columns are {', '.join(heads)}"
-        raise refusal("columns", name, f"{what} has no column of that name; {hint}")
-    return new
-
-
-def _parts(head: str) -> tuple[str, str]:
-    """Return what stands before and in the brackets of a head."""
-    match = HEAD.fullmatch(head) if len(head) <= LONGEST_TEXT else None
-    return (match[1], (match[2] or match[3] or "").strip()) if match else (head, "")
-
-
-def _one_unit(name: str, one: Any, other: Any) -> Any:
-    """Return the unit that is told in one way or in two, or raise InputError if they differ."""
-    if "" in (str(one), str(other)) or str(one) == str(other):
-        return one if str(one) else other
-    with suppress(InputError):
-        if factor_of(name, other, str(one)) == UNCHANGED:
-            return other
-    raise two_units(name, one, other)
 
 
 def _column(name: str, values: Any, *, gaps: bool = False) -> Column:
@@ -171,14 +156,10 @@ def _of_array(name: str, values: Any, gaps: bool) -> Any:
     cells = floats(name, np.ma.getdata(array)) if real else list(np.ma.getdata(array))
     gone = np.ma.getmaskarray(array)
     if gaps:
-        gone = gone | (np.isnan(cells) if real else [_is_nan(cell) for cell in cells])
+        gone = gone | (np.isnan(cells) if real else [is_missing(cell) for cell in cells])
     if not gone.any():
         return cells
     return [GAP if empty else cell for cell, empty in zip(cells, gone.tolist(), strict=True)]
-
-
-def _is_nan(cell: Any) -> bool:
-    return isinstance(cell, float | np.datetime64 | np.timedelta64) and cell != cell
 
 
 def _of_dataset(dataset: Any) -> Iterator[Column]:

@@ -8,60 +8,32 @@ from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from itertools import compress
 from math import nan, pi
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.io.heads import is_open, spelled
+from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import Faults, InputError, heading, nearest
+from carom.quantities.refusals import Faults, InputError, clipped, heading, nearest
 from carom.quantities.shown import Printed
 from carom.quantities.symbols import meant
 from carom.quantities.texts import UNCHANGED
 from carom.quantities.units import PURE_UNITS, WHY_POSITIVE, factor_of, finite_or_text, number
 
-Mask = NDArray[np.bool_]
-
-ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
-SPELLINGS = {name: alias for alias, name in ALIASES.items()}
 CASE = "# case:"  # begins a comment that holds the bodies as JSON
-MOST_NAMED_ROWS, MOST_NAMED_VALUES, SHOWN_ROWS = 5, 3, 20  # that a message names, print shows
-GAP = "-"  # a cell of what was not measured
+MOST_NAMED_VALUES, SHOWN_ROWS = 3, 20  # that a message names, print shows
 ERROR = "_error"  # ends the name of a column of standard deviations
 CORRECT_OR_DELETE = "correct or delete it"
-EMPTY = ("", "nan")
 HEIGHTS = ("drop_height", "rebound_height")  # which are measured in cm and mm as well
 HIGHEST_DROP = 3.0  # m, of a drop that is given without a unit
 LEAST_SIMILARITY = 0.8  # from which a column is taken for a misspelt one
 UNITS_IN_NAMES = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}
-
-
-class Column(NamedTuple):
-    """Head and cells as given, an array of numbers or a list, and a unit: a text or one of pint's.
-
-    If there is a fault, it is no column; that is told to whoever asks for it.
-    """
-
-    head: str
-    cells: Any
-    unit: Any = ""
-    fault: str = ""
-
-
-class Rows:
-    """Rows by their numbers, and what they are called: lines of a file, or rows."""
-
-    rows: NDArray[np.int64]
-    word: str
-
-    def named(self, where: Mask) -> str:
-        """Return the rows where something is so, e.g. "lines 3, 7 and 9"."""
-        return named(self.word, self.rows[where], len(self.rows))
-
-    def one(self, index: int) -> str:
-        """Return what one row is called, e.g. "line 3"."""
-        return named(self.word, self.rows[index : index + 1])
+ANGLES = ("angle", "rebound_angle")
+USUAL_UNITS = {"rad": "deg", "rad/s": "rpm"}
+PERCENT = ("%", "percent")
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +41,8 @@ class UserTable(Rows, Printed):
     """Columns by name as given, `cells`, and in SI units, `columns`, as far as they were read.
 
     `rows` are the numbers of the rows, `word` is what they are called, lines of a file or rows,
-    and `comments` are those of a file, by key. `faults` collects what is wrong with it.
+    and `comments` are those of a file, by key. `missing` says where columns have no value, `notes`
+    how a file was read, and `faults` collects what is wrong with it.
     """
 
     cells: Mapping[str, Column]
@@ -77,6 +50,8 @@ class UserTable(Rows, Printed):
     word: str = "row"
     comments: Mapping[str, str] = field(default_factory=dict)
     columns: Mapping[str, Array] = field(default_factory=dict)
+    missing: Mapping[str, Mask] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
     faults: Faults = field(default_factory=Faults)
 
     def __len__(self) -> int:
@@ -90,6 +65,11 @@ class UserTable(Rows, Printed):
 
         columns = self.columns or {name: column.cells for name, column in self.cells.items()}
         return str(pd.DataFrame(dict(columns), index=self.rows).to_string(max_rows=SHOWN_ROWS))
+
+    @property
+    def is_of_file(self) -> bool:
+        """Whether its columns have letters, as those of a file."""
+        return any(column.letter for column in self.cells.values())
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -125,9 +105,13 @@ class UserTable(Rows, Printed):
         for name in names:
             if name not in self.columns:
                 there = [spelled(key) for key in self.columns if key not in names]
-                hint = nearest(spelled(name), there) or f"found {', '.join(there) or 'no other'};"
+                near = nearest(spelled(name), there)
+                hint = near or f"found {', '.join(there) or 'no other'};"
                 needed = ", ".join(spelled(key) for key in names)
-                raise InputError(f"{spelled(name)}: column missing; {hint} needed are {needed}")
+                there_as = f'; if it is there by another name, add --column "ITS HEAD={name}"'
+                asked = there_as if self.is_of_file and not near else ""
+                words = f"column missing; {hint} needed are {needed}"
+                raise InputError(f"{spelled(name)}: {words}{asked}")
 
     def require_rows(self, fewest: int) -> None:
         """Raise InputError if there are too few rows."""
@@ -141,38 +125,34 @@ class UserTable(Rows, Printed):
             some = ", ".join(values[:MOST_NAMED_VALUES]) + ", ..." * (
                 len(values) > MOST_NAMED_VALUES
             )
-            where = self.named(bad)
+            where = self.cells_named(self._letter(name), bad)
             self.faults.add(f"{spelled(name)}: {some} in {where} cannot be used; {allowed}")
+
+    def _letter(self, name: str) -> str:
+        return self.cells[name].letter if name in self.cells else ""
+
+    def about_missing(self) -> tuple[str, ...]:
+        """Return a note on the values that are missing in columns that have others, if any."""
+        gaps = {
+            name: int(gone.sum())
+            for name, gone in self.missing.items()
+            if name == entry(name) and not gone.all()
+        }
+        total = sum(gaps.values())
+        listed = ", ".join(self._gaps(name, count) for name, count in gaps.items())
+        return (f"{total} {'values' if total > 1 else 'value'} missing: {listed}",) if total else ()
+
+    def _gaps(self, name: str, count: int) -> str:
+        if count > MOST_NAMED_ROWS:
+            return f"{count} of {spelled(name)}"
+        return f"{spelled(name)} in {self.cells_named(self._letter(name), self.missing[name])}"
 
     def kept(self, where: Mask) -> "UserTable":
         """Return a table of some of the rows."""
         cells = {n: c._replace(cells=[*compress(c.cells, where)]) for n, c in self.cells.items()}
         columns = {name: values[where] for name, values in self.columns.items()}
-        return replace(self, cells=cells, columns=columns, rows=self.rows[where])
-
-
-def spelled(name: str) -> str:
-    """Return how a user may call a column."""
-    return SPELLINGS.get(name, name)
-
-
-def named(word: str, rows: Iterable[int], total: int = 0) -> str:
-    """Return rows in words, of so many in total.
-
-    Examples
-    --------
-    >>> from carom.io.user_table import named
-    >>> named("line", [3]), named("row", [1, 2, 5]), named("row", [1, 2], 2)
-    ('line 3', 'rows 1, 2 and 5', 'every row')
-    """
-    texts = [str(row) for row in rows]
-    if len(texts) == total > 1:
-        return f"every {word}"
-    if len(texts) > MOST_NAMED_ROWS + 1:
-        texts = [*texts[:MOST_NAMED_ROWS], f"{len(texts) - MOST_NAMED_ROWS} more"]
-    if len(texts) < 2:
-        return " ".join([word, *texts])
-    return f"{word}s {', '.join(texts[:-1])} and {texts[-1]}"
+        missing = {name: gone[where] for name, gone in self.missing.items() if gone[where].any()}
+        return replace(self, cells=cells, columns=columns, missing=missing, rows=self.rows[where])
 
 
 def _with_unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -189,12 +169,14 @@ def in_units(
 ) -> UserTable:
     """Return a table with those columns in SI units whose names are known; the others are NaN.
 
-    Columns without a unit are SI; heights of drops in files need one. In columns of `gaps`, and of
-    their errors, a cell "-" stands for what was not measured: NaN.
+    Columns without a unit are SI; heights of drops in files need one. A blank cell, "-", NaN, NA or
+    n/a stands for what was not measured: NaN, in columns of `gaps` and of their errors. A row in
+    which none of these columns has a value is left out.
 
     Adds to the faults, which are raised as InputError if they are not given, a cell that is not a
-    number, a unit that does not fit, an error that has no unit where its column has one, angles
-    that cannot be in rad, and speeds of bodies that do not approach.
+    number, a value that is missing in another column, a unit that does not fit, an error that has
+    no unit where its column has one, angles that cannot be in rad, and speeds of bodies that do not
+    approach.
 
     Examples
     --------
@@ -206,17 +188,35 @@ def in_units(
     (array([0.    , 1.0472]), array([   nan, -62.83]))
     """
     columns = {name: np.full(len(table), nan) for name in table.names}
-    read = replace(table, columns=columns, faults=faults or Faults())
-    wanted = {*names}
-    for name in filter(wanted.__contains__, table.names):
+    missing: dict[str, Mask] = {}
+    read = replace(table, columns=columns, missing=missing, faults=faults or Faults())
+    there = {*names}.intersection(table.names)
+    wanted = [name for name in table.names if name in there]
+    for name in wanted:
         try:
+            gone = table.column(name).missing
+            if gone.any():
+                missing[name] = gone
             _check_error_unit(name, table)
-            columns[name] = _column(name, table, entry(name) in gaps)
+            columns[name] = _column(name, table, gone)
         except InputError as error:
             read.faults.add(str(error))
-        else:
-            _check_values(name, read)
+            there.remove(name)
+    read = _without_blank_rows(read, wanted)
+    for name in filter(there.__contains__, wanted):
+        _check_values(name, read, entry(name) in gaps)
     return read
+
+
+def _without_blank_rows(table: UserTable, wanted: Collection[str]) -> UserTable:
+    """Return the rows in which one of these columns has a value."""
+    if not wanted or any(name not in table.missing for name in wanted):
+        return table
+    blank = np.all([table.missing[name] for name in wanted], axis=0)
+    if not blank.any() or blank.all():
+        return table
+    note = f"left out, as they have no value: {table.named(blank)}"
+    return replace(table.kept(~blank), notes=(*table.notes, note))
 
 
 def with_errors(names: Iterable[str]) -> tuple[str, ...]:
@@ -233,12 +233,26 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
     names, faults = list(names), faults or Faults()
     unknown = tuple(name for name in table.names if name not in names)
     for name in unknown:
-        if hint := _likely(name, names):
-            faults.add(f"{heading(name)}: unknown column; did you mean {hint!r}?")
+        column = table.cells[name]
+        if (hint := _likely(name, names)) and (column.fault or not column.missing.all()):
+            asked = f"did you mean {hint!r}?"
+            if column.letter:
+                angle = hint.partition(" [")[0] in ANGLES
+                asked += " It is measured from the normal." if angle else ""
+                asked += f' If so, add --column "{clipped(column.head)}={_meaning(hint, column)}"'
+            faults.add(f"{heading(name)}: unknown column; {asked}")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
             faults.add(f"{heading(name)}: its column {entry(name)!r} is missing")
     return unknown
+
+
+def _meaning(hint: str, column: Column) -> str:
+    """Return what a column is to be called, with a unit where that of its head is not enough."""
+    name, unit = hint.partition(" [")[0], str(column.unit)
+    if is_open(name, unit):
+        return f"{name} [{USUAL_UNITS.get(GLOSSARY[entry(name)].unit, 'ITS UNIT')}]"
+    return name if unit else hint
 
 
 def entry(name: str) -> str:
@@ -266,9 +280,14 @@ def _check_error_unit(name: str, table: UserTable) -> None:
         raise InputError(f"{name}: no unit, but {whole} is in {unit}; write '{name} [{unit}]'")
 
 
-def _check_values(name: str, table: UserTable) -> None:
+def _check_values(name: str, table: UserTable, open_ended: bool) -> None:
     """Add to the faults what cannot be, as it is of another unit, or of bodies that part."""
     values, unit = table[name], str(table.cells[name].unit)
+    if name in table.missing and not open_ended:
+        where = table.cells_named(table.cells[name].letter, table.missing[name])
+        table.faults.add(f"{spelled(name)}: no value in {where}; write it there, or delete the row")
+    if unit in PERCENT and table.word == "row" and table.cells[name].letter:
+        _check_percent(name, table)
     if name in WHY_POSITIVE:
         table.refuse(name, values <= 0.0, f"must be positive{WHY_POSITIVE[name]}")
     if entry(name) in HEIGHTS:
@@ -276,7 +295,8 @@ def _check_values(name: str, table: UserTable) -> None:
         bare = not isinstance(cells, list) or any(
             str(cell).strip()[-1:].isdigit() for cell in cells
         )
-        if bare and not unit and (table.word == "line" or np.any(np.abs(values) > HIGHEST_DROP)):
+        of_file = table.cells[name].letter
+        if bare and not unit and (of_file or np.any(np.abs(values) > HIGHEST_DROP)):
             heads = " or ".join(f"'{name} [{each}]'" for each in ("m", "cm", "mm"))
             table.faults.add(f"{name}: no unit, and heights may be in m, cm or mm; write {heads}")
     if name in GLOSSARY and GLOSSARY[name].unit == "rad" and not name.startswith("surface"):
@@ -288,21 +308,27 @@ def _check_values(name: str, table: UserTable) -> None:
         table.refuse(name, np.abs(values) >= 0.5 * pi, allowed)
 
 
-def _column(name: str, table: UserTable, open_ended: bool) -> Array:
-    """Return a column in SI units, or raise InputError for what is not a number in it."""
-    _, cells, unit, _ = table.column(name)
-    gap = np.zeros(len(cells), dtype=bool)
-    if open_ended and isinstance(cells, list):
-        gap[:] = [isinstance(cell, str) and cell.strip() == GAP for cell in cells]
-        cells = [nan if empty else cell for cell, empty in zip(cells, gap, strict=True)]
-    values, reason = column_in_si(spelled(name), GLOSSARY[entry(name)].unit, unit, cells)
-    missing = ~np.isfinite(values) & ~gap
-    if missing.any():
-        todo = f"write '{GAP}' where nothing was measured" if open_ended else CORRECT_OR_DELETE
-        cause = reason.removeprefix(f"{spelled(name)}: ")
-        raise InputError(
-            f"{spelled(name)}: not a number in {table.named(missing)}; {cause or todo}"
+def _check_percent(name: str, table: UserTable) -> None:
+    """Add to the faults what a spreadsheet may show as a percentage, but holds as a ratio."""
+    cells = table.cells[name].cells
+    numbers = [abs(cell) for cell in cells if isinstance(cell, float) and not is_missing(cell)]
+    if numbers and max(numbers) <= 1.0:
+        words = f"the head says {table.cells[name].unit}, but the sheet holds {max(numbers):g}"
+        table.faults.add(
+            f"{name}: {words} at most, which its format may show as {100.0 * max(numbers):g} %; "
+            "write ratios, as 0.95, and no unit into the head"
         )
+
+
+def _column(name: str, table: UserTable, gone: Mask) -> Array:
+    """Return a column in SI units, or raise InputError for what is not a number in it."""
+    _, cells, unit, _, letter = table.column(name)
+    values, reason = column_in_si(spelled(name), GLOSSARY[entry(name)].unit, unit, cells)
+    wrong = ~np.isfinite(values) & ~gone
+    if wrong.any():
+        where = table.cells_named(letter, wrong)
+        cause = reason.removeprefix(f"{spelled(name)}: ") or CORRECT_OR_DELETE
+        raise InputError(f"{spelled(name)}: not a number in {where}; {cause}")
     return values
 
 
@@ -319,7 +345,7 @@ def column_in_si(name: str, si: str, unit: Any, cells: Any) -> tuple[Array, str]
             return in_unit(name, cells, own), ""
     values, reason = np.full(len(cells), nan), ""
     for i, cell in enumerate(cells):
-        if cell is None or (isinstance(cell, str | float) and str(cell).strip().lower() in EMPTY):
+        if is_missing(cell):
             continue
         try:
             values[i] = number(name, cell, si, own)

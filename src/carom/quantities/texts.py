@@ -39,7 +39,7 @@ POWER = rf"{SPACED}|([⁺⁻]?[{RAISED_DIGITS[1:]}])|{CF}|{LENGTH_END}([23])"
 TERM = re.compile(rf"({NAME})(?:{POWER})?(?![0-9{RAISED_DIGITS}^])")
 PRODUCT = re.compile(rf"[{BLANKS}]*[*·⋅][{BLANKS}]*|[{BLANKS}]+|\.(?=[^\W\d_])")
 SLASH = re.compile(rf"[{BLANKS}]*/[{BLANKS}]*")
-SPELT = {"rev": "turn", "revs": "turn", "RPM": "rpm", **dict.fromkeys("°º˚", "degree")}
+SPELT = {"rev": "turn", "revs": "turn", "U": "turn", "RPM": "rpm", **dict.fromkeys("°º˚", "degree")}
 OTHER_KIND = {
     "1": "it has a unit, but a pure number is needed",
     "rad/s": "a spin is not in {0}; write rad/s or rpm",
@@ -172,6 +172,22 @@ def factor(expression: str, unit: str) -> Factor:
     return result
 
 
+def is_unit(expression: str) -> bool:
+    """Tell whether a text is a unit, of whatever quantity.
+
+    Examples
+    --------
+    >>> from carom.quantities.texts import is_unit
+    >>> is_unit("m/s"), is_unit("%"), is_unit("fast")
+    (True, True, False)
+    """
+    try:
+        _root(_terms(expression))
+    except (Unreadable, ArithmeticError):
+        return False
+    return bool(expression)
+
+
 @lru_cache(maxsize=4096)
 def _factor(expression: str, unit: str) -> Factor | Unreadable:
     if expression in COMMON.get(unit, {}):
@@ -256,6 +272,8 @@ def _whole_name(name: str) -> str:
     Capital letters are taken for small ones in names that are written out, such as Pascal.
     """
     parse, small = _registry().parse_unit_name, name.lower()
+    if small == "grad":
+        raise Unreadable(f"{name!r} may be degrees or gon; write deg or gon", enough=True)
     for each, ends in ((SPELT.get(name, name), ()), (small, (small, small.removesuffix("s")))):
         for prefix, unit, _ in parse(each)[:1]:
             if unit in PINT_NAMES and prefix + unit in (ends or (prefix + unit,)):

@@ -79,20 +79,28 @@ def input_attributes(name: str, choices: Choices) -> dict[str, Any]:
     return entry | {"long_name": f"{entry['long_name']}{body}"}
 
 
-def checked_names(inputs: Iterable[Any]) -> tuple[str, ...]:
-    """Return names of inputs, or raise InputError for one that is unknown or contradicts others."""
+def checked_names(inputs: Iterable[Any], *, listing: bool = True) -> tuple[str, ...]:
+    """Return names of inputs, or raise InputError for one that is unknown or contradicts others.
+
+    It lists all names for the first that resembles none, unless `listing` is false.
+    """
     names = tuple(inputs)
     unknown = [name for name in names if name not in INPUTS]
     refuse(
         not names and "design: no inputs; give at least one, e.g. 'angle'",
-        *(f"{heading(str(n))}: not an input of an impact; {_hint(n)}" for n in unknown),
+        *(_unknown(n, listing and n == unknown[0]) for n in unknown),
     )
     refuse_contradictions(names)
     return names
 
 
+def _unknown(name: Any, listing: bool) -> str:
+    """Return what is wrong with a name, and the inputs that it stands for, the nearest, or all."""
+    whole = f"{heading(str(name))}: not an input of an impact; {_hint(name)}"
+    return whole if listing else whole.partition("; known names are")[0]
+
+
 def _hint(name: Any) -> str:
-    """Return a hint at the inputs that a name stands for, at the nearest, or at all."""
     last = leaf(str(name))
     if stands := meant(last, map(leaf, INPUTS)):
         places = [each for each in INPUTS if leaf(each) == stands]

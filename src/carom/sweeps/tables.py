@@ -4,7 +4,7 @@ import hashlib
 import re
 from collections.abc import Hashable, Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from carom.bodies.cases import SWEEP_TABLE, Case
+from carom.io.heads import TableFormat, table_format
+from carom.io.rows import is_missing
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, column_in_si
 from carom.quantities.glossary import GLOSSARY
@@ -22,6 +24,7 @@ from carom.sweeps.designs import Box, Design, Grid, LatinHypercube
 from carom.sweeps.inputs import (
     CHOSEN,
     CODE,
+    INPUTS,
     UNREADABLE,
     Choice,
     Choices,
@@ -32,8 +35,6 @@ from carom.sweeps.inputs import (
     refuse_contradictions,
 )
 
-GAPS = ("", "-", "nan")  # cells of what is not told
-
 
 @dataclass(frozen=True, eq=False, init=False)
 class Table(Design):
@@ -42,11 +43,16 @@ class Table(Design):
     Parameters
     ----------
     source : str, Path or mapping
-        A CSV file, or a mapping of columns. Columns have the names of inputs, with a unit where
-        there is one: "speed [km/h]"; a cell may have a unit of its own: "5 mm". A row with a cell
-        that cannot be read gets a status that says so.
-    columns : mapping, optional
-        Inputs by the heads of columns that have other names, e.g. {"omega [rpm]": "spin"}.
+        A file, CSV or a spreadsheet, or a mapping of columns. Columns have the names of inputs,
+        with a unit where there is one: "speed [km/h]"; a cell may have a unit of its own: "5 mm". A
+        row with a cell that cannot be read gets a status that says so.
+    columns : mapping or str, optional
+        Inputs by the heads of columns that have other names, e.g. {"omega [rpm]": "spin"}; or a
+        TOML file with them in a table [columns].
+    sheet : str, optional
+        The sheet of a spreadsheet, if several could be meant.
+    decimal : str, optional
+        "," or ".", the decimal sign of a file where numbers such as 1,234 leave it open.
 
     Raises
     ------
@@ -61,10 +67,22 @@ class Table(Design):
     ('angle', 'friction')
     """
 
+    _notes: tuple[str, ...] = field(repr=False)
+
     def __init__(
-        self, source: str | Path | Mapping[str, Any], columns: Mapping[str, str] | None = None
+        self,
+        source: str | Path | Mapping[str, Any],
+        columns: Mapping[str, str] | str | Path | None = None,
+        *,
+        sheet: str | None = None,
+        decimal: str | None = None,
     ) -> None:
-        super().__init__(*_read(source, columns))
+        how: dict[str, Any] = {"sheet": sheet, "decimal": decimal, "what": "table", "fewest": 1}
+        table = read_table(source, columns, **how)
+        super().__init__(*_read(table), _notes=table.notes)
+
+    def _doubts(self) -> tuple[str, ...]:
+        return (*self._notes, *super()._doubts())
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -84,18 +102,16 @@ class Table(Design):
         return {"kind": "table", **whole, "sha256": digest.hexdigest()}
 
 
-def _read(
-    source: Any, columns: Mapping[str, str] | None
-) -> tuple[Choices, dict[str, NDArray[Any]]]:
+def _read(table: UserTable) -> tuple[Choices, dict[str, NDArray[Any]]]:
     """Return what the codes of names stand for, and the inputs by name."""
-    table = read_table(source, columns, what="table", fewest=1)
     inputs: dict[str, NDArray[Any]] = {}
     choices: dict[str, tuple[Choice, ...]] = {}
+    unknown = [name for name in table.names if name not in INPUTS] or [""]
     with Faults() as faults:
         for name in table.names:
             try:
-                checked_names([name])
-                _, cells, unit, _ = table.column(name)
+                checked_names([name], listing=name == unknown[0])
+                _, cells, unit, *_ = table.column(name)
                 if name in CHOSEN:
                     inputs[name], choices[name] = _chosen(name, cells)
                 else:
@@ -126,7 +142,7 @@ def _refuse_units(table: UserTable, name: str, values: NDArray[Any]) -> None:
 def _refuse_words(table: UserTable, names: list[str]) -> None:
     """Raise InputError if the first row is none: words where there are numbers below."""
     first = [table.cells[name].cells[0] for name in names]
-    words = [cell for cell in first if isinstance(cell, str) and cell.strip().lower() not in GAPS]
+    words = [cell for cell in first if isinstance(cell, str) and not is_missing(cell)]
     if words and not re.search(r"\d", "".join(map(str, first))):
         allowed = "it has no number; leave it out, and write units into the head, 'speed [mm/s]'"
         raise refusal(f"table, {table.one(0)}", ", ".join(words), allowed)
@@ -154,9 +170,7 @@ def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:
 EXAMPLE = 'angle = {from = "0 deg", to = "85 deg", points = 86}'
 
 
-def plan(
-    case: Case, path: Path, columns: Mapping[str, str] | None = None
-) -> tuple[Design, list[str] | None]:
+def plan(case: Case, path: Path, how: TableFormat | None = None) -> tuple[Design, list[str] | None]:
     """Return the design and the outputs that a case file asks for."""
     table = case.get(SWEEP_TABLE)
     if not isinstance(table, Mapping):
@@ -164,18 +178,24 @@ def plan(
     outputs = table.get("outputs")
     if "outputs" in table:
         checked_type("outputs", outputs, list, 'must be a list of names, e.g. ["rebound_angle"]')
-    return _design(table, path, columns or {}), outputs
+    return _design(table, path, how or table_format(None)), outputs
 
 
-def _design(table: Mapping[str, Any], path: Path, columns: Mapping[str, str]) -> Design:
+def _design(table: Mapping[str, Any], path: Path, how: TableFormat) -> Design:
     if "table" in table:
         _refuse(table, ("samples", "seed", "axes"), "a table of cases has none; leave it out")
         name = checked_type("table", table["table"], str, "must be the name of a CSV file")
-        words = 'must be a table, e.g. {omega = "spin"}'
-        own = checked_type("columns", table.get("columns", {}), Mapping, words)
-        return Table(path.parent / name, {**own, **columns})
-    its_columns = {"columns": columns} if columns else table
-    _refuse(its_columns, ("columns",), "they are those of a table of cases; leave them out")
+        words = 'must be a table, e.g. {omega = "spin"}, or the name of a TOML file'
+        columns = checked_type("columns", table.get("columns", {}), (Mapping, str), words)
+        if isinstance(columns, str):
+            columns = str(path.parent / columns)
+        own = table_format(columns, table.get("sheet"), table.get("decimal"))
+        names = {**own.columns, **how.columns}
+        sheet, decimal = how.sheet or own.sheet, how.decimal or own.decimal
+        return Table(path.parent / name, names, sheet=sheet, decimal=decimal)
+    for_tables = {name: value for name, value in how._asdict().items() if value}
+    of_tables = "is for a table of cases; leave it out"
+    _refuse({**table, **for_tables}, TableFormat._fields, f"it {of_tables}")
     allowed = f"must be a table, [sweep.axes], with {EXAMPLE}"
     axes = checked_type("axes", table.get("axes"), Mapping, allowed)
     if "samples" in table:

@@ -24,9 +24,9 @@ Carom.fit = (() => {
       option.title = title;
       parts.data.append(option);
     }
-    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,text/csv,text/plain", tabIndex: -1 });
+    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.xls,.ods,text/csv,text/plain", tabIndex: -1 });
     parts.input.ariaLabel = "table of measured rebounds";
-    parts.button = make("button", { id: "upload-button", type: "button" }, "Choose or drop a CSV file");
+    parts.button = make("button", { id: "upload-button", type: "button" }, "Choose or drop a file");
     parts.drop = make("div", { id: "drop" }, parts.button, parts.input);
     const template = make("a", { id: "template", className: "carom-button", download: "template.csv", href: Carom.source.file("template.csv") }, "Empty table to fill in");
     parts.progress = make("p", { id: "fit-progress", role: "status" });

@@ -11,6 +11,8 @@ import numpy as np
 from carom.bodies.pairs import Pair
 from carom.dem.base import Law
 from carom.impacts.exact import Impact
+from carom.io.heads import spelled
+from carom.io.rows import is_nan
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, in_units, others
 from carom.quantities.arrays import Array
@@ -39,7 +41,9 @@ def score(
     chi: float | str | None = None,
     restitution: float | str | None = None,
     tolerance: float | str = TOLERANCE,
-    columns: Mapping[str, str] | None = None,
+    columns: Mapping[str, str] | str | Path | None = None,
+    sheet: str | None = None,
+    decimal: str | None = None,
     code: str | None = None,
     law: str | None = None,
 ) -> Score:
@@ -58,12 +62,12 @@ def score(
     Parameters
     ----------
     results : str, Path, mapping, pandas.DataFrame, Law or callable
-        A CSV file with a header, comments after #; or columns by name, each of shape (n,), or the
-        fields of a structured array. SI units, or with a unit in the name of a column: "spin
-        [rpm]", "angle (deg)"; "-" after the impact leaves a row out. Speeds of two spheres are
-        relative; normal_speed is positive before and normal_speed_out after; positive spin adds to
-        the tangential speed of the contact point; tangential_force is positive against V_x > 0. At
-        least 3 points, or 20 rows with a force. Or a contact law, or a function as of
+        A file, CSV or a spreadsheet, with a header and comments after #; or columns by name, each
+        of shape (n,), or the fields of a structured array. SI units, or with a unit in the name of
+        a column: "spin [rpm]", "angle (deg)"; "-" after the impact leaves a row out. Speeds of two
+        spheres are relative; normal_speed is positive before and normal_speed_out after; positive
+        spin adds to the tangential speed of the contact point; tangential_force is positive against
+        V_x > 0. At least 3 points, or 20 rows with a force. Or a contact law, or a function as of
         `carom.dem.FunctionLaw`: its psi_2 at the 15 incidences of `rank`.
     case : str, Path, mapping, Pair or Impact, optional
         The bodies and their friction, as in a case file for `carom impact`. They are needed unless
@@ -78,9 +82,13 @@ def score(
         Largest |error in psi_2| that passes. It is also the limit of the findings of the audit in
         units of psi, of the errors of forces in units of mu P_max and P_max, and of the relative
         error of the duration.
-    columns : mapping, optional
+    columns : mapping or str, optional
         Quantities by the heads of columns that have other names, e.g. {"omega": "spin_out"} or
-        {"w": "spin_out [rpm]"}.
+        {"w": "spin_out [rpm]"}; or a TOML file with them in a table [columns].
+    sheet : str, optional
+        The sheet of a spreadsheet, if several could be meant.
+    decimal : str, optional
+        "," or ".", the decimal sign of a file where numbers such as 1,234 leave it open.
     code, law : str, optional
         What the program and its contact law are called in reports and figures; by default the
         columns of these names, up to eight different ones, else the comments "# code:" and "# law:"
@@ -118,33 +126,42 @@ def score(
         own = results_of(results, case, chi, restitution)
         results, case, chi, restitution = own.columns, None, own.chi, own.restitution
         law, law_notes = own.name if law is None else law, own.notes
-    table = read_table(results, columns)
+    table = read_table(results, columns, sheet=sheet, decimal=decimal)
     kind, names = _kind(table.names)
     if kind != "psi" and chi is not None:
         raise refusal("chi", chi, "it follows from the case; leave it out")
     with Faults() as faults:
         unused = [name for name in others(table, names, faults) if name not in NAMES]
+        _refuse_nan(table, faults)
         quantities = in_units(table, names, (*AFTER, "psi_out"), faults)
         faults.settle()
-        table, quantities, gaps = _measured(table, quantities)
+        quantities, gaps = _measured(quantities)
         found = SCORERS[kind](quantities, scored_case(case, chi, table.case, restitution), limit)
     most = 1 if kind == "history" else MOST_ORIGINS
-    origins, notes = origins_of(table, {"code": code, "law": law}, most)
+    origins, notes = origins_of(quantities, {"code": code, "law": law}, most)
     ignored = (f"columns that were not used: {', '.join(unused)}",) if unused else ()
     notes = *found.notes, *notes, *gaps, *ignored, *law_notes
     return Score(kind, limit, found.points, found.audit, notes, found.inputs, found.forces, origins)
 
 
-def _measured(
-    table: UserTable, quantities: UserTable
-) -> tuple[UserTable, UserTable, tuple[str, ...]]:
+def _refuse_nan(table: UserTable, faults: Faults) -> None:
+    """Add to the faults results that are NaN: a program has failed there, which is no gap."""
+    for name in filter(table.names.__contains__, (*AFTER, "psi_out")):
+        column = table.cells[name]
+        failed = np.fromiter(map(is_nan, column.cells), np.bool_, len(column.cells))
+        if failed.any():
+            where = table.cells_named(column.letter, failed)
+            faults.add(f"{spelled(name)}: NaN in {where}; write '-' to leave such rows out")
+
+
+def _measured(quantities: UserTable) -> tuple[UserTable, tuple[str, ...]]:
     """Return the rows without a gap after the impact, and a note on the others."""
     after = [quantities[name] for name in ("psi_out", *AFTER) if name in quantities.columns]
     missing = np.any(np.isnan(after), axis=0)
     if not np.any(missing):
-        return table, quantities, ()
+        return quantities, quantities.notes
     note = f"left out, as nothing was measured after the impact: {quantities.named(missing)}"
-    return table.kept(~missing), quantities.kept(~missing), (note,)
+    return quantities.kept(~missing), (*quantities.notes, note)
 
 
 def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.user_table import GAP, Column, UserTable
+from carom.io.rows import GAP, Column
+from carom.io.user_table import UserTable
 from carom.quantities.refusals import refusal
 
 NAMES = ("code", "law")  # columns, or comments "# code: ..." of a file

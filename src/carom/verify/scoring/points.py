@@ -13,7 +13,8 @@ from carom.dimensionless.rebounds import rebound, regime_borders, solved
 from carom.impacts.curves import REGIMES, regime_map
 from carom.io.labels import Finding
 from carom.io.progress import advancing
-from carom.io.user_table import MOST_NAMED_ROWS, Rows, UserTable
+from carom.io.rows import MOST_NAMED_ROWS, Rows
+from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError

@@ -1,0 +1,123 @@
+"""The sheets of a user's spreadsheet, .xlsx, .xls or .ods, of which one holds the table."""
+
+import io
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from functools import reduce
+from itertools import chain
+from typing import Any
+from zipfile import ZipFile
+
+from carom.io.decimals import is_number
+from carom.io.extras import extra
+from carom.io.rows import Column, is_blank
+from carom.io.table_rows import RowSource, read_rows
+from carom.io.user_table import UserTable
+from carom.quantities.refusals import nearest, refusal, refuse
+
+STARTS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # of zip archives, of older files of Microsoft's
+LARGEST = 1 << 28  # bytes
+MOST_CELLS = 20_000_000
+DIMENSION = re.compile(rb'<dimension ref="[A-Z]+[0-9]+:([A-Z]+)([0-9]+)"')
+BEGINNING = 4096  # bytes of a sheet, in which its dimension stands
+SHEETS = "xl/worksheets/sheet"
+
+
+def read_spreadsheet(
+    what: str, path: str, file: Any, sheet: str, fewest: int, decimal: str
+) -> tuple[list[Column], UserTable]:
+    """Return the columns of a sheet by their heads, and a table of its rows, yet without them.
+
+    `file` is open, and gives bytes. Raises InputError if it cannot be read, or if it has several
+    sheets that may be meant and none is named.
+    """
+    calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
+    content = file.read(LARGEST + 1)
+    if len(content) > LARGEST:
+        raise refusal(what, path, f"it has more than {LARGEST} bytes; store the table as CSV")
+    _check_size(what, path, content)
+    try:
+        book = calamine.CalamineWorkbook.from_filelike(io.BytesIO(content))
+        sheets = {
+            each.name: book.get_sheet_by_name(each.name).to_python(skip_empty_area=False)
+            for each in book.sheets_metadata
+            if each.typ == calamine.SheetTypeEnum.WorkSheet
+            and (each.name == sheet or each.visible == calamine.SheetVisibleEnum.Visible)
+        }
+    except calamine.PasswordError:
+        raise refusal(what, path, "it has a password; store it without") from None
+    except calamine.CalamineError as error:
+        raise refusal(what, path, f"it is no spreadsheet, .xlsx, .xls or .ods; {error}") from None
+    name, notes = _chosen(what, path, sheets, sheet)
+    return read_rows(_Sheet(what, path, sheets[name], notes), fewest, decimal)
+
+
+def _check_size(what: str, path: str, content: bytes) -> None:
+    """Raise InputError for a sheet with cells too far apart: all between them would take room."""
+    last = ""
+    with suppress(Exception), ZipFile(io.BytesIO(content)) as archive:  # as the reader tells
+        for name in filter(lambda name: name.startswith(SHEETS), archive.namelist()):
+            with archive.open(name) as part:
+                far = DIMENSION.search(part.read(BEGINNING))
+            if far and _place(far[1]) * int(far[2]) > MOST_CELLS:
+                last = f"{far[1].decode()}{far[2].decode()}"
+    words = f"a sheet extends to {last}; delete what stands far from the table"
+    refuse(last and refusal(what, path, words))
+
+
+def _place(letters: bytes) -> int:
+    return reduce(lambda place, letter: 26 * place + letter - ord("A") + 1, letters, 0)
+
+
+def _chosen(
+    what: str, path: str, sheets: dict[str, list[Any]], sheet: str
+) -> tuple[str, list[str]]:
+    """Return the name of the sheet to read, and a note if there are others with something in them.
+
+    Raises InputError if there is none of the name, or several could be meant.
+    """
+    if sheet:
+        hint = nearest(sheet, sheets) or f"its sheets are {_listed(sheets)}"
+        refuse(sheet not in sheets and refusal("sheet", sheet, f"{path} has no such sheet; {hint}"))
+        return sheet, []
+    filled = [name for name, rows in sheets.items() if not all(map(is_blank, chain(*rows)))]
+    likely = [name for name in filled if _holds_numbers(sheets[name])] or filled
+    if not likely:
+        raise refusal(what, path, "it is empty; there must be a header and numbers")
+    if len(likely) > 1:
+        say = f"say which, by {path}:{likely[0]}, --sheet or sheet="
+        raise refusal(what, path, f"its sheets {_listed(likely)} may be meant; {say}")
+    more = [f"the sheet {likely[0]!r} was read, not {_listed({*filled} - {*likely})}"]
+    return likely[0], more if len(filled) > 1 else []
+
+
+def _holds_numbers(rows: list[Any]) -> bool:
+    return len(rows) > 1 and any(is_number(cell) for row in rows[1:] for cell in row)
+
+
+def _listed(names: Any) -> str:
+    return ", ".join(map(repr, names))
+
+
+class _Sheet(RowSource):
+    """The rows of a sheet; dates and times are texts, and so are no numbers."""
+
+    word, kind = "row", "a table"
+
+    def __init__(self, what: str, path: str, cells: list[list[Any]], notes: list[str]) -> None:
+        super().__init__(what, path)
+        self.notes, self.cells = notes, cells
+
+    def rows(self) -> Iterator[Sequence[Any]]:
+        """Yield the rows that are no comments."""
+        for number, row in enumerate(self.cells, 1):
+            cells = [cell for cell in row if not is_blank(cell)]
+            is_text = len(cells) == 1 and isinstance(cells[0], str)
+            if not (is_text and self.is_comment(cells[0])):
+                self.numbers.append(number)
+                yield [cell if isinstance(cell, str | float | int) else str(cell) for cell in row]
+
+    def commented_head(self) -> list[str]:
+        """Return no head: in a sheet it is no comment."""
+        return []

@@ -1,0 +1,261 @@
+"""Cells of files: decimal commas, what is missing, sheets, and all faults at once, by cell."""
+
+import io
+import re
+from datetime import datetime
+
+import numpy as np
+import openpyxl
+import pytest
+from tests.checks import PAIR, refused
+
+import carom
+from carom.io import table_rows
+from carom.io.heads import TableFormat, as_toml, table_format
+from carom.io.tables import read_table
+from carom.io.user_table import column_in_si, in_units
+
+
+@pytest.fixture
+def stored(tmp_path):
+    def store(content, name="lab.csv"):
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return store
+
+
+def values_of(content, stored, **how):
+    """Return the cells of the first column of a file as numbers, and the texts of all notes."""
+    table = read_table(stored(content), **how)
+    name = table.names[0]
+    return column_in_si(name, "1", "", table.column(name).cells)[0].tolist(), table.notes
+
+
+DECIMALS = {  # the first column of a file, its numbers, or words of the line that asks
+    "a;b\n0,5;x\n1;y\n": [0.5, 1.0],
+    "a;b\n1,234;0,5\n2,5;1\n": [1.234, 2.5],
+    "a;b\n1,234;0,5\n2,345;1\n": [1.234, 2.345],  # the other column has decimal commas
+    "a;b\n-12,75 %;1\n": [-0.1275],
+    "a;b\n1,5e3;1\n": [1500.0],
+    "a\tb\n,5\t1\n": [0.5],
+    'a,b\n"0,5","1,25"\n"2","3"\n': [0.5, 2.0],
+    "a;b\n1.5;x\n2;y\n": [1.5, 2.0],
+    "a;b\n1.234;x\n2;y\n": [1.234, 2.0],  # a point is decimal where no comma is
+    "a;b\n0,125;1\n": [0.125],
+    "a;b\n1,234;x\n2,345;y\n": "a: 1,234 in cell A2 may be 1.234 or 1234, .* --decimal ,",
+    'a,b\n"1,234",5\n': "a: 1,234 in cell A2 may be 1.234 or 1234",
+    'a,b\n"1,234",0.5\n': "a: 1,234 in cell A2 may be 1.234 or 1234",
+    "a;b\n1.234;0,5\n": r"a: 1.234 in cell A2 may be 1.234 or 1234, .* --decimal \.",
+    "a;b\n5;1\n0,5;2\n1.5;3\n": "0,5 in cell A3 and 1.5 in cell A4 have different decimal signs",
+    "a;b\n0,5;2\n1.234;3\n": "0,5 in cell A2 and 1.234 in cell A3 have different",
+    "a;b\n1.234,5;2\n": [np.nan],
+    "a;b\n1,234,567;2\n": [np.nan],
+    "a;b\n1.234.567;0,5\n": [np.nan],
+    "a;b\n01.02.2026;0,5\n": [np.nan],
+    "a;b\n12,30 und 5;0,5\n": [np.nan],
+}
+
+
+@pytest.mark.parametrize("content", DECIMALS)
+@pytest.mark.parametrize("size", [1, 1 << 16])
+def test_a_decimal_comma_is_read_where_it_can_be_nothing_else(content, size, stored, monkeypatch):
+    """In blocks of a row and in one of all; or it is asked, with the cell."""
+    monkeypatch.setattr(table_rows, "BLOCK_ROWS", size)
+    expected = DECIMALS[content]
+    if isinstance(expected, str):
+        refused(expected, values_of, content, stored)
+    else:
+        np.testing.assert_array_equal(values_of(content, stored)[0], expected)
+
+
+def test_a_decimal_sign_may_be_said(stored):
+    thousands = "a;b\n1,234;x\n2,345;y\n"
+    assert values_of(thousands, stored, decimal=",")[0] == [1.234, 2.345]
+    assert np.isnan(values_of(thousands, stored, decimal=".")[0]).all()
+    assert values_of("a;b\n1.234;0,5\n", stored, decimal=".")[0] == [1.234]
+    refused(
+        "1.5 in cell A3 has a decimal point", values_of, "a;b\n1;0\n1.5;2\n", stored, decimal=","
+    )
+    refused("decimal: ';' cannot be used; must be", values_of, thousands, stored, decimal=";")
+    refused("decimal: only a file has it", read_table, {"a": ["1,5"], "b": [1]}, decimal=",")
+
+
+MISSING = ["", "-", "NaN", "nan", "NA", "n/a", "N/A", " ", "#N/A", "\N{EN DASH}"]
+
+
+@pytest.mark.parametrize("cell", MISSING)
+def test_what_is_missing_is_counted_or_refused_by_its_cell(cell, stored):
+    text = f"angle [deg];speed;spin_out [rpm]\n10;1;-200\n20;1;{cell}\n30;1;-500\n;;\n40;1;-600\n"
+    result = carom.fit(stored(text), pair=PAIR, fixed={"restitution": 1.0})
+    assert "1 value missing: spin_out in cell C3" in result.notes
+    assert result.to_dict()["values"] == 3
+    words = "angle: no value in cell A4; write it there, or delete the row"
+    refused(words, carom.fit, stored(text.replace("\n30;", f"\n{cell};")), pair=PAIR)
+
+
+def test_rows_that_were_not_done_are_left_out_and_said(stored):
+    rows = (
+        "run,angle [deg],speed,spin_out [rpm]\n1,10,1,-200\n2,20,1,-400\n3,,,\n4,30,1,-500\n5,,,\n"
+    )
+    result = carom.fit(stored(rows), pair=PAIR, fixed={"restitution": 1.0})
+    assert "left out, as they have no value: lines 4 and 6" in result.notes
+    assert not [note for note in result.notes if "missing" in note]
+    refused(
+        "angle: no value in cell B4", carom.fit, stored(rows.replace("3,,,", "3,,,-300")), pair=PAIR
+    )
+
+
+def test_all_faults_are_said_at_once_with_the_options_that_mend_them(stored):
+    text = "Winkel [°];theta_r;speed;spin_out [rpm]\n10;5;1;fast\n20;6;;-1,234\n30;7;2;0.5\n"
+    line = refused("^4 faults: ", carom.fit, stored(text), pair=PAIR)
+    assert 'If so, add --column "Winkel [°]=angle"' in line
+    assert 'If so, add --column "theta_r=rebound_angle"' in line
+    assert "spin_out: -1,234 in cell D3 and 0.5 in cell D4 have different decimal signs" in line
+    assert "speed: no value in cell C3" in line
+
+
+UNITS_SAID = {  # in the head, by --column, and the factor to SI units, 0 where both cannot be true
+    ("1/min", "spin_out [rpm]"): np.pi / 30.0,
+    ("min^-1", "spin_out [rad/s]"): 0.0,
+    ("1/s", "spin_out [rad/s]"): 1.0,
+    ("Hz", "spin_out [rps]"): 2.0 * np.pi,
+    ("Umdr./min", "spin_out [rpm]"): np.pi / 30.0,
+    ("rad/s", "spin_out [rpm]"): 0.0,
+    ("mm", "spin_out [rpm]"): 0.0,
+    ("Grad", "angle [deg]"): np.pi / 180.0,
+    ("deg", "angle [rad]"): 0.0,
+    ("Ohm", "speed [m/s]"): 1.0,
+    ("s", "speed [m/s]"): 0.0,
+}
+
+
+@pytest.mark.parametrize(("own", "said"), UNITS_SAID)
+def test_a_unit_that_cannot_be_read_may_be_said(own, said, stored):
+    """Not one that can be read as another."""
+    file, name = stored(f"x [{own}];b\n0,5;1\n"), said.partition(" ")[0]
+    if not (factor := UNITS_SAID[own, said]):
+        refused("x: it has two units", read_table, file, {"x": said})
+        return
+    table = in_units(read_table(file, {"x": said}), [name])
+    assert table[name] == pytest.approx([0.5 * factor], rel=1e-15)
+
+
+def test_the_option_that_mends_a_column_has_a_unit_where_it_is_needed(stored):
+    text = "Winkel [Grad];v_in;Drehzahl [1/min]\n10;1;-200\n20;1;-300\n30;1;-9\n"
+    line = refused("^3 faults: ", carom.fit, stored(text), pair=PAIR)
+    assert "did you mean 'angle'? It is measured from the normal." in line
+    options = re.findall('add --column "([^"]*)"', line)
+    names = dict(option.rsplit("=", 1) for option in options)
+    assert names == {
+        "Winkel [Grad]": "angle [deg]",
+        "v_in": "speed",
+        "Drehzahl [1/min]": "spin_out [rpm]",
+    }
+    assert carom.fit(stored(text), pair=PAIR, columns=names, fixed={"restitution": 1.0}).friction
+
+
+def sheets(**rows):
+    book = openpyxl.Workbook()
+    book.remove(book.active)
+    for name, cells in rows.items():
+        sheet = book.create_sheet(name)
+        for row in cells:
+            sheet.append(row)
+    return of_book(book)
+
+
+def of_book(book):
+    file = io.BytesIO()
+    book.save(file)
+    return file.getvalue()
+
+
+ROWS = [["psi_1", "psi_2"], [1.0, -0.1], [2.0, -0.5], [3.0, -1.0]]
+
+
+def test_a_sheet_is_named_where_several_may_be_meant(stored):
+    other = [ROWS[0], [4.0, 0.5], [5.0, 0.6]]
+    file = stored(sheets(One=ROWS, Two=other, Text=[["psi_1"], ["x"]]), "lab.xlsx")
+    refused(r"its sheets 'One', 'Two' may be meant; say which, by .*lab.xlsx:One", read_table, file)
+    for table in (read_table(f"{file}:Two"), read_table(file, sheet="Two")):
+        assert table.cells["psi_in"].cells.tolist() == [4.0, 5.0]
+    refused("no such sheet; did you mean 'Two'", read_table, file, sheet="two")
+    refused("leave one of them out", read_table, f"{file}:One", sheet="Two")
+    alone = read_table(stored(sheets(One=ROWS, Text=[["psi_1"], ["x"]]), "lab.xlsx"))
+    assert alone.notes == ("the sheet 'One' was read, not 'Text'",)
+    refused("is no spreadsheet; leave it out", read_table, stored("a,b\n1,2\n"), sheet="One")
+
+
+def test_cells_of_sheets_keep_their_types(stored):
+    damaged = [["speed", "angle [deg]"], [datetime(2026, 5, 1), 10.0], [True, "20,5"], [1.5, 30.0]]
+    line = refused(
+        "speed: not a number in cells A2 and A3", carom.fit, stored(sheets(A=damaged)), pair=PAIR
+    )
+    assert "'2026-05-01' cannot be used" in line
+    texts = [["psi_1", "psi_2"], ["0,5", -0.1], ["1,25", "0,5"]]
+    assert values_of(sheets(A=texts), stored)[0] == [0.5, 1.25]
+
+
+def test_what_is_a_comment_in_a_sheet_stands_alone(stored):
+    """A label of a row, which begins as a comment does, is none."""
+    rows = [["# by hand"], ['# case: {"friction": 0.3}'], ["ball", *ROWS[0]], ["#1", *ROWS[1]]]
+    table = read_table(stored(sheets(A=[*rows, ["% warm"], [], ["#2", *ROWS[2]]])))
+    assert table.rows.tolist() == [4, 7]
+    assert table.case == {"friction": 0.3}
+    assert read_table(stored("a;b;c\n;\n1;2;3\n")).names == ("a", "b", "c")
+
+
+def test_a_percentage_of_a_sheet_is_not_taken_for_a_ratio_of_one(stored):
+    rows = [["normal_speed", "normal_restitution [%]"], [1.0, 0.95], [2.0, 0.93]]
+    refused("may show as 95 %; write ratios", carom.fit, stored(sheets(A=rows)), pair=PAIR)
+    rows = [rows[0], [1.0, 95.0], [2.0, 93.0], [3.0, 92.0]]
+    assert carom.fit(stored(sheets(A=rows)), pair=PAIR).restitution.value == pytest.approx(
+        0.93, abs=0.02
+    )
+
+
+BROKEN = {
+    b"PK\x03\x04" + b"x" * 100: "it is no spreadsheet",
+    b"\xd0\xcf\x11\xe0" + b"\0" * 600: "it is no spreadsheet",
+    sheets(A=[]): "it is empty",
+    sheets(A=[["a"]]): "it is not a table; give columns, at least 2",
+    sheets(A=[["a", "b"]]): "no rows",
+    sheets(A=[[1.0, 2.0], [3.0, 4.0]]): "the first line holds numbers",
+    sheets(A=[["a", "a"], [1.0, 2.0]]): "two columns, A and B, have this name",
+}
+
+
+@pytest.mark.parametrize("content", BROKEN)
+def test_spreadsheets_without_a_table_are_refused(content, stored):
+    refused(BROKEN[content], read_table, stored(content, "lab.xlsx"))
+
+
+def test_cells_far_apart_take_no_memory(stored):
+    book = openpyxl.Workbook()
+    book.active["A1"] = "angle"
+    book.active["XFD1048576"] = 1.0
+    refused("a sheet extends to XFD1048576", read_table, stored(of_book(book)))
+
+
+def test_how_a_file_is_read_may_be_stored(stored, tmp_path):
+    how = TableFormat(
+        {'a "quoted" head [°]': "angle", "Drehzahl": "spin_out [rpm]"}, "S\u00e4ge", ","
+    )
+    path = tmp_path / "map.toml"
+    path.write_text(as_toml(how), encoding="utf-8")
+    assert table_format(path) == how
+    assert table_format(path, sheet="B", decimal=".") == how._replace(sheet="B", decimal=".")
+    path.write_text('decimal = ","\n[columns]\nw = "angle [deg]"\n', encoding="utf-8")
+    table = read_table(stored("w;v\n1,500;2\n"), str(path))
+    assert table.cells["angle"].cells.tolist() == [1.5]
+    for text, words in {
+        "columns = 3": "columns: 3 cannot be used",
+        "[column]\na = 'b'": "columns: 'column' in .* is unknown; did you mean 'columns'",
+        "w = [": "it is not TOML",
+        "sheet = 3": "sheet: 3 cannot be used; must be a text",
+    }.items():
+        path.write_text(text, encoding="utf-8")
+        refused(words, table_format, path)
+    refused("columns: .*cannot be read", table_format, tmp_path / "none.toml")
