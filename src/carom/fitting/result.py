@@ -276,7 +276,7 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
         estimates[name] = replace(estimates[name], elastic=elastic)
     ordered = {name: estimates[name] for name in NAMES if name in estimates}
-    return Fit(ordered, confidence, regimes, notes(profile, settled.whole, ordered), best)
+    return Fit(ordered, confidence, regimes, notes(profile, settled, ordered), best)
 
 
 def _on_plate(model: Model, thickness: Estimate | None) -> Estimate:
@@ -303,9 +303,8 @@ def _undetermined(
     for group in settled.groups:
         if len(group) == 1:
             whole = whole or profiled(settled.whole, confidence)
-            one_sided = estimate_of(whole, group[0])
-            if one_sided.determined:
-                result[group[0]] = one_sided
+            if not whole.open[whole.best.model.free.index(group[0])].all():
+                result[group[0]] = estimate_of(whole, group[0])
                 continue
         why = reason(group, profile.best) + _product(group, profile, estimates)
         for name in group:
