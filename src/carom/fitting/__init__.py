@@ -11,6 +11,7 @@ from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
 from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import RobustLoss
 from carom.fitting.reading import read_problem
+from carom.fitting.restrictions import ELASTIC_TAKEN, refuse_contradicted
 from carom.fitting.result import Fit, assembled
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
@@ -116,4 +117,7 @@ def fit(
     law = STRAIGHT if problem.is_normal and not turns else EXACT
     model = Model(suited(law, problem), problem, (), options.start).freeing(options.free)
     loss = RobustLoss() if limited else RobustLoss(inf)
-    return assembled(settle(model, loss, options.start), level)
+    settled = settle(model, loss, options.start)
+    if options.takes_elastic:
+        refuse_contradicted(settled.whole)
+    return assembled(settled, level, (ELASTIC_TAKEN,) if options.takes_elastic else ())

@@ -257,8 +257,11 @@ class Fit(FitRecord, Result):
         return "\n".join([as_text(self), *([str(self.losses)] if self.losses else [])])
 
 
-def assembled(settled: Settled, confidence: float) -> Fit:
-    """Return the result of a fit: intervals, what is not determined, regimes, notes."""
+def assembled(settled: Settled, confidence: float, taken: tuple[str, ...] = ()) -> Fit:
+    """Return the result of a fit: intervals, what is not determined, regimes, notes.
+
+    `taken` are notes on what was taken for granted.
+    """
     profile = profiled(settled.best, confidence)
     best, model = profile.best, profile.best.model
     estimates = {name: estimate_of(profile, name) for name in best.values}
@@ -276,7 +279,8 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
         estimates[name] = replace(estimates[name], elastic=elastic)
     ordered = {name: estimates[name] for name in NAMES if name in estimates}
-    return Fit(ordered, confidence, regimes, notes(profile, settled, ordered), best)
+    lines = (*taken, *notes(profile, settled, ordered))
+    return Fit(ordered, confidence, regimes, lines, best)
 
 
 def _on_plate(model: Model, thickness: Estimate | None) -> Estimate:
