@@ -213,7 +213,7 @@ def test_a_restitution_that_other_columns_contradict_is_not_held_at_one():
 
 
 def test_a_restitution_of_one_that_the_data_cannot_contradict_is_told():
-    """Where all rows slip throughout only mu (1 + e) follows: friction is 3.5 % too small, and that is said."""
+    """Where all rows slip throughout only mu (1 + e) follows; friction is 3.5 % too small."""
     result = fit(lossy("tangential_restitution", least=45.0), pair=PAIR, vary="friction")
     assert result.friction.value == pytest.approx(0.14 * 1.93 / 2.0, rel=0.02)
     assert result.notes[0].startswith("restitution: taken as 1, since it is neither varied")
