@@ -98,6 +98,29 @@ def test_intervals_hold_where_speeds_scatter_by_a_share():
     hold_the_truth(tables)
 
 
+def test_correlations_are_those_of_the_fit_by_lmfit(truth):
+    """From derivatives of its own, which leastsq takes."""
+    result = fit(noisy(truth, np.random.default_rng(13)), pair=bodies())
+    for name, others in result.correlations.items():
+        assert others[name] == pytest.approx(1.0)
+        for other, value in result.lmfit_result.params[name].correl.items():
+            assert others[other] == pytest.approx(value, abs=1e-3)
+    assert result.to_dict()["correlations"] == result.correlations
+    assert f"friction and kappa {result.correlations['friction']['kappa']:+.2f}" in str(result)
+
+
+@pytest.mark.slow
+def test_correlations_are_those_of_repeated_experiments(truth):
+    """Least squares of 120 sets with one truth; Fisher's z is uncertain by 1/sqrt(117)."""
+    random, names = np.random.default_rng(14), ("friction", "kappa", "restitution")
+    stated = {f"{name}_error": np.full(ROWS, size) for name, size in SIGMA.items()}
+    fits = [fit(noisy(truth, random) | stated, pair=bodies(), robust=False) for _ in range(120)]
+    among = np.corrcoef([[each[name].value for each in fits] for name in names])
+    for one, other in ((0, 1), (0, 2), (1, 2)):
+        told = np.median([each.correlations[names[one]][names[other]] for each in fits])
+        assert np.arctanh(told) == pytest.approx(np.arctanh(among[one, other]), abs=0.3)
+
+
 FEW = np.radians(np.linspace(20.0, 75.0, 9))
 COLUMNS = ("normal_restitution", "tangential_restitution", "rebound_angle")
 

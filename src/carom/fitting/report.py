@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from itertools import combinations
 from math import inf, isnan, log, pi
 from typing import NamedTuple
 
@@ -206,11 +207,19 @@ def as_text(fit: FitRecord) -> str:
         f"in brackets {100.0 * fit.confidence:g} % intervals by profile likelihood"
     )
     lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
+    lines += _correlated(fit.correlations)
     tells = [f"note: {note}" for note in fit.notes]
     if problem.is_normal:
         return "\n".join([*lines, *tells])
     regimes = "; ".join(f"{count} {name}" for name, count in fit.regimes.items() if count)
     return "\n".join([*lines, f"rows by regime: {regimes}", *tells, str(fit.comparison)])
+
+
+def _correlated(correlations: Mapping[str, Mapping[str, float]]) -> list[str]:
+    """Return a line with the correlation of each two parameters."""
+    pairs = combinations(correlations, 2)
+    parts = [f"{one} and {other} {correlations[one][other]:+.2f}" for one, other in pairs]
+    return [f"correlations: {', '.join(parts)}"] if parts else []
 
 
 def _line(estimate: Estimate) -> str:

@@ -203,11 +203,12 @@ class Fit(FitRecord, Result):
         Returns
         -------
         dict
-            parameters, confidence, values (how many were measured), rows, regimes, notes,
-            comparison and, None if there are none, losses; SI units.
+            parameters, correlations, confidence, values (how many were measured), rows, regimes,
+            notes, comparison and, None if there are none, losses; SI units.
         """
         return {
             "parameters": {name: each.to_dict() for name, each in self.estimates.items()},
+            "correlations": self.correlations,
             "confidence": self.confidence,
             "values": self._best.model.problem.count,
             "rows": len(self._best.model.problem.rows),
