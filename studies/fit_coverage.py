@@ -43,6 +43,7 @@ SPEEDS = ("normal_speed_out", "tangential_speed_out", "spin_out")
 SIGMA_ANGLE, SHARE = 0.006, 0.03  # rad; of a value, where the noise is proportional to it
 HALF_DEGREE, STEEPEST = np.radians(0.5), np.radians(89.0)
 BAD = 0.35  # of a value that is wrong
+UNSEEN = 1000  # sets with pictures begin here: by some of those before, the fit was chosen
 AWAY = 2.0  # times the truth, or a part of it
 
 Array = NDArray[np.float64]
@@ -188,7 +189,8 @@ def intervals(design: Design, seed: int) -> list[tuple[float, float, float]]:
 
 def rows_of(design: Design, sets: int, pool: ProcessPoolExecutor) -> Iterator[str]:
     """Yield a line of the table for each parameter of a design."""
-    results = pool.map(partial(intervals, design), range(sets), chunksize=10)
+    first = UNSEEN if design in PICTURED else 0
+    results = pool.map(partial(intervals, design), range(first, first + sets), chunksize=10)
     ends = np.array(list(track(results, design.name, sets, transient=True)))
     for place, (name, value) in enumerate(design.truth.items()):
         _, low, high = ends[:, place].T

@@ -1,6 +1,7 @@
 """What a fit takes for granted, a restitution of 1 and an elastic kappa, against the data."""
 
 from dataclasses import replace
+from math import log
 
 from scipy.special import chdtri
 
@@ -10,7 +11,7 @@ from carom.quantities.refusals import InputError
 
 ELASTIC_KAPPA = (2.0 / 3.0, 1.0)  # for Poisson's ratios from 1/2 to 0
 AUXETIC_KAPPA = 4.0 / 3.0  # for a Poisson's ratio of -1
-CLEAR = 10.0  # of -2 log likelihood, by which the data contradict a bound
+CLEAR = 2.0 * log(1000.0)  # of -2 log likelihood, by which the data contradict a bound
 CONTRADICTED = float(chdtri(1.0, 0.01))  # by one parameter more, by chance once in 100
 
 ELASTIC_TAKEN = (
