@@ -63,8 +63,9 @@ def fit(
         what `fixed` says, else friction and kappa at those of the pair, restitution at 1, the
         offset at 0. A restitution that was measured, or is not 1 by what was, or a friction that
         the bodies do not have, must be varied or fixed. kappa is kept from 2/3 to 1, as that of
-        elastic bodies, unless the data clearly contradict that. On a plate there is thickness instead of restitution: by default
-        held at that of the pair, or fitted if all impacts are normal ones.
+        elastic bodies, unless the data clearly contradict that. On a plate there is
+        thickness instead of restitution: by default held at that of the pair, or fitted if all
+        impacts are normal ones.
     fixed : mapping, optional
         Values of parameters that are known, e.g. {"restitution": 0.98}.
     robust : bool

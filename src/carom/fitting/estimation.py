@@ -41,7 +41,8 @@ class Information:
     def correlations(self) -> Array:
         """Correlations of the coordinates: of the parameters, too, as these grow with them."""
         deviations = np.sqrt(np.diag(self.covariance))
-        return np.clip(self.covariance / np.outer(deviations, deviations), -1.0, 1.0)
+        ratios = self.covariance / np.outer(deviations, deviations)
+        return np.asarray(np.clip(ratios, -1.0, 1.0))
 
     @property
     def used(self) -> Array:

@@ -17,6 +17,7 @@ from carom.fitting.model import KAPPA, Model
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
 from carom.fitting.reading import HEIGHTS, taken_by_air
+from carom.fitting.repeats import about_repeats
 from carom.fitting.restrictions import ELASTIC_KAPPA, elastic_bounds
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -234,7 +235,11 @@ def notes(fit: ProfiledFit, settled: Settled, estimates: Mapping[str, Estimate])
     best, whole = fit.best, settled.whole
     problem = best.model.problem
     far = np.asarray((np.abs(best.residuals) > OUTLIER).any(axis=1))
-    lines = [*_about_errors(best), *([f"outliers: {problem.rows.named(far)}"] if far.any() else [])]
+    lines = [
+        *_about_errors(best),
+        *about_repeats(best),
+        *([f"outliers: {problem.rows.named(far)}"] if far.any() else []),
+    ]
     lines += [*_about_regimes(fit), *_about_ranges(best)]
     if {"friction", "kappa"} <= set(whole.model.free) and problem.is_one:  # all psi_1 are one
         lines.append(ONE_INCIDENCE)
