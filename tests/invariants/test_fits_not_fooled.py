@@ -172,6 +172,26 @@ def test_a_minimum_that_bodies_cannot_have_gives_way_to_one_that_they_can(few):
     assert told
 
 
+def test_an_interval_that_is_cut_ends_elsewhere_where_chi_squared_has_risen(few):
+    """By fits with kappa held, of lmfit: by 6.63 for 99 % at a free end, by less at a bound."""
+    table = {"angle": FEW}
+    for name, values in few.items():
+        size = np.radians(0.5) if "angle" in name else 0.03 * np.abs(values)
+        noise = np.random.default_rng([19, len(name)]).normal(size=len(FEW))
+        table |= {name: values + size * noise, f"{name}_error": np.broadcast_to(size, len(FEW))}
+
+    def chi_squared(**fixed):
+        return fit(table, pair=bodies(), fixed=fixed, robust=False).lmfit_result.chisqr
+
+    kappa = fit(table, pair=bodies(), robust=False, confidence=0.99).kappa
+    least = chi_squared()
+    ends = {end: chi_squared(kappa=end) - least for end in (kappa.low, kappa.high)}
+    bounds = {end for end in ends if end in (2.0 / 3.0, 1.0)}
+    assert len(bounds) == 1
+    for end, rise in ends.items():
+        assert rise < 6.6 if end in bounds else rise == pytest.approx(6.6349, rel=0.01)
+
+
 def test_bodies_of_a_negative_poisson_ratio_keep_their_own_kappa():
     material = carom.Material(young=1e6, poisson=-0.5, density=200.0)
     ball = carom.Sphere(radius=2.5e-3, material=material)
