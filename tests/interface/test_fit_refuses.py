@@ -186,6 +186,41 @@ def test_a_restitution_that_was_measured_is_not_held_at_one(vary, by_speeds):
     assert fit(data, pair=PAIR, **inputs).restitution.value == pytest.approx(0.8, abs=0.01)
 
 
+def lossy(*names, restitution=0.93, least=10.0):
+    """Impacts with losses, without noise: friction 0.14."""
+    floor, losses = carom.HalfSpace(material="steel"), carom.KelvinVoigt(restitution=restitution)
+    pair = carom.Pair(BALL, floor, friction=0.14)
+    angles = np.radians(np.linspace(least, 74.0, 9))
+    hits = [carom.impact(pair, speed=2.0, angle=angle, losses=losses) for angle in angles]
+    values = {name: np.array([getattr(hit, name) for hit in hits]) for name in names}
+    noise = np.random.default_rng(5).normal(0.0, 0.005, (len(names), len(angles)))
+    return {"angle": angles} | {n: v + e for (n, v), e in zip(values.items(), noise, strict=True)}
+
+
+def test_a_restitution_that_other_columns_contradict_is_not_held_at_one():
+    """Two components of the rebound hold the normal one, 0.93, though no column is called so."""
+    data = lossy("tangential_restitution", "rebound_angle")
+    refused(
+        "^restitution: it would be held at 1, but the data say about 0.9",
+        fit,
+        data,
+        pair=PAIR,
+        vary="friction",
+    )
+    fixed = fit(data, pair=PAIR, vary="friction", fixed={"restitution": 0.93})
+    assert fixed.friction.low < 0.14 < fixed.friction.high
+    assert not any("taken as 1" in note for note in fixed.notes)
+
+
+def test_a_restitution_of_one_that_the_data_cannot_contradict_is_told():
+    """Where all rows slip throughout only mu (1 + e) follows; friction is 3.5 % too small."""
+    result = fit(lossy("tangential_restitution", least=45.0), pair=PAIR, vary="friction")
+    assert result.friction.value == pytest.approx(0.14 * 1.93 / 2.0, rel=0.02)
+    assert result.notes[0].startswith("restitution: taken as 1, since it is neither varied")
+    elastic = lossy("tangential_restitution", "rebound_angle", restitution=1.0)
+    assert fit(elastic, pair=PAIR, vary="friction").friction.value == pytest.approx(0.14, rel=0.02)
+
+
 @pytest.mark.parametrize("case", [None, "file"])
 def test_a_friction_that_nobody_has_given_is_not_held(case, with_bodies):
     """It was a guess of 0.3, which the fit called "not varied"."""

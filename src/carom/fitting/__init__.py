@@ -12,6 +12,7 @@ from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
 from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import RobustLoss
 from carom.fitting.reading import read_problem
+from carom.fitting.restrictions import ELASTIC_TAKEN, refuse_contradicted
 from carom.fitting.result import Fit, assembled
 from carom.io.tables import read_table
 from carom.quantities.keywords import known_keywords
@@ -68,9 +69,11 @@ def fit(
         Parameters to fit, of friction, kappa (or chi), restitution and spin_offset; by default the
         first three, or restitution alone if all impacts are normal ones. The others are held: at
         what `fixed` says, else friction and kappa at those of the pair, restitution at 1, the
-        offset at 0. A restitution that was measured, or a friction that the bodies do not have,
-        must be varied or fixed. On a plate there is thickness instead of restitution: by default
-        held at that of the pair, or fitted if all impacts are normal ones.
+        offset at 0. A restitution that was measured, or is not 1 by what was, or a friction that
+        the bodies do not have, must be varied or fixed. kappa is kept from 2/3 to 1, as that of
+        elastic bodies, unless the data clearly contradict that. On a plate there is
+        thickness instead of restitution: by default held at that of the pair, or fitted if all
+        impacts are normal ones.
     fixed : mapping, optional
         Values of parameters that are known, e.g. {"restitution": 0.98}.
     robust : bool
@@ -129,4 +132,7 @@ def fit(
     law = STRAIGHT if problem.is_normal and not turns else EXACT
     model = Model(suited(law, problem), problem, (), options.start).freeing(options.free)
     loss = RobustLoss() if limited else RobustLoss(inf)
-    return assembled(settle(model, loss, options.start), level)
+    settled = settle(model, loss, options.start)
+    if options.takes_elastic:
+        refuse_contradicted(settled.whole)
+    return assembled(settled, level, (ELASTIC_TAKEN,) if options.takes_elastic else ())

@@ -224,6 +224,21 @@ class FitRecord:
     notes: tuple[str, ...]
     _best: Best = field(repr=False)
 
+    @property
+    def correlations(self) -> dict[str, dict[str, float]]:
+        """Correlations of the parameters that were fitted, by the names of both.
+
+        They come from Fisher's information at the best values; that of friction and kappa is
+        `correlations["friction"]["kappa"]`.
+        """
+        best = self._best
+        names = [name for name in best.model.free if self.estimates[name].determined]
+        places = [best.model.free.index(name) for name in names]
+        rows = best.information.correlations[np.ix_(places, places)].tolist()
+        return {
+            name: dict(zip(names, row, strict=True)) for name, row in zip(names, rows, strict=True)
+        }
+
     @cached_property
     def comparison(self) -> Comparison:
         """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""

@@ -5,6 +5,8 @@ from math import floor, inf, isfinite, isnan, log10, nan
 from typing import Any
 
 from carom.fitting.intervals import ProfiledFit
+from carom.fitting.model import KAPPA
+from carom.fitting.restrictions import elastic_bounds
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
 from carom.quantities.shown import Printed
@@ -85,10 +87,13 @@ def estimate_of(fit: ProfiledFit, name: str) -> Estimate:
     model = fit.best.model
     value = fit.best.values[name]
     place = model.free.index(name) if name in model.free else None
-    if place is None or fit.open[place].all():
+    if place is None:
+        return Estimate(name, value)
+    bounds = elastic_bounds(model) if name == KAPPA.name else None
+    if fit.open[place].all() and bounds is None:
         return Estimate(name, value)
     ends = model.values(fit.ends[place])[name][:, 0]
-    limits = zip(ends, LIMITS[name], fit.open[place], strict=True)
+    limits = zip(ends, bounds or LIMITS[name], fit.open[place], strict=True)
     low, high = (float(limit if is_open else end) for end, limit, is_open in limits)
     return Estimate(name, value, low, high)
 

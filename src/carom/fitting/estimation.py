@@ -38,6 +38,13 @@ class Information:
         return np.asarray((directions / certain) @ directions.T)
 
     @property
+    def correlations(self) -> Array:
+        """Correlations of the coordinates: of the parameters, too, as these grow with them."""
+        deviations = np.sqrt(np.diag(self.covariance))
+        ratios = self.covariance / np.outer(deviations, deviations)
+        return np.asarray(np.clip(ratios, -1.0, 1.0))
+
+    @property
     def used(self) -> Array:
         """How many of the parameters each response determines."""
         taken = np.einsum("rjp,pq,rjq->j", self.slopes, self.covariance, self.slopes)

@@ -13,6 +13,7 @@ from carom.fitting.least_squares import descend
 from carom.fitting.model import OFFSET, Model
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import RobustLoss
+from carom.fitting.restrictions import within_elastic_range
 from carom.io.rows import Mask
 from carom.quantities.arrays import Array
 
@@ -134,24 +135,27 @@ class _Brackets(NamedTuple):
 class Settled:
     """The best fit of what the data tell, and the groups of parameters that they do not tell.
 
-    Of each group the first parameter is held; `whole` is the fit before anything was held.
+    Of each group the first parameter is held; `whole` is the fit before anything was held, and
+    `unbounded` that with any kappa.
     """
 
     best: Best
     groups: tuple[tuple[str, ...], ...]
     whole: Best
+    unbounded: Best
 
 
 def settle(model: Model, loss: RobustLoss, start: Mapping[str, float]) -> Settled:
     """Fit, and hold one parameter after the other until the data tell all that are free."""
-    whole = best = estimate(model, loss)
+    unbounded = estimate(model, loss)
+    whole = best = within_elastic_range(unbounded)
     groups: list[tuple[str, ...]] = []
     while group := weak_group(best.information, best.model.free):
         groups.append(group)
         if len(best.model.free) == 1:
             break
         best = _held(best, group, start[group[0]])
-    return Settled(best, tuple(groups), whole)
+    return Settled(best, tuple(groups), whole, unbounded)
 
 
 def weak_group(information: Information, names: tuple[str, ...]) -> tuple[str, ...]:

@@ -196,8 +196,8 @@ def ranged(parameter: Parameter, problem: FitProblem) -> Parameter:
         return parameter
     half = half_ratio(pair)
     least, most = (chi / half for chi in STORED_CHI)
-    low, high = max(parameter.low, least), min(parameter.high, most)
-    return parameter._replace(low=low * (1.0 + ROUNDING), high=high * (1.0 - ROUNDING))
+    low, high = least * (1.0 + ROUNDING), most * (1.0 - ROUNDING)
+    return parameter._replace(low=max(parameter.low, low), high=min(parameter.high, high))
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,10 +22,14 @@ WITHOUT_FRICTION = {*NORMAL, DURATION}  # responses that do not depend on it
 
 
 class Options(NamedTuple):
-    """Names of free parameters, and the values of all to begin with, or to hold."""
+    """Names of free parameters, and the values of all to begin with, or to hold.
+
+    `takes_elastic` tells whether a restitution of 1 is held that nobody has given.
+    """
 
     free: tuple[str, ...]
     start: Mapping[str, float]
+    takes_elastic: bool
 
 
 def read_options(
@@ -62,7 +66,8 @@ def read_options(
         start["restitution"] = 1.0
     elif THICKNESS not in problem.before:
         start[THICKNESS] = pair.thickness
-    return Options(tuple(wanted), {**start, **held})
+    takes_elastic = "restitution" in {*start} - {*wanted, *held} and not problem.is_normal
+    return Options(tuple(wanted), {**start, **held}, takes_elastic)
 
 
 def _first(problem: FitProblem) -> tuple[str, ...]:

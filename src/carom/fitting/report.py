@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from itertools import combinations
 from math import inf, isnan, log, pi
 from typing import NamedTuple
 
@@ -11,10 +12,12 @@ from carom.fitting import plates
 from carom.fitting.comparison import FitRecord
 from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
-from carom.fitting.intervals import ProfiledFit
-from carom.fitting.model import Model
+from carom.fitting.intervals import ProfiledFit, Settled
+from carom.fitting.model import KAPPA, Model
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
+from carom.fitting.repeats import about_repeats
+from carom.fitting.restrictions import ELASTIC_KAPPA, elastic_bounds
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 
@@ -194,7 +197,6 @@ COLUMN = 14
 ONE_INCIDENCE = (
     "one incidence determines friction or kappa, not both; fix one, or measure at other angles"
 )
-ELASTIC_KAPPA = (2.0 / 3.0, 1.0)  # for Poisson's ratios from 1/2 to 0
 
 
 def as_text(fit: FitRecord) -> str:
@@ -206,11 +208,19 @@ def as_text(fit: FitRecord) -> str:
         f"in brackets {100.0 * fit.confidence:g} % intervals by profile likelihood"
     )
     lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
+    lines += _correlated(fit.correlations)
     tells = [f"note: {note}" for note in fit.notes]
     if problem.is_normal:
         return "\n".join([*lines, *tells])
     regimes = "; ".join(f"{count} {name}" for name, count in fit.regimes.items() if count)
     return "\n".join([*lines, f"rows by regime: {regimes}", *tells, str(fit.comparison)])
+
+
+def _correlated(correlations: Mapping[str, Mapping[str, float]]) -> list[str]:
+    """Return a line with the correlation of each two parameters."""
+    pairs = combinations(correlations, 2)
+    parts = [f"{one} and {other} {correlations[one][other]:+.2f}" for one, other in pairs]
+    return [f"correlations: {', '.join(parts)}"] if parts else []
 
 
 def _line(estimate: Estimate) -> str:
@@ -220,16 +230,21 @@ def _line(estimate: Estimate) -> str:
     return f"{estimate}; the elastic constants give {estimate.elastic:.3g}"
 
 
-def notes(fit: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
-    """Return what is to be known besides the numbers; `whole` is the fit with nothing held."""
-    best = fit.best
+def notes(fit: ProfiledFit, settled: Settled, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
+    """Return what is to be known besides the numbers."""
+    best, whole = fit.best, settled.whole
     problem = best.model.problem
     far = np.asarray((np.abs(best.residuals) > OUTLIER).any(axis=1))
-    lines = [*_about_errors(best), *([f"outliers: {problem.rows.named(far)}"] if far.any() else [])]
+    lines = [
+        *_about_errors(best),
+        *about_repeats(best),
+        *([f"outliers: {problem.rows.named(far)}"] if far.any() else []),
+    ]
     lines += [*_about_regimes(fit), *_about_ranges(best)]
     if {"friction", "kappa"} <= set(whole.model.free) and problem.is_one:  # all psi_1 are one
         lines.append(ONE_INCIDENCE)
     lines += [*_about_others(whole, estimates), *_about_bodies(estimates["kappa"])]
+    lines += _about_bounds(fit, settled.unbounded)
     lines += [*_likely_mistake(whole, estimates), *problem.remarks]
     lines += _about_plate(best, estimates)
     if problem.ignored:
@@ -290,6 +305,8 @@ def _about_ranges(best: Best) -> list[str]:
     for parameter, at, low, high in zip(
         best.model.parameters, best.at, *best.model.bounds, strict=True
     ):
+        if parameter.name == KAPPA.name and elastic_bounds(best.model):
+            continue  # told elsewhere
         ends = {parameter.low: at - low, parameter.high: high - at}
         for end, distance in ends.items():
             if distance < NEAR_END and end not in LIMITS[parameter.name]:
@@ -306,6 +323,31 @@ def _about_bodies(kappa: Estimate) -> list[str]:
     if ELASTIC_KAPPA[0] <= kappa.value <= ELASTIC_KAPPA[1]:
         return [f"{differs}; check bodies, units and signs"]
     return [f"{differs}, and kappa is 2/3 to 1 for elastic bodies; check bodies, units and signs"]
+
+
+def _about_bounds(fit: ProfiledFit, unbounded: Best) -> list[str]:
+    """Return where the bounds of elastic bodies cut the interval of kappa, or change the fit."""
+    model, bounds = fit.best.model, elastic_bounds(fit.best.model)
+    if bounds is None:
+        return []
+    texts = ["2/3" if bound == ELASTIC_KAPPA[0] else f"{bound:.3g}" for bound in bounds]
+    why = f"kappa is {' to '.join(texts)} for elastic bodies"
+    lines = []
+    if KAPPA.name in model.free:
+        cut = fit.open[model.free.index(KAPPA.name)]
+        ends = " and ".join(text for text, there in zip(texts, cut, strict=True) if there)
+        lines += [f"kappa: the interval ends at {ends}, as {why}"] if ends else []
+    if not bounds[0] <= unbounded.values[KAPPA.name] <= bounds[1]:
+        shown = _shown(unbounded, unbounded.values)
+        lines.append(
+            f"kappa: {why}; other values would fit better, but not clearly: {shown}; check bodies, "
+            "units and signs"
+        )
+    return lines
+
+
+def _shown(best: Best, values: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} {GLOSSARY[name].text(values[name], 3)}" for name in best.model.free)
 
 
 def _about_regimes(fit: ProfiledFit) -> list[str]:
@@ -331,8 +373,5 @@ def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
         far = [name for name, off in zip(model.free, point - best, strict=True) if abs(off) > APART]
         determined = [estimates[name] for name in far if estimates[name].determined]
         if any(not each.low <= values[each.name] <= each.high for each in determined):
-            shown = ", ".join(
-                f"{name} {GLOSSARY[name].text(values[name], 3)}" for name in model.free
-            )
-            return [f"other values fit nearly as well: {shown}"]
+            return [f"other values fit nearly as well: {_shown(whole, values)}"]
     return []

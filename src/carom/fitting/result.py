@@ -203,11 +203,12 @@ class Fit(FitRecord, Result):
         Returns
         -------
         dict
-            parameters, confidence, values (how many were measured), rows, regimes, notes,
-            comparison and, None if there are none, losses; SI units.
+            parameters, correlations, confidence, values (how many were measured), rows, regimes,
+            notes, comparison and, None if there are none, losses; SI units.
         """
         return {
             "parameters": {name: each.to_dict() for name, each in self.estimates.items()},
+            "correlations": self.correlations,
             "confidence": self.confidence,
             "values": self._best.model.problem.count,
             "rows": len(self._best.model.problem.rows),
@@ -257,8 +258,11 @@ class Fit(FitRecord, Result):
         return "\n".join([as_text(self), *([str(self.losses)] if self.losses else [])])
 
 
-def assembled(settled: Settled, confidence: float) -> Fit:
-    """Return the result of a fit: intervals, what is not determined, regimes, notes."""
+def assembled(settled: Settled, confidence: float, taken: tuple[str, ...] = ()) -> Fit:
+    """Return the result of a fit: intervals, what is not determined, regimes, notes.
+
+    `taken` are notes on what was taken for granted.
+    """
     profile = profiled(settled.best, confidence)
     best, model = profile.best, profile.best.model
     estimates = {name: estimate_of(profile, name) for name in best.values}
@@ -276,7 +280,8 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
         estimates[name] = replace(estimates[name], elastic=elastic)
     ordered = {name: estimates[name] for name in NAMES if name in estimates}
-    return Fit(ordered, confidence, regimes, notes(profile, settled.whole, ordered), best)
+    lines = (*taken, *notes(profile, settled, ordered))
+    return Fit(ordered, confidence, regimes, lines, best)
 
 
 def _on_plate(model: Model, thickness: Estimate | None) -> Estimate:
@@ -303,9 +308,8 @@ def _undetermined(
     for group in settled.groups:
         if len(group) == 1:
             whole = whole or profiled(settled.whole, confidence)
-            one_sided = estimate_of(whole, group[0])
-            if one_sided.determined:
-                result[group[0]] = one_sided
+            if not whole.open[whole.best.model.free.index(group[0])].all():
+                result[group[0]] = estimate_of(whole, group[0])
                 continue
         why = reason(group, profile.best) + _product(group, profile, estimates)
         for name in group:

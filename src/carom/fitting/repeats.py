@@ -1,0 +1,52 @@
+"""Repeated trials: what rows with one motion before tell of the scatter, without any law."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import fdtrc
+
+from carom.fitting.estimation import Best
+from carom.quantities.glossary import GLOSSARY
+
+FEWEST = 4  # degrees of freedom from which a scatter is told
+ODD = 1e-3  # chance of a scatter between groups that is called too large
+
+
+def groups_of(best: Best) -> NDArray[np.int64]:
+    """Return the number of the group of each row; rows of one have the same motion before."""
+    before = np.column_stack(list(best.model.problem.before.values()))
+    return np.unique(before, axis=0, return_inverse=True)[1].ravel().astype(np.int64)
+
+
+def about_repeats(best: Best) -> list[str]:
+    """Return how much each response scatters in repeated trials, and if the law leaves more.
+
+    That is the analysis of variance for lack of fit: the squares of what the law leaves of the
+    means of the groups, over the variance within these.
+    """
+    problem, groups = best.model.problem, groups_of(best)
+    used = best.information.used
+    lines = []
+    for place, name in enumerate(problem.responses):
+        there = problem.present[:, place]
+        values, own = problem.measured[there, place], groups[there]
+        left = values - best.expected[there, place]
+        counts = np.bincount(own)
+        means = np.bincount(own, weights=values) / np.maximum(counts, 1)
+        within, repeated = float(np.square(values - means[own]).sum()), int((counts > 1).sum())
+        freedom = len(values) - int((counts > 0).sum())
+        if freedom < FEWEST or within == 0.0:
+            continue
+        size = GLOSSARY[name].text(float(np.sqrt(within / freedom)), 2)
+        line = (
+            f"{name}: in {repeated} group{'s' * (repeated > 1)} of repeated trials it scatters by "
+            f"{size}, with {freedom} degrees of freedom"
+        )
+        more = float((counts > 0).sum() - used[place])
+        ratio = (float(np.square(left).sum()) - within) / within * freedom / max(more, 1.0)
+        if more >= 1.0 and ratio > 0.0 and fdtrc(more, freedom, ratio) < ODD:
+            line += (
+                f"; from group to group the fit is off by {np.sqrt(ratio):.1f} times what that "
+                "allows, so that the intervals may be too short"
+            )
+        lines.append(line)
+    return lines
