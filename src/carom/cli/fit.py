@@ -1,6 +1,8 @@
 """`carom fit`: friction, stiffness and restitution from measured rebounds."""
 
 import json
+import shlex
+import sys
 from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -45,6 +47,8 @@ OPTIONS = {
     "corner plot (.png, .pdf or .svg).",
     "steps": whole_option("Number of steps for --posterior."),
     "seed": whole_option("Seed of the random numbers for --posterior."),
+    "report": "Write a report to read and to print: .html or .pdf. It holds the figure, and says "
+    "what the uncertainty comes from and what was neglected.",
     "output": "Store data, fit and curves: .csv or .nc.",
 }
 
@@ -67,6 +71,7 @@ def fit_command(
     steps: str = "1000",
     seed: str = "0",
     plot: str | None = None,
+    report: str | None = None,
     output: str | None = None,
     as_json: bool = False,
 ) -> None:
@@ -87,6 +92,7 @@ def fit_command(
     \b
     Example: carom fit --dataset kharaz2001 --plot kharaz.png
     Your own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
+    A report of it: carom fit rebounds.csv --case ball.toml --report report.html
     A plate of unknown thickness: carom fit drops.csv --case ball.toml --thickness "3 mm"
     An empty table: carom fit --template > rebounds.csv
     """
@@ -101,7 +107,7 @@ def fit_command(
         raise refusal("for", about, "it has no effect without --advice; give that, too")
     count = None if advice is None else whole("advice", advice, 1, MOST_LISTED)
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
-    outputs = {"plot": plot, "output": output, "posterior": posterior}
+    outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
     check_outputs(outputs, data=source, case=case)
     fit = carom.fit(
         source,
@@ -114,6 +120,9 @@ def fit_command(
     )
     advised = None if count is None else fit.advice(count, about)
     store(fit, output, plot)
+    if report is not None:
+        command = shlex.join(["carom", *sys.argv[1:]])
+        stored(fit.report(report, f"Rebounds of {Path(source).name}", command))
     if posterior is not None:
         stored(_sampled(fit, posterior, *sampling))
     if as_json:
