@@ -2,7 +2,6 @@
 
 import json
 import shlex
-import sys
 from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,7 +10,7 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
-from carom.cli.options import described, file_argument, file_option, whole_option
+from carom.cli.options import ARGUMENTS, described, file_argument, file_option, whole_option
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import whole
 
@@ -55,6 +54,7 @@ OPTIONS = {
 
 @described(OPTIONS)
 def fit_command(
+    context: typer.Context,
     data: str | None = None,
     dataset: str | None = None,
     case: str | None = None,
@@ -121,7 +121,7 @@ def fit_command(
     advised = None if count is None else fit.advice(count, about)
     store(fit, output, plot)
     if report is not None:
-        command = shlex.join(["carom", *sys.argv[1:]])
+        command = shlex.join(["carom", "fit", *context.meta[ARGUMENTS]])
         stored(fit.report(report, f"Rebounds of {Path(source).name}", command))
     if posterior is not None:
         stored(_sampled(fit, posterior, *sampling))

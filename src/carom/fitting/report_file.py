@@ -13,12 +13,15 @@ from carom.fitting.budget import budget
 from carom.fitting.comparison import FitRecord, LossComparison
 from carom.fitting.problem import FitProblem
 from carom.impacts.solve import impact
+from carom.io.files import DOCUMENTS
 from carom.io.labels import MARKS, Finding
+from carom.io.paths import checked_output
 from carom.io.user_table import ERROR
 from carom.io.version import __version__
 from carom.plots.documents import Section, write_document
 from carom.plots.result import Result
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.refusals import checked_type
 
 TITLE = "Parameters from measured rebounds"
 AIR = "no correction is made for drag; a note tells of it where heights show what it takes"
@@ -74,7 +77,9 @@ class ReportedFit(FitRecord, Result):
         ...     found.report(folder + "/report.html", "Alumina on glass").name
         'report.html'
         """
-        return _written(self, path, title, command)
+        for name, words in (("title", title), ("command", command)):
+            checked_type(name, words, str, "must be a text")
+        return _written(self, checked_output(path, DOCUMENTS), title, command)
 
 
 def _written(fit: ReportedFit, path: str | Path, title: str, command: str) -> Path:

@@ -7,7 +7,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from carom.io.files import DOCUMENTS
-from carom.io.paths import checked_output, ending_of, replace_whole
+from carom.io.paths import ending_of, replace_whole
 from carom.plots.result import image
 
 if TYPE_CHECKING:
@@ -44,13 +44,12 @@ class Section(NamedTuple):
 
 
 def write_document(
-    path: str | Path, title: str, sections: Sequence[Section], draw: Callable[[bool], Any]
+    target: Path, title: str, sections: Sequence[Section], draw: Callable[[bool], Any]
 ) -> Path:
     """Write a document whole or not at all; its figures stand behind the first section.
 
     `draw` makes the figures, by what they are called: narrow ones or those for a whole page.
     """
-    target = checked_output(path, DOCUMENTS)
     if ending_of(target, DOCUMENTS) == ".pdf":
         figures = draw(False).values()
         return replace_whole(target, lambda where: _write_pdf(where, title, sections, figures))
@@ -139,7 +138,7 @@ def _pages(lines: Sequence[str]) -> Iterator["Figure"]:
 
     for start in range(0, len(lines), LINES):
         page = Figure(figsize=PAGE)
-        text = "\n".join(lines[start : start + LINES])
+        text = "\n".join(lines[start : start + LINES]).encode(errors="replace").decode()
         place = MARGIN / PAGE[0], 1.0 - MARGIN / PAGE[1]
         letters: Any = {"family": "monospace", "size": LETTER_SIZE, "parse_math": False}
         page.text(*place, text, va="top", linespacing=1.3, **letters)
