@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 DPI = 200
 PAGE, MARGIN = (210.0 / 25.4, 297.0 / 25.4), 0.75  # A4, in inches
 LETTERS, LINES, LETTER_SIZE = 92, 70, 8.5  # of a page of text
-LONGEST_CELL = 56
+GAP = 2  # letters between columns
 STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; margin: 0 auto;
   max-width: 54rem; padding: 1rem; }
@@ -119,18 +119,16 @@ def _lines(sections: Sequence[Section]) -> Iterator[str]:
 
 
 def _table_lines(table: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield the rows of a table in columns, or cell below cell where they are too wide."""
-    columns = list(zip(*table, strict=True))
-    widths = [min(LONGEST_CELL, max(map(len, column))) for column in columns]
+    """Yield the rows of a table in columns, the widest of them wrapped until all fit."""
+    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+    while sum(widths) + GAP * len(widths) > LETTERS:
+        widths[widths.index(max(widths))] -= 1
     for row in table:
-        if sum(widths) + 2 * len(widths) > LETTERS:
-            yield from wrap("; ".join(cell for cell in row if cell), LETTERS)
-            continue
-        cells = [wrap(cell, width) for cell, width in zip(row, widths, strict=True)]
+        cells = [wrap(cell, max(width, 1)) for cell, width in zip(row, widths, strict=True)]
         for place in range(max(map(len, cells))):
             parts = (cell[place] if place < len(cell) else "" for cell in cells)
             padded = (part.ljust(width) for part, width in zip(parts, widths, strict=True))
-            yield "  ".join(padded).rstrip()
+            yield (GAP * " ").join(padded).rstrip()
 
 
 def _pages(lines: Sequence[str]) -> Iterator["Figure"]:
