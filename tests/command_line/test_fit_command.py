@@ -185,6 +185,11 @@ def test_a_report_tells_its_command(run, tmp_path):
     assert "<title>Rebounds of data.csv</title>" in page
 
 
+def test_a_report_into_a_stream_is_html(run, capfd):
+    code, _, error = run(*GIVEN, "--fix", "restitution=1", "--report", "/dev/stdout")
+    assert code == 0, error
+
+
 def test_a_report_of_another_kind_or_over_the_data_is_refused(refusal):
     assert ".html or .pdf" in refusal(*GIVEN, "--report", "report.docx")
     assert "is also that of" in refusal(*GIVEN, "--report", "a.pdf", "--plot", "a.pdf")

@@ -82,7 +82,7 @@ class ReportedFit(FitRecord, Result):
         return _written(self, checked_output(path, DOCUMENTS), title, command)
 
 
-def _written(fit: ReportedFit, path: str | Path, title: str, command: str) -> Path:
+def _written(fit: ReportedFit, path: Path, title: str, command: str) -> Path:
     """Write the report of a fit, as `ReportedFit.report`."""
     problem = fit._best.model.problem
     level = f"in brackets {100.0 * fit.confidence:g} % intervals"
