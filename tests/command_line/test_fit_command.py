@@ -185,9 +185,12 @@ def test_a_report_tells_its_command(run, tmp_path):
     assert "<title>Rebounds of data.csv</title>" in page
 
 
-def test_a_report_into_a_stream_is_html(run, capfd):
-    code, _, error = run(*GIVEN, "--fix", "restitution=1", "--report", "/dev/stdout")
+def test_a_report_into_a_stream_is_html(run, tmp_path):
+    with (tmp_path / "stream").open("wb") as stream:
+        where = f"/dev/fd/{stream.fileno()}"
+        code, _, error = run(*GIVEN, "--fix", "restitution=1", "--report", where)
     assert code == 0, error
+    assert (tmp_path / "stream").read_bytes().startswith(b"<!DOCTYPE html>")
 
 
 def test_a_report_of_another_kind_or_over_the_data_is_refused(refusal):

@@ -103,13 +103,15 @@ def _written(fit: ReportedFit, path: Path, title: str, command: str) -> Path:
 
 def _figures(fit: ReportedFit, narrow: bool) -> dict[str, Any]:
     """Return the figures: narrow ones, of one response each, or one for a whole page."""
-    problem, dataset = fit._best.model.problem, fit.to_dataset()
+    from carom.plots.fits import plot_fit  # which loads matplotlib
+
     whole = "measured values and the fit"
-    if not narrow or ("loss_law" in dataset and problem.is_normal):
-        return {whole: fit._draw(dataset)}
+    if not narrow or (fit.losses and fit._best.model.problem.is_normal):
+        return {whole: fit.plot()}
+    dataset = fit.to_dataset()
     return {
-        f"{whole}, with residuals: {name}": fit._draw(dataset.sel(response=[name]))
-        for name in problem.responses
+        f"{whole}, with residuals: {name}": plot_fit(dataset.sel(response=[name]))
+        for name in fit._best.model.problem.responses
     }
 
 
