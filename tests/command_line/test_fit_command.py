@@ -1,5 +1,6 @@
 """`carom fit`: what it prints and stores, exit codes, and one clear line for bad input."""
 
+import csv
 import json
 
 import numpy as np
@@ -158,6 +159,43 @@ def test_the_template_is_a_table_once_it_is_filled_in(run, refusal, tmp_path):
     code, out, error = run("fit", "own.csv")
     assert code == 0, error
     assert "8 values of normal_restitution, rebound_angle, spin_out in 3 rows" in out
+
+
+@pytest.mark.parametrize("separator", [",", ";"])
+def test_the_template_survives_a_spreadsheet(run, tmp_path, separator):
+    """Which cuts each line into cells, fills up the rows, and puts in quotes what needs them."""
+    table = run("fit", "--template")[1].replace("10 mm", "2.5 mm")
+    table += "50,2.0,1.0,44.14,-96.2\n60,2.0,1.0,57.0,-74\n70,2.0,-,69.2,-50.6\n"
+    rows = list(csv.reader(table.splitlines()))
+    with (tmp_path / "own.csv").open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, delimiter=separator)
+        writer.writerows([*row, *[""] * (5 - len(row))] for row in rows)
+    code, out, error = run("fit", "own.csv", "--report", "own.html")
+    assert code == 0, error
+    assert "8 values of normal_restitution, rebound_angle, spin_out in 3 rows" in out
+    assert "sphere (steel, R = 2.5 mm) on half-space (steel)" in (tmp_path / "own.html").read_text()
+
+
+def test_a_report_tells_its_command(run, tmp_path):
+    code, _, error = run(*GIVEN, "--fix", "restitution=1", "--report", "out file.html")
+    assert (code, error) == (0, "Carom has stored out file.html.\n")
+    page = (tmp_path / "out file.html").read_text()
+    words = "carom fit data.csv --case ball.toml --fix restitution=1 --report &#x27;out file.html"
+    assert words in page
+    assert "<title>Rebounds of data.csv</title>" in page
+
+
+def test_a_report_into_a_stream_is_html(run, tmp_path):
+    with (tmp_path / "stream").open("wb") as stream:
+        where = f"/dev/fd/{stream.fileno()}"
+        code, _, error = run(*GIVEN, "--fix", "restitution=1", "--report", where)
+    assert code == 0, error
+    assert (tmp_path / "stream").read_bytes().startswith(b"<!DOCTYPE html>")
+
+
+def test_a_report_of_another_kind_or_over_the_data_is_refused(refusal):
+    assert ".html or .pdf" in refusal(*GIVEN, "--report", "report.docx")
+    assert "is also that of" in refusal(*GIVEN, "--report", "a.pdf", "--plot", "a.pdf")
 
 
 def test_the_template_wants_no_data(refusal):

@@ -99,10 +99,11 @@ def check_outputs(outputs: Mapping[str, str | None], **inputs: str | Path | None
 
     Outputs are by what they are for, which says what endings they may have.
     """
-    from carom.io.files import FIGURES, TABLES
+    from carom.io.files import DOCUMENTS, FIGURES, TABLES
     from carom.io.paths import checked_output
 
     figures = {"plot": FIGURES, "posterior": (*TABLES, *FIGURES), "map": (*FIGURES, *TABLES)}
+    figures["report"] = DOCUMENTS
     real: dict[str, str] = {}
     for name, path in {**inputs, **outputs}.items():
         if path is None:

@@ -1,6 +1,7 @@
 """`carom fit`: friction, stiffness and restitution from measured rebounds."""
 
 import json
+import shlex
 from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,7 +10,7 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
-from carom.cli.options import described, file_argument, file_option, whole_option
+from carom.cli.options import ARGUMENTS, described, file_argument, file_option, whole_option
 from carom.cli.tables import table_format_of
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import whole
@@ -47,12 +48,15 @@ OPTIONS = {
     "corner plot (.png, .pdf or .svg).",
     "steps": whole_option("Number of steps for --posterior."),
     "seed": whole_option("Seed of the random numbers for --posterior."),
+    "report": "Write a report to read and to print: .html or .pdf. It holds the figure, and says "
+    "what the uncertainty comes from and what was neglected.",
     "output": "Store data, fit and curves: .csv or .nc.",
 }
 
 
 @described(OPTIONS)
 def fit_command(
+    context: typer.Context,
     data: str | None = None,
     dataset: str | None = None,
     case: str | None = None,
@@ -73,6 +77,7 @@ def fit_command(
     steps: str = "1000",
     seed: str = "0",
     plot: str | None = None,
+    report: str | None = None,
     output: str | None = None,
     as_json: bool = False,
 ) -> None:
@@ -98,6 +103,7 @@ def fit_command(
     Example: carom fit --dataset kharaz2001 --plot kharaz.png
     Your own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
     A sheet with names of your own: carom fit "lab.xlsx:Run 2" --column "Drehzahl [U/min]=spin_out"
+    A report of it: carom fit rebounds.csv --case ball.toml --report report.html
     A plate of unknown thickness: carom fit drops.csv --case ball.toml --thickness "3 mm"
     An empty table: carom fit --template > rebounds.csv
     """
@@ -113,7 +119,7 @@ def fit_command(
         raise refusal("for", about, "it has no effect without --advice; give that, too")
     count = None if advice is None else whole("advice", advice, 1, MOST_LISTED)
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
-    outputs = {"plot": plot, "output": output, "posterior": posterior}
+    outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
     check_outputs(outputs, data=source, case=case)
     how = table_format_of(column, columns, sheet, decimal, save_columns)
     table = read_table(source, **how._asdict())
@@ -127,6 +133,9 @@ def fit_command(
     )
     advised = None if count is None else fit.advice(count, about)
     store(fit, output, plot)
+    if report is not None:
+        command = shlex.join(["carom", "fit", *context.meta[ARGUMENTS]])
+        stored(fit.report(report, f"Rebounds of {Path(source).name}", command))
     if posterior is not None:
         stored(_sampled(fit, posterior, *sampling))
     if as_json:

@@ -11,6 +11,8 @@ from carom.quantities.refusals import InputError
 
 Command = TypeVar("Command", bound=Callable[..., None])
 
+ARGUMENTS = "carom.arguments"  # of a command as they were given, in `meta` of its context
+
 
 def file_option(words: str) -> Any:
     """Return the option of a file that is read; it is a text, as "" is a folder for `Path`."""
@@ -46,7 +48,8 @@ class Once(TyperCommand):
             raise Interrupted(*error.args) from None
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Read the arguments, after a look at how often each option is among them."""
+        """Keep the arguments and read them, after a look at how often each option is there."""
+        ctx.meta[ARGUMENTS] = tuple(args)
         order = self.make_parser(ctx).parse_args(list(args))[2]
         for option, count in Counter(order).items():
             if count > 1 and isinstance(option, TyperOption) and not option.multiple:

@@ -10,7 +10,7 @@ from carom.fitting.estimation import Best
 from carom.fitting.intervals import rise_of
 from carom.fitting.least_squares import jacobian
 from carom.fitting.model import half_ratio
-from carom.fitting.problem import FitProblem, IncomingMotion
+from carom.fitting.problem import OUTLIER, FitProblem, IncomingMotion
 from carom.impacts.curves import REGIMES
 from carom.io.extras import extra
 from carom.io.labels import flags, labelled_dataset
@@ -69,12 +69,15 @@ def _rows(best: Best) -> dict[str, Any]:
     residual = np.where(problem.present, problem.measured - expected, np.nan)
     angle = np.arctan2(problem.contact_velocity, problem.motion.normal_speed)
     deviation = f"standard deviation with the part of the motion before, {OWN}"
+    outlier = (np.abs(best.residuals) > OUTLIER).astype(np.int8)
+    no_or_yes = flags(("no", "yes")) | {"long_name": "whether it is an outlier"}
     return {
         "incidence": _named("row", angle, "incidence of contact point", "rad"),
         "measured": _named(WIDE, problem.measured, f"what was measured, {OWN}"),
         "error": _named(WIDE, error, deviation),
         "expected": _named(WIDE, expected, f"what the fit gives, {OWN}"),
         "residual": _named(WIDE, residual, f"measured less expected, {OWN}"),
+        "outlier": (WIDE, outlier, no_or_yes),
         "regime": ("row", best.model.regimes(best.at), flags(REGIMES)),
     }
 

@@ -11,7 +11,7 @@ import numpy as np
 from carom.bodies.pairs import Pair
 from carom.fitting import plates
 from carom.fitting.advice import Advice, advise
-from carom.fitting.comparison import FitRecord, LossComparison, compare_losses
+from carom.fitting.comparison import LossComparison, compare_losses
 from carom.fitting.datasets import fit_dataset, sample
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
@@ -19,10 +19,11 @@ from carom.fitting.model import Model, half_ratio
 from carom.fitting.options import NAMES
 from carom.fitting.plates import THICKNESS
 from carom.fitting.report import as_text, notes
+from carom.fitting.report_file import ReportedFit
 from carom.impacts.curves import REGIMES
 from carom.io.citations import FITS, PLATE, SAMPLES, VISCOUS, bibtex, with_doi
 from carom.io.progress import Progress
-from carom.plots.result import Result, card
+from carom.plots.result import card
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Fit(FitRecord, Result):
+class Fit(ReportedFit):
     """Parameters from measured rebounds; made by `carom.fit`.
 
     `estimates` holds friction, kappa, chi, restitution and spin_offset by name, and the thickness
@@ -189,11 +190,12 @@ class Fit(FitRecord, Result):
         Returns
         -------
         xarray.Dataset
-            Along (row, response) measured, error, expected and residual in SI units, and regime
-            (row); curve_expected (law, curve, response), curve_low and curve_high (curve, response)
-            over curve_incidence (curve) in rad; border (regime_border) in rad; value, low, high and
-            reason (parameter); aicc (law). Where `losses` is not None: restitution, its error and
-            normal_speed (row), loss_restitution (loss_law, loss_curve) over loss_speed.
+            Along (row, response) measured, error, expected and residual in SI units, outlier (1 for
+            one), and regime (row); curve_expected (law, curve, response), curve_low and curve_high
+            (curve, response) over curve_incidence (curve) in rad; border (regime_border) in rad;
+            value, low, high and reason (parameter); aicc (law). Where `losses` is not None:
+            restitution, its error and normal_speed (row), loss_restitution (loss_law, loss_curve)
+            over loss_speed.
         """
         return fit_dataset(self, self.losses)
 

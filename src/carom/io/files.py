@@ -22,6 +22,7 @@ EXPORTED = (
 )
 LONGEST_TEXT = 1_000_000  # characters
 FIGURES = (".png", ".pdf", ".svg")
+DOCUMENTS = (".html", ".pdf")
 ANIMATIONS = (".gif", ".mp4")
 
 

@@ -19,7 +19,7 @@ from typing import IO, Any
 from carom.quantities.refusals import InputError, refusal, refuse
 
 DESCRIPTOR_FOLDERS = ("/dev/fd", "/proc/self/fd")  # in which a name is an open file
-STREAM_FORMATS = (".csv", ".png", ".gif", ".h")  # if it has no ending
+STREAM_FORMATS = (".csv", ".png", ".gif", ".h", ".html")  # if it has no ending
 PIPE_SECONDS = 5.0  # that somebody has to open the other end of a pipe
 MOST_LINKS = 40  # that are followed, as the system does
 

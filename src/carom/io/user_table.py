@@ -24,6 +24,12 @@ from carom.quantities.texts import UNCHANGED
 from carom.quantities.units import PURE_UNITS, WHY_POSITIVE, factor_of, finite_or_text, number
 
 CASE = "# case:"  # begins a comment that holds the bodies as JSON
+BODIES = {  # comments that hold them one by one, as a spreadsheet leaves them
+    "ball_radius": ("first", "radius"),
+    "ball_material": ("first", "material"),
+    "plate_material": ("second", "material"),
+    "plate_thickness": ("second", "thickness"),
+}
 MOST_NAMED_VALUES, SHOWN_ROWS = 3, 20  # that a message names, print shows
 ERROR = "_error"  # ends the name of a column of standard deviations
 CORRECT_OR_DELETE = "correct or delete it"
@@ -85,9 +91,9 @@ class UserTable(Rows, Printed):
 
     @property
     def case(self) -> Mapping[str, Any] | None:
-        """The bodies as a comment holds them, if any; InputError if that is not JSON."""
+        """The bodies as comments hold them, if any; InputError if one of a case is not JSON."""
         if "case" not in self.comments:
-            return None
+            return self._bodies or None
         try:
             read = json.loads(
                 self.comments["case"],
@@ -99,6 +105,15 @@ class UserTable(Rows, Printed):
             raise
         except (ValueError, TypeError, RecursionError):
             raise InputError(f"results: after '{CASE}' there is no JSON of the bodies") from None
+
+    @property
+    def _bodies(self) -> dict[str, dict[str, str]]:
+        """The bodies that comments of their own hold, without what separates empty cells."""
+        bodies: dict[str, dict[str, str]] = {}
+        for comment, (body, key) in BODIES.items():
+            if comment in self.comments:
+                bodies.setdefault(body, {})[key] = self.comments[comment].rstrip(" \t,;")
+        return bodies
 
     def require(self, *names: str) -> None:
         """Raise InputError for a column that is missing, with the nearest of those there are."""

@@ -16,8 +16,17 @@ from carom.plots.look import Look
 from carom.plots.regimes import REGIMES
 from carom.quantities.glossary import GLOSSARY
 
+ONE_INCIDENCE = 1e-9  # rad, between incidences that are drawn as one
 ACROSS = 2  # responses side by side
 UPPER, LOWER = 48.0, 20.0  # heights of curves and residuals, in mm
+OUTLIERS: Any = {
+    "marker": "o",
+    "ls": "none",
+    "ms": 4.0,
+    "color": style.VERMILION,
+    "mfc": "white",
+    "zorder": 6,
+}
 LAW_STYLES: dict[str, Any] = {
     "exact": {"color": style.BLACK, "lw": 1.3, "zorder": 4},
     "rigid Coulomb": {"color": style.VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},
@@ -40,7 +49,8 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw what was measured against incidence, the fitted curve with its band, and residuals.
 
     Error bars are standard deviations, with the part that comes from the motion before; the band is
-    that of the parameters, to first order. Regimes of the exact law are shaded.
+    that of the parameters, to first order. Regimes of the exact law are shaded. Outliers are marked
+    with their rows; those that would make the others unreadable are triangles at the edge.
 
     Examples
     --------
@@ -66,11 +76,14 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         spare.set_axis_off()
     for column in range(across):
         last = axes[2 * ((len(names) - 1 - column) // across) + 1, column]
-        last.set_xlabel(_incidence(dataset))
+        last.set_xlabel("row" if _is_one(dataset) else _incidence(dataset))
         last.tick_params(labelbottom=True)
     laws: list[Any] = [Line2D([], [], label=law, **stroke) for law, stroke in LAW_STYLES.items()]
     bands = [band.key(name) for name, band in REGIMES.items()]
-    legend_outside(figure, [*laws, *bands], across + 1)
+    if _is_one(dataset):
+        laws, bands = laws[:1], []
+    marks = [Line2D([], [], label="outlier, with its row", **OUTLIERS)]
+    legend_outside(figure, [*laws, *bands, *marks[: int(_outliers(dataset).sum())]], across + 1)
     return figure
 
 
@@ -81,7 +94,8 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw measured restitutions against normal speed, and the laws of losses fitted to them.
 
-    Error bars are standard deviations; of the laws the one that is likeliest comes first.
+    Error bars are standard deviations; of the laws the one that is likeliest comes first. Outliers
+    are marked with their rows.
 
     Examples
     --------
@@ -97,11 +111,13 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     for law in dataset["loss_law"].values:
         curve = dataset["loss_restitution"].sel(loss_law=law)
         axis.plot(dataset["loss_speed"], curve, lw=1.1, label=str(law), **LOSS_STYLES[str(law)])
+    speeds, values = dataset["normal_speed"].values, dataset["restitution"].values
+    outliers = _outliers(dataset).any(axis=1)
+    kept = np.where(outliers, np.nan, values)
     axis.errorbar(
-        *(dataset["normal_speed"], dataset["restitution"], dataset["restitution_error"]),
-        **style.POINTS,
-        label="measured",
+        speeds, kept, dataset["restitution_error"].values, **style.POINTS, label="measured"
     )
+    _mark(axis, speeds[outliers], values[outliers], dataset["row"].values[outliers])
     axis.set(xlabel=style.label("normal_speed"), ylabel=style.label("normal_restitution"))
     axis.legend(loc="best")
     return figure
@@ -126,9 +142,29 @@ def _draw_response(axes: Any, dataset: xr.Dataset, name: str) -> None:
     upper, lower = axes
     data = dataset.sel(response=name)
     scale, unit = _scale(name, data["measured"].values)
-    incidence = np.degrees(data["incidence"].values)
+    if _is_one(dataset):
+        x = data["row"].values
+        upper.plot(x, scale * data["expected"].values, **LAW_STYLES["exact"])
+    else:
+        x = np.degrees(data["incidence"].values)
+        _draw_curves(axes, data, scale)
+    error, outliers = scale * data["error"].values, _outliers(data)
+    for axis, quantity in ((upper, "measured"), (lower, "residual")):
+        axis.margins(y=0.08)
+        values = scale * data[quantity].values
+        kept = np.where(outliers, np.nan, values)
+        axis.errorbar(x, kept, error, zorder=5, **style.POINTS)
+        _mark(axis, x[outliers], values[outliers], data["row"].values[outliers])
+    lower.axhline(0.0, color=style.BLACK, lw=0.6, zorder=1)
+    upper.set_ylabel(_label(name, unit))
+    lower.set_ylabel("residual")
+
+
+def _draw_curves(axes: Any, data: xr.Dataset, scale: float) -> None:
+    """Draw regimes, what laws give against incidence, and the band of the exact one."""
+    upper = axes[0]
     line = np.degrees(data["curve_incidence"].values)
-    ends = np.degrees([0.0, *dataset["border"].values, 0.5 * np.pi])
+    ends = np.degrees([0.0, *data["border"].values, 0.5 * np.pi])
     for axis in axes:
         for regime, start, end in mirrored(REGIMES, ends, line[0], line[-1]):
             shade(axis, start, end, REGIMES[regime])
@@ -136,14 +172,31 @@ def _draw_response(axes: Any, dataset: xr.Dataset, name: str) -> None:
         upper.plot(line, scale * data["curve_expected"].sel(law=law).values, **stroke)
     band = (scale * data[f"curve_{end}"].values for end in ("low", "high"))
     upper.fill_between(line, *band, color="0.4", alpha=0.35, lw=0.0, zorder=2)
-    error = scale * data["error"].values
-    upper.errorbar(incidence, scale * data["measured"].values, error, zorder=5, **style.POINTS)
-    lower.errorbar(incidence, scale * data["residual"].values, error, zorder=5, **style.POINTS)
-    lower.axhline(0.0, color=style.BLACK, lw=0.6, zorder=1)
-    upper.set_ylabel(_label(name, unit))
-    lower.set_ylabel("residual")
-    upper.margins(y=0.08)
     upper.set_xlim(float(line[0]), float(line[-1]))
+
+
+def _is_one(dataset: xr.Dataset) -> bool:
+    """Tell whether all impacts have one incidence, and are drawn row by row."""
+    return bool(np.ptp(dataset["incidence"].values) < ONE_INCIDENCE)
+
+
+def _outliers(data: xr.Dataset) -> Any:
+    """Return which values are outliers; datasets of Carom 0.2 do not tell."""
+    if "outlier" not in data:
+        return np.zeros(data["measured"].shape, dtype=bool)
+    return data["outlier"].values == 1
+
+
+def _mark(axis: Any, x: Any, y: Any, rows: Any) -> None:
+    """Mark outliers with their rows, within the range of the other values and half of it beyond."""
+    low, high = axis.get_ylim()
+    reach = 0.5 * (high - low)
+    for place, value, row in zip(x, y, rows, strict=True):
+        shown = float(np.clip(value, low - reach, high + reach))
+        mark = "o" if shown == value else "^" if value > shown else "v"
+        axis.plot(place, shown, **{**OUTLIERS, "marker": mark})
+        beside: Any = {"textcoords": "offset points", "fontsize": "x-small", "va": "center"}
+        axis.annotate(f"{row}", (place, shown), (4, 0), color=style.VERMILION, **beside)
 
 
 def _scale(name: str, values: Any) -> tuple[float, str]:

@@ -91,14 +91,13 @@ def card(
         f"<div><strong>{escape(title)}</strong>"
         "<div style='display:flex;flex-wrap:wrap;gap:1em;align-items:center'>"
         f"<table style='font-size:90%'>{cells}</table>"
-        f"{_image(title, figure)}</div>{below}</div>"
+        f"{'' if figure is None else image(title, figure)}</div>{below}</div>"
     )
 
 
-def _image(title: str, figure: "Figure | None") -> str:
-    if figure is None:
-        return ""
+def image(title: str, figure: "Figure", dpi: float = DPI) -> str:
+    """Return a figure as an image of HTML that holds its pixels."""
     stream = BytesIO()
-    figure.savefig(stream, format="png", dpi=DPI)
+    figure.savefig(stream, format="png", dpi=dpi)
     data = f"data:image/png;base64,{b64encode(stream.getvalue()).decode('ascii')}"
     return f"<img alt='{escape(title)}' style='max-width:100%;background:white' src='{data}'>"

@@ -1,0 +1,165 @@
+"""The report of a fit: one file that holds everything, safe to open, whole or not at all."""
+
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from tests.checks import refused
+
+import carom
+from carom.plots.fits import plot_fit
+
+BALL = carom.Sphere(radius="10 mm", material="bearing steel")
+PAIR = carom.Pair(BALL, carom.HalfSpace(material="bearing steel"), friction=0.12)
+DEGREES = np.array([5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 50.0, 60.0])
+HOSTILE = "<script>alert(1)</script>&\"'"
+SECTIONS = [
+    "Result",
+    "What the uncertainty comes from",
+    "What was read",
+    "What was neglected",
+    "Notes",
+    "Laws",
+    "To copy into a paper",
+    "How it was made",
+]
+
+
+class Tags(HTMLParser):
+    """The tags of a page, with their attributes, and the text of each heading."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.tags, self.headings, self.open = [], [], []
+        self.feed(page)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+        if tag not in {"meta", "img"}:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] == "h2":
+            self.headings.append(data)
+
+
+@pytest.fixture(scope="module")
+def table():
+    hits = [carom.impact(PAIR, speed=0.6, angle=f"{angle} deg") for angle in DEGREES]
+    noise = np.random.default_rng(3).normal(0.0, 0.4, (2, len(hits)))
+    return {
+        "angle [deg]": DEGREES,
+        "speed [m/s]": np.full(len(hits), 0.6),
+        "rebound_angle [deg]": np.degrees([hit.rebound_angle for hit in hits]) + noise[0],
+        "spin_out": np.array([hit.spin_out for hit in hits]) + noise[1],
+        HOSTILE: np.zeros(len(hits)),
+    }
+
+
+@pytest.fixture(scope="module")
+def outlying(table):
+    """A fit with one spin ten times too large, and an unused column with a hostile head."""
+    spins = np.where(np.arange(len(DEGREES)) == 5, 10.0, 1.0) * table["spin_out"]
+    return carom.fit({**table, "spin_out": spins}, pair=PAIR, fixed={"restitution": 1.0})
+
+
+@pytest.fixture(scope="module")
+def page(outlying, tmp_path_factory):
+    path = tmp_path_factory.mktemp("report") / "report.html"
+    assert outlying.report(path, f"Title {HOSTILE}", f"carom fit {HOSTILE}") == path
+    return path.read_text(encoding="utf-8")
+
+
+def test_all_sections_are_there(page):
+    assert Tags(page).headings == SECTIONS
+
+
+def test_it_stands_alone_without_scripts(page):
+    tags = Tags(page).tags
+    assert not {name for name, _ in tags} & {"script", "link", "iframe", "object", "form", "a"}
+    assert not [key for _, attributes in tags for key in attributes if key.startswith("on")]
+    sources = [attributes["src"] for name, attributes in tags if name == "img"]
+    assert len(sources) == 2
+    assert all(source.startswith("data:image/png;base64,") for source in sources)
+    policy = [a["content"] for name, a in tags if name == "meta" and "content" in a][-1]
+    assert "default-src 'none'" in policy
+    assert "script" not in policy
+
+
+def test_texts_of_the_user_are_escaped(page):
+    assert HOSTILE not in page
+    assert (
+        page.count("&lt;script&gt;alert(1)&lt;/script&gt;") == 4
+    )  # twice the title; note; command
+
+
+def test_it_tells_the_parameters_the_outlier_and_the_sentence(page, outlying):
+    text = re.sub("<[^>]*>", " ", page)
+    assert str(outlying.friction) in text
+    assert "outliers: row 6" in text
+    assert "From 8 rebounds of a sphere (bearing-steel, R = 10 mm)" in text
+    assert "restitution 1 held fixed" in text
+    assert "speed_error, angle_error: none, so they are taken as zero" in text.replace(
+        "angle_error, speed_error", "speed_error, angle_error"
+    )
+    assert "both bodies stay elastic" in text
+
+
+def test_an_outlier_is_marked_and_leaves_the_residuals_readable(outlying):
+    dataset = outlying.to_dataset()
+    row, response = np.argwhere(dataset.outlier.values == 1).T
+    assert [*dataset.row.values[row]] == [6]
+    assert [*dataset.response.values[response]] == ["spin_out"]
+    figure = outlying.plot()
+    residuals = figure.axes[3]
+    others = np.nanmax(np.abs(np.where(dataset.outlier == 1, np.nan, dataset.residual)[:, 1]))
+    error = dataset.error.values[:, 1].max()
+    assert np.ptp(residuals.get_ylim()) < 5.0 * (others + error)
+    assert [text.get_text() for text in residuals.texts] == ["6"]
+    assert "outlier, with its row" in [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_a_fit_stored_by_an_older_version_is_drawn_without_marks(outlying):
+    figure = plot_fit(outlying.to_dataset().drop_vars("outlier"))
+    assert not [text for axis in figure.axes for text in axis.texts]
+
+
+def test_normal_drops_have_a_report_of_the_restitution_alone(tmp_path):
+    heights = {"drop_height": np.full(5, 0.02), "rebound_height": 0.02 * np.linspace(0.8, 0.84, 5)}
+    found = carom.fit(heights, pair=PAIR)
+    page = found.report(tmp_path / "drops.html").read_text()
+    assert "Laws" not in Tags(page).headings
+    assert "From 5 drops of a sphere" in page
+    assert "Maw, Barber &amp; Fawcett" not in page
+    assert found.plot().axes[1].get_xlabel() == "row"
+
+
+def test_a_pdf_has_pages_of_text_and_the_figure(outlying, tmp_path):
+    path = outlying.report(tmp_path / "report.pdf", "Title $x \ud800", "carom fit $")
+    content = path.read_bytes()
+    assert content.startswith(b"%PDF")
+    assert content.count(b"/Type /Page ") == 3
+
+
+def test_another_ending_is_refused_and_nothing_written(outlying, tmp_path):
+    refused(".html or .pdf", outlying.report, tmp_path / "report.docx")
+    refused("title", outlying.report, tmp_path / "report.html", 5)
+    assert not [*tmp_path.iterdir()]
+
+
+def test_a_report_that_fails_leaves_the_old_one(outlying, tmp_path, monkeypatch):
+    old = tmp_path / "report.pdf"
+    old.write_text("old")
+
+    def fail(*_, **__):
+        raise RuntimeError("full")
+
+    monkeypatch.setattr("matplotlib.backends.backend_pdf.PdfPages.savefig", fail)
+    with pytest.raises(RuntimeError, match="full"):
+        outlying.report(old)
+    assert old.read_text() == "old"
+    assert [*tmp_path.iterdir()] == [old]
