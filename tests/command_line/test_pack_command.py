@@ -141,7 +141,7 @@ def test_templates_are_filled_in_and_scored(pack, tmp_path, name):
     with (tmp_path / "mine.csv").open("w", newline="") as file:
         csv.writer(file).writerows([head, *filled])
     assert score(tmp_path / "mine.csv", case=folder / "case.toml", tolerance=1e-8).passed
-    words = "normal_speed_out: not a number"
+    words = "too few points: 0, at least 3 are needed; left out, as nothing was measured after"
     refused(words, score, folder / "results.csv", case=folder / "case.toml")
 
 

@@ -60,7 +60,8 @@ def parted(table: UserTable, faults: Faults | None) -> tuple[UserTable, Mapping[
             continue
         both = {first.removesuffix(ERROR): table.cells[whole], first: table.cells[name]}
         try:
-            later[name] = in_units(replace(table, cells=both), (first,), gaps=AFTERWARDS)[first]
+            alone = replace(table, cells=both)
+            later[name] = in_units(alone, (first,), gaps=AFTERWARDS, whole=True)[first]
         except InputError as fault:
             (faults or Faults()).add(str(fault).replace(first, name))
     kept = {name: cells for name, cells in table.cells.items() if not NUMBERED.fullmatch(name)}

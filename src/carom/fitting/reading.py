@@ -106,7 +106,9 @@ def read_measurements(
     table, later = parted(table, faults)
     ignored = tuple(name for name in others(table, names, faults) if name != TRACK)
     gaps = (*OBSERVABLES, *RECORDED, DURATION)
-    rows = in_units(table, names, [name for name in gaps if name not in NEVER_MISSING], faults)
+    may_miss = [name for name in gaps if name not in NEVER_MISSING]
+    is_series = bool(later) or INTERVAL in table.names  # where an empty row parts two drops
+    rows = in_units(table, names, may_miss, faults, whole=is_series)
     rows, remarks = with_speeds(_from_normal(rows), later)
     return Measurements(_with_magnitudes(rows), ignored, remarks)
 

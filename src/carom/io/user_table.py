@@ -131,7 +131,9 @@ class UserTable(Rows, Printed):
     def require_rows(self, fewest: int) -> None:
         """Raise InputError if there are too few rows."""
         if len(self) < fewest:
-            raise InputError(f"results: too few points: {len(self)}, at least {fewest} are needed")
+            why = "".join(f"; {note}" for note in self.notes)
+            few = f"results: too few points: {len(self)}, at least {fewest} are needed"
+            raise InputError(few + why)
 
     def refuse(self, name: str, bad: Mask, allowed: str) -> None:
         """Add to the faults that a column is bad in some rows, naming them."""
@@ -180,13 +182,18 @@ def _with_unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def in_units(
-    table: UserTable, names: Iterable[str], gaps: Collection[str] = (), faults: Faults | None = None
+    table: UserTable,
+    names: Iterable[str],
+    gaps: Collection[str] = (),
+    faults: Faults | None = None,
+    *,
+    whole: bool = False,
 ) -> UserTable:
     """Return a table with those columns in SI units whose names are known; the others are NaN.
 
     Columns without a unit are SI; heights of drops in files need one. A blank cell, "-", NaN, NA or
     n/a stands for what was not measured: NaN, in columns of `gaps` and of their errors. A row in
-    which none of these columns has a value is left out.
+    which none of these columns has a value is left out, unless the table is to stay whole.
 
     Adds to the faults, which are raised as InputError if they are not given, a cell that is not a
     number, a value that is missing in another column, a unit that does not fit, an error that has
@@ -217,7 +224,8 @@ def in_units(
         except InputError as error:
             read.faults.add(str(error))
             there.remove(name)
-    read = _without_blank_rows(read, wanted)
+    if not whole:
+        read = _without_blank_rows(read, wanted)
     for name in filter(there.__contains__, wanted):
         _check_values(name, read, entry(name) in gaps)
     return read

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -135,12 +136,12 @@ def score(
         _refuse_nan(table, faults)
         quantities = in_units(table, names, (*AFTER, "psi_out"), faults)
         faults.settle()
-        quantities, gaps = _measured(quantities)
+        quantities = _measured(quantities)
         found = SCORERS[kind](quantities, scored_case(case, chi, table.case, restitution), limit)
     most = 1 if kind == "history" else MOST_ORIGINS
     origins, notes = origins_of(quantities, {"code": code, "law": law}, most)
     ignored = (f"columns that were not used: {', '.join(unused)}",) if unused else ()
-    notes = *found.notes, *notes, *gaps, *ignored, *law_notes
+    notes = *found.notes, *notes, *quantities.notes, *ignored, *law_notes
     return Score(kind, limit, found.points, found.audit, notes, found.inputs, found.forces, origins)
 
 
@@ -154,14 +155,14 @@ def _refuse_nan(table: UserTable, faults: Faults) -> None:
             faults.add(f"{spelled(name)}: NaN in {where}; write '-' to leave such rows out")
 
 
-def _measured(quantities: UserTable) -> tuple[UserTable, tuple[str, ...]]:
-    """Return the rows without a gap after the impact, and a note on the others."""
+def _measured(quantities: UserTable) -> UserTable:
+    """Return the rows without a gap after the impact, with a note on the others."""
     after = [quantities[name] for name in ("psi_out", *AFTER) if name in quantities.columns]
     missing = np.any(np.isnan(after), axis=0)
     if not np.any(missing):
-        return quantities, quantities.notes
+        return quantities
     note = f"left out, as nothing was measured after the impact: {quantities.named(missing)}"
-    return quantities.kept(~missing), (*quantities.notes, note)
+    return replace(quantities.kept(~missing), notes=(*quantities.notes, note))
 
 
 def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
