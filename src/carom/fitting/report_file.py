@@ -26,8 +26,8 @@ from carom.quantities.refusals import checked_type
 TITLE = "Parameters from measured rebounds"
 AIR = "no correction is made for drag; a note tells of it where heights show what it takes"
 SHARES = (
-    "Part that the error of each quantity has in the variance of each parameter, to first order. A "
-    "quantity of 75 %, measured without any error, would leave an interval of half the width."
+    "Which part of the variance of a parameter comes from the error of a quantity, to first order. "
+    "Without that error the interval would be half as wide where the part is 75\N{NO-BREAK SPACE}%."
 )
 
 
