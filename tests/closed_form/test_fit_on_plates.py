@@ -11,7 +11,7 @@ import carom
 from carom.fitting import plates
 from carom.fitting.model import EXACT, Model, suited
 from carom.fitting.options import read_options
-from carom.fitting.reading import read_problem
+from carom.fitting.reading import read_problem, read_rebounds
 from carom.impacts.validity import GRAVITY
 
 SEED = 20261126
@@ -183,7 +183,7 @@ def test_regimes_are_those_of_the_impacts():
     angles, speed = np.radians(np.arange(1.0, 80.0)), 0.5
     data = {"speed": np.full(79, speed), "angle": angles}
     data |= observed("rebound_angle", angle=angles, speed=speed)
-    problem = read_problem(data, on_plate())
+    problem = read_problem(read_rebounds(data), on_plate())
     options = read_options(problem, None, None)
     regimes = Model(suited(EXACT, problem), problem, (), options.start).regimes(np.zeros(0))
     for angle, regime in zip(angles, regimes, strict=True):

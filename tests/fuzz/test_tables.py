@@ -5,7 +5,7 @@ import openpyxl
 import pytest
 
 import carom
-from carom.fitting.reading import read_problem
+from carom.fitting.reading import read_problem, read_rebounds
 from carom.io import table_rows
 from carom.io.tables import read_table
 from carom.io.user_table import column_in_si
@@ -34,7 +34,7 @@ def file(tmp_path):
 
 def test_measured_rebounds(calls, pair, file, mutated, answered):
     def read(text):
-        problem = read_problem(file(text), pair, COLUMNS)
+        problem = read_problem(read_rebounds(file(text), columns=COLUMNS), pair)
         assert np.isfinite(problem.measured).sum() == problem.count > 0
         assert all(np.isfinite(values).all() for values in problem.before.values())
 

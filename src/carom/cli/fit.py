@@ -112,7 +112,7 @@ def fit_command(
         return
     from carom.fitting.advice import MOST_LISTED
     from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
-    from carom.io.tables import read_table
+    from carom.fitting.reading import read_rebounds
 
     source = _source(data, dataset)
     if about is not None and advice is None:
@@ -122,7 +122,7 @@ def fit_command(
     outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
     check_outputs(outputs, data=source, case=case)
     how = table_format_of(column, columns, sheet, decimal, save_columns)
-    table = read_table(source, **how._asdict())
+    table = read_rebounds(source, **how._asdict())
     fit = carom.fit(
         table,
         pair=_pair(case, thickness, table),

@@ -11,10 +11,9 @@ from carom.fitting.intervals import settle
 from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
 from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import RobustLoss
-from carom.fitting.reading import read_problem
+from carom.fitting.reading import read_problem, read_rebounds
 from carom.fitting.restrictions import ELASTIC_TAKEN, refuse_contradicted
 from carom.fitting.result import Fit, assembled
-from carom.io.tables import read_table
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
 from carom.quantities.units import Value
@@ -124,7 +123,7 @@ def fit(
     3 mm (2.971 to 3.03)
     """
     level, limited = checked_confidence(confidence), flag("robust", robust)
-    table = read_table(data, columns, sheet=sheet, decimal=decimal)
+    table = read_rebounds(data, columns=columns, sheet=sheet, decimal=decimal)
     problem = read_problem(table, pair)
     options = read_options(problem, vary, fixed)
     check_count(problem, options.free)

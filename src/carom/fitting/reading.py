@@ -54,16 +54,14 @@ NO_BODIES = (
 FAR_OFF = 30.0  # times: a contact time in another unit
 
 
-def read_rebounds(
-    data: Any, columns: Mapping[str, str] | None = None, what: str = "results"
-) -> UserTable:
+def read_rebounds(data: Any, **how: Any) -> UserTable:
     """Return the cells of a table, which may have one column if that is times of bounces."""
     try:
-        return read_table(data, columns, what=what)
+        return read_table(data, **how)
     except InputError:
-        if isinstance(data, str | Path) and os.path.isfile(data):
+        if isinstance(data, str | Path) and os.path.isfile(data):  # it can be read again
             with suppress(InputError):
-                table = read_table(data, columns, what=what, fewest=1)
+                table = read_table(data, fewest=1, **how)
                 if len(table.names) == 1 and base(table.names[0]) in (INTERVAL, TIME):
                     return table
         raise
@@ -78,11 +76,8 @@ def case_of_data(data: Any) -> Mapping[str, Any]:
     return case
 
 
-def read_problem(
-    data: Any, pair: Pair | None, columns: Mapping[str, str] | None = None
-) -> FitProblem:
+def read_problem(table: UserTable, pair: Pair | None) -> FitProblem:
     """Return what was measured, or raise InputError for all that cannot be used."""
-    table = read_rebounds(data, columns)
     with Faults() as faults:
         return _problem(table, pair, faults)
 
