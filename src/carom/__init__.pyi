@@ -28,7 +28,7 @@ from .dimensionless.numerics.shared_library import (
 )
 from .dimensionless.rebounds import rebound as rebound
 from .dimensionless.solution import solve as solve
-from .fitting import fit as fit
+from .fitting import fit as fit, joint_fit as joint_fit
 from .fitting.tracks import track as track
 from .impacts.boundary_elements import BoundaryElements as BoundaryElements
 from .impacts.curves import curve as curve, regime_map as regime_map

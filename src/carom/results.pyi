@@ -3,7 +3,7 @@ from .contacts.contact import Contact as Contact
 from .contacts.load_paths import LoadPath as LoadPath
 from .dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution as ViscoelasticSolution
 from .dimensionless.solution import Solution as Solution
-from .fitting import Estimate as Estimate, Fit as Fit
+from .fitting import Estimate as Estimate, Fit as Fit, JointFit as JointFit
 from .impacts.adhesive import AdhesiveImpact as AdhesiveImpact
 from .impacts.boundary_elements import HalfspaceImpact as HalfspaceImpact
 from .impacts.exact import Impact as Impact

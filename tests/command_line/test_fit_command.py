@@ -200,3 +200,35 @@ def test_a_report_of_another_kind_or_over_the_data_is_refused(refusal):
 
 def test_the_template_wants_no_data(refusal):
     assert "prints an empty table" in refusal("fit", "data.csv", "--template")
+
+
+def test_two_files_are_compared(run, tmp_path, table):
+    """One case for both; without an own restitution, and with a friction that both share."""
+    (tmp_path / "other.csv").write_text(table)
+    both = ("fit", "data.csv", "other.csv", "--case", "ball.toml", "--fix", "restitution=1")
+    assert "other.csv less data.csv: 0 (" in run(*both)[1]
+    result = json.loads(run(*both, "--share", "friction", "--json")[1])
+    assert result["shared"] == ["friction"]
+    assert result["agreement"] == pytest.approx(1.0, abs=1e-3)
+    assert [*result["differences"]] == ["kappa", "chi"]
+    values = [each["parameters"]["friction"]["value"] for each in result["sets"].values()]
+    assert values[0] == values[1] == pytest.approx(MU, rel=0.1)
+    run(*both, "--plot", "sets.png", "--output", "sets.csv")
+    assert (tmp_path / "sets.png").exists()
+    assert (tmp_path / "sets.csv").exists()
+
+
+def test_faults_of_several_files_are_told_together(refusal, tmp_path):
+    (tmp_path / "bad.csv").write_text("angle [deg],spin_out\n95,2\n10,x\n")
+    line = refusal("fit", "bad.csv", "none.csv", "--case", "ball.toml")
+    assert "B3" in line
+    assert "none.csv" in line
+    line = refusal("fit", "data.csv", "bad.csv", "--case", "ball.toml")
+    assert "bad.csv" in line
+    assert "B3" in line
+    line = refusal("fit", "data.csv", "bad.csv", "--report", "a.html", "--advice", "3")
+    assert "report" in line
+    assert "advice" in line
+    words = refusal("fit", "data.csv", "bad.csv", *(3 * ("--case", "ball.toml")))
+    assert "3 for 2 files" in words
+    assert "several files" in refusal(*GIVEN, "--share", "friction")

@@ -2,9 +2,10 @@
 
 import json
 import shlex
+from collections.abc import Mapping, Sequence
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -12,23 +13,26 @@ import carom
 from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
 from carom.cli.options import ARGUMENTS, described, file_argument, file_option, whole_option
 from carom.cli.tables import table_format_of
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import Faults, InputError, refusal, refuse
 from carom.quantities.units import whole
 
 if TYPE_CHECKING:
     from carom.bodies.pairs import Pair
-    from carom.fitting import Fit
-    from carom.io.user_table import UserTable
+    from carom.fitting import Fit, JointFit
+    from carom.io.heads import TableFormat
 
-
+ONE_SET = "it is of one set of data; give one file"
 OPTIONS = {
     "data": file_argument(
-        "CSV file or spreadsheet with one impact per row and units in its head, e.g. 'angle [deg]'."
+        "CSV file or spreadsheet with one impact per row and units in its head, e.g. 'angle "
+        "[deg]'. Of several files the parameters are compared."
     ),
     "dataset": "Published measurements that come with Carom, e.g. kharaz2001, instead.",
     "case": file_option(
-        "Case file, as for carom impact, with the bodies; needed if the data hold none."
+        "Case file, as for carom impact, with the bodies; needed if the data hold none. For "
+        "several files give one for all, or repeat this option for one after the other."
     ),
+    "share": "Parameters, separated by commas, that are the same in several files.",
     "thickness": "Thickness of the plate that is struck, e.g. '3 mm' [m], in place of that of the "
     "case; where it is fitted, that to begin with.",
     "vary": "Parameters to fit, separated by commas, of friction, kappa (or chi), restitution, "
@@ -57,11 +61,12 @@ OPTIONS = {
 @described(OPTIONS)
 def fit_command(
     context: typer.Context,
-    data: str | None = None,
+    data: list[str] | None = None,
     dataset: str | None = None,
-    case: str | None = None,
+    case: list[str] | None = None,
     thickness: str | None = None,
     vary: str | None = None,
+    share: str | None = None,
     fix: list[str] | None = None,
     confidence: str = "0.95",
     column: list[str] | None = None,
@@ -103,39 +108,49 @@ def fit_command(
     Example: carom fit --dataset kharaz2001 --plot kharaz.png
     Your own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
     A sheet with names of your own: carom fit "lab.xlsx:Run 2" --column "Drehzahl [U/min]=spin_out"
+    Two materials compared: carom fit steel.csv brass.csv --case ball.toml --share friction
     A report of it: carom fit rebounds.csv --case ball.toml --report report.html
     A plate of unknown thickness: carom fit drops.csv --case ball.toml --thickness "3 mm"
     An empty table: carom fit --template > rebounds.csv
     """
     if template:
-        _tell_template(data or dataset, as_json)
+        _tell_template(data[0] if data else dataset, as_json)
         return
     from carom.fitting.advice import MOST_LISTED
     from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
-    from carom.fitting.reading import read_rebounds
 
-    source = _source(data, dataset)
+    sources = _sources(data, dataset)
     if about is not None and advice is None:
         raise refusal("for", about, "it has no effect without --advice; give that, too")
     count = None if advice is None else whole("advice", advice, 1, MOST_LISTED)
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
     outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
-    check_outputs(outputs, data=source, case=case)
-    how = table_format_of(column, columns, sheet, decimal, save_columns)
-    table = read_rebounds(source, **how._asdict())
-    fit = carom.fit(
-        table,
-        pair=_pair(case, thickness, table),
-        vary=None if vary is None else [name.strip() for name in vary.split(",")],
-        fixed=named_values("fix", fix, "restitution=0.98"),
-        robust=not squares,
-        confidence=confidence,
+    check_outputs(
+        outputs, **_numbered("data", sources), **_numbered("case", [*dict.fromkeys(case or [])])
     )
+    how = table_format_of(column, columns, sheet, decimal, save_columns)
+    options: dict[str, Any] = {
+        "vary": None if vary is None else [name.strip() for name in vary.split(",")],
+        "fixed": named_values("fix", fix, "restitution=0.98"),
+        "robust": not squares,
+        "confidence": confidence,
+    }
+    if len(sources) > 1:
+        alone = {"advice": advice, "posterior": posterior, "report": report}
+        refuse(*(text and refusal(name, text, ONE_SET) for name, text in alone.items()))
+        joint = _joint_fit(sources, case or [], thickness, _names(share), how, options)
+        store(joint, output, plot)
+        typer.echo(json.dumps(joint.to_dict(), indent=2) if as_json else str(joint))
+        return
+    many = "of one file; give several files, or leave it out"
+    refuse(share and refusal("share", share, many), case and case[1:] and f"case: {many}")
+    pair = _pair(case[0] if case else None, thickness, sources[0], how)
+    fit = carom.fit(sources[0], pair=pair, **how._asdict(), **options)
     advised = None if count is None else fit.advice(count, about)
     store(fit, output, plot)
     if report is not None:
         command = shlex.join(["carom", "fit", *context.meta[ARGUMENTS]])
-        stored(fit.report(report, f"Rebounds of {Path(source).name}", command))
+        stored(fit.report(report, f"Rebounds of {Path(sources[0]).name}", command))
     if posterior is not None:
         stored(_sampled(fit, posterior, *sampling))
     if as_json:
@@ -143,6 +158,40 @@ def fit_command(
         typer.echo(json.dumps(fit.to_dict() | extra, indent=2))
     else:
         typer.echo("\n".join(str(part) for part in (fit, advised) if part is not None))
+
+
+def _names(text: str | None) -> list[str]:
+    return [name.strip() for name in (text or "").split(",") if name.strip()]
+
+
+def _numbered(name: str, paths: Sequence[str | Path]) -> dict[str, str | Path]:
+    """Return files by names: data, data 2, data 3."""
+    return {name if place == 1 else f"{name} {place}": path for place, path in enumerate(paths, 1)}
+
+
+def _joint_fit(
+    sources: Sequence[str | Path],
+    cases: Sequence[str],
+    thickness: str | None,
+    share: Sequence[str],
+    how: "TableFormat",
+    options: Mapping[str, Any],
+) -> "JointFit":
+    """Return the fit of several files."""
+    from carom.fitting.joint_result import named_sets
+
+    sets = named_sets(sources)
+    own: Sequence[str | None] = (
+        cases if len(cases) > 1 else (*cases,) * len(sets) or (None,) * len(sets)
+    )
+    few = f"case: {len(cases)} for {len(sets)} files; give one for all, or one for each"
+    refuse(len(own) != len(sets) and few)
+    pairs = []
+    with Faults() as faults:
+        for (name, source), case in zip(sets.items(), own, strict=True):
+            with faults.of(name):
+                pairs.append(_pair(case, thickness, source, how))
+    return carom.joint_fit(sets, share=share, pair=pairs, **how._asdict(), **options)
 
 
 def _tell_template(source: str | None, as_json: bool) -> None:
@@ -153,21 +202,23 @@ def _tell_template(source: str | None, as_json: bool) -> None:
     typer.echo(json.dumps({"template": TEMPLATE}) if as_json else TEMPLATE, nl=as_json)
 
 
-def _source(data: str | None, dataset: str | None) -> str | Path:
-    if (data is None) == (dataset is None):
+def _sources(data: Sequence[str] | None, dataset: str | None) -> Sequence[str | Path]:
+    if bool(data) == (dataset is not None):
         names = ", ".join(carom.datasets.names())
         raise InputError(f"data: give a file, or --dataset with one of {names}")
-    return data if data is not None else carom.datasets.path(str(dataset))
+    return data or [carom.datasets.path(str(dataset))]
 
 
-def _pair(case: str | None, thickness: str | None, table: "UserTable") -> "Pair | None":
+def _pair(
+    case: str | None, thickness: str | None, source: str | Path, how: "TableFormat"
+) -> "Pair | None":
     """Return the bodies of a case file, or of the data if these get another thickness."""
     from carom.bodies.cases import LOSSES, RATIO, pair_of
     from carom.fitting.reading import START_FRICTION, case_of_data
 
     if case is None and thickness is None:
         return None
-    content = case_of_data(table) if case is None else read_case_file(case, losses=True)
+    content = case_of_data(source, how) if case is None else read_case_file(case, losses=True)
     if thickness is not None:
         content = {**content, "second": {**content.get("second", {}), "thickness": thickness}}
     hint = "a fit finds the restitution; if you know it, leave it out of the case and give --fix, "

@@ -1,24 +1,31 @@
 """Parameters from measured rebounds: friction, stiffness ratio, restitution, with intervals."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from math import inf
 from pathlib import Path
 from typing import Any
 
 from carom.bodies.pairs import Pair
 from carom.fitting.estimates import Estimate
-from carom.fitting.intervals import settle
+from carom.fitting.intervals import Settled, settle
+from carom.fitting.joint_result import JointFit, jointly_assembled, named_sets
 from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
-from carom.fitting.options import check_count, checked_confidence, read_options
+from carom.fitting.options import (
+    Options,
+    check_count,
+    checked_confidence,
+    read_options,
+    read_shared,
+)
 from carom.fitting.problem import RobustLoss
 from carom.fitting.reading import read_problem, read_rebounds
-from carom.fitting.restrictions import ELASTIC_TAKEN, refuse_contradicted
+from carom.fitting.restrictions import refuse_contradicted
 from carom.fitting.result import Fit, assembled
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import flag
+from carom.quantities.refusals import Faults, flag, refuse
 from carom.quantities.units import Value
 
-__all__ = ["Estimate", "Fit", "fit"]
+__all__ = ["Estimate", "Fit", "JointFit", "fit", "joint_fit"]
 
 
 @known_keywords
@@ -123,15 +130,89 @@ def fit(
     3 mm (2.971 to 3.03)
     """
     level, limited = checked_confidence(confidence), flag("robust", robust)
-    table = read_rebounds(data, columns=columns, sheet=sheet, decimal=decimal)
-    problem = read_problem(table, pair)
+    how = {"columns": columns, "sheet": sheet, "decimal": decimal}
+    settled, options = _settled(data, pair, vary, fixed, limited, how)
+    return assembled(settled, level, options.taken)
+
+
+@known_keywords
+def joint_fit(
+    data: Mapping[str, Any] | Sequence[Any],
+    *,
+    share: Collection[str] | str = (),
+    pair: Pair | Sequence[Pair | None] | None = None,
+    vary: Collection[str] | str | None = None,
+    fixed: Mapping[str, Any] | None = None,
+    robust: bool = True,
+    confidence: Value = 0.95,
+    columns: Mapping[str, str] | str | Path | None = None,
+    sheet: str | None = None,
+    decimal: str | None = None,
+) -> JointFit:
+    """Return fits of several sets of rebounds, which may share parameters, and their differences.
+
+    The losses of all sets, each as in `fit`, are added and made least together. What the sets do
+    not share, each has for itself, as the scatter of its quantities.
+
+    Parameters
+    ----------
+    data : sequence or mapping
+        Files or other tables, as for `fit`; of a mapping the keys name the sets.
+    share : names, optional
+        Parameters that are the same in all sets, of those that are varied; by default none.
+    pair : Pair or sequence, optional
+        The bodies, of all sets or of one after the other.
+    vary, fixed, robust, confidence, columns, sheet, decimal
+        As for `fit`, the same for all sets.
+
+    Returns
+    -------
+    JointFit
+        `fits` has a `Fit` for each set; `difference` compares two of them; `agreement` judges what
+        is shared.
+
+    Raises
+    ------
+    InputError
+        As for `fit`, for all sets at once; or if a shared parameter is not varied in one of them.
+
+    Examples
+    --------
+    >>> slow = {"angle [deg]": [20, 45, 60, 70], "impulse_ratio": [0.19, 0.21, 0.2, 0.2]}
+    >>> fast = {"angle [deg]": [25, 50, 60, 75], "impulse_ratio": [0.2, 0.21, 0.19, 0.2]}
+    >>> both = carom.joint_fit([slow, fast], pair=pair, share="friction", fixed={"restitution": 1})
+    >>> print(both.verdict)
+    the sets agree in friction (p = 1)
+    """
+    level, limited = checked_confidence(confidence), flag("robust", robust)
+    sets = named_sets(data)
+    pairs = list(pair) if isinstance(pair, Sequence) else [pair] * len(sets)
+    refuse(len(pairs) != len(sets) and f"pair: {len(pairs)} of {len(sets)}; give one for each set")
+    how = {"columns": columns, "sheet": sheet, "decimal": decimal}
+    alone: list[tuple[Settled, Options]] = []
+    with Faults() as faults:
+        for (name, each), own in zip(sets.items(), pairs, strict=True):
+            with faults.of(name):
+                alone.append(_settled(each, own, vary, fixed, limited, how))
+    return jointly_assembled([*sets], alone, read_shared(share, [o.free for _, o in alone]), level)
+
+
+def _settled(
+    data: Any,
+    pair: Pair | None,
+    vary: Collection[str] | str | None,
+    fixed: Mapping[str, Any] | None,
+    limited: bool,
+    how: Mapping[str, Any],
+) -> tuple[Settled, Options]:
+    """Return the best fit of one set of data, and what was varied."""
+    problem = read_problem(read_rebounds(data, **how), pair)
     options = read_options(problem, vary, fixed)
     check_count(problem, options.free)
     turns = OFFSET in options.free or options.start[OFFSET]
     law = STRAIGHT if problem.is_normal and not turns else EXACT
     model = Model(suited(law, problem), problem, (), options.start).freeing(options.free)
-    loss = RobustLoss() if limited else RobustLoss(inf)
-    settled = settle(model, loss, options.start)
+    settled = settle(model, RobustLoss() if limited else RobustLoss(inf), options.start)
     if options.takes_elastic:
         refuse_contradicted(settled.whole)
-    return assembled(settled, level, (ELASTIC_TAKEN,) if options.takes_elastic else ())
+    return settled, options

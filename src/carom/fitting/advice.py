@@ -83,7 +83,7 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
     place = best.model.free.index(name)
     gains, regimes = _candidates(best)
     free = len(best.model.free)
-    root = _joined(np.sqrt(PRIOR) * np.eye(free), best.information.slopes.reshape(-1, free))
+    root = _joined(np.sqrt(PRIOR) * np.eye(free), best.information.all_slopes)
     now = _variance(root, place)
     needed = _needed(root, gains, place)
     places = [
@@ -113,7 +113,8 @@ def _with_all(fit: FitRecord) -> Best:
     if not missing:
         return best
     model = best.model.freeing(missing)
-    return replace(best, model=model, at=np.clip(model.coordinates(best.values), *model.bounds))
+    at = np.clip(model.coordinates(best.values), *model.bounds)
+    return replace(best, model=model, at=at, elsewhere=None)
 
 
 def _wanted(fit: FitRecord, best: Best, parameter: str | None) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 from carom.fitting.estimation import Best
 from carom.quantities.arrays import Array
 
+ELSEWHERE = "the other data"
 NEAR_ZERO = 1e-6  # of a residual, below which its root loss is taken to be linear
 
 
@@ -35,6 +36,9 @@ def budget(best: Best) -> Budget:
         whitened = slope * np.einsum("rij,rj->ri", best.weights.factors, errors)
         names.append(name)
         squares.append(np.square(np.einsum("rj,rjp->rp", whitened, gain)).sum(axis=0))
+    if best.elsewhere is not None:
+        names.append(ELSEWHERE)
+        squares.append(np.square(best.elsewhere @ best.information.covariance).sum(axis=0))
     parts = np.reshape(squares, (len(names), len(best.model.free)))
     return Budget(tuple(names), best.model.free, parts / parts.sum(axis=0))
 

@@ -16,6 +16,7 @@ from carom.io.extras import extra
 from carom.io.labels import flags, labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array
+from carom.quantities.refusals import refuse
 from carom.quantities.units import counted
 
 if TYPE_CHECKING:
@@ -178,6 +179,7 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     if seed is not None:
         counted("seed", seed, 0, MOST_SEED)
     best = fit._best
+    refuse(best.elsewhere is not None and "posterior: not of sets that share parameters; fit alone")
     low, high = best.model.bounds
     residuals = best.model.residuals(best.weights, best.loss)
     stopped: list[BaseException] = []

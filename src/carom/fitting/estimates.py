@@ -55,9 +55,14 @@ class Estimate(Printed):
         return not isnan(self.low)
 
     @property
+    def limits(self) -> tuple[float, float]:
+        """The least and the largest value that is possible at all."""
+        return LIMITS[self.name]
+
+    @property
     def open(self) -> bool:
         """Whether an end of the interval is open."""
-        lowest, highest = LIMITS[self.name]
+        lowest, highest = self.limits
         return self.determined and (self.low == lowest or self.high == highest)
 
     def to_dict(self) -> dict[str, Any]:
@@ -67,7 +72,7 @@ class Estimate(Printed):
         return {**numbers, "determined": self.determined, "reason": self.reason}
 
     def __str__(self) -> str:
-        (lowest, highest), quantity = LIMITS[self.name], GLOSSARY[self.name]
+        (lowest, highest), quantity = self.limits, GLOSSARY[self.name]
         if self.reason:
             return f"not determined: {self.reason}"
         if not self.determined:

@@ -1,7 +1,7 @@
 """The best fit: a scan, descents, errors from the scatter, lmfit; what the values tell."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from typing import Any, NamedTuple
@@ -21,14 +21,24 @@ WEAK = 0.3  # standard deviations by which a coordinate changes the values, too 
 
 @dataclass(frozen=True, eq=False)
 class Information:
-    """Derivatives of residuals, of shape (rows, responses, parameters), in standard deviations."""
+    """Derivatives of residuals, of shape (rows, responses, parameters), in standard deviations.
+
+    `elsewhere`, of shape (values, parameters), are those of other data with the same parameters.
+    """
 
     slopes: Array
+    elsewhere: Array | None = None
+
+    @property
+    def all_slopes(self) -> Array:
+        """The derivatives of all values, of shape (values, parameters)."""
+        own = self.slopes.reshape(-1, self.slopes.shape[-1])
+        return own if self.elsewhere is None else np.concatenate([own, self.elsewhere])
 
     @cached_property
     def matrix(self) -> Array:
         """Fisher's information, of shape (parameters, parameters)."""
-        return np.asarray(np.einsum("rjp,rjq->pq", self.slopes, self.slopes))
+        return np.asarray(self.all_slopes.T @ self.all_slopes)
 
     @cached_property
     def covariance(self) -> Array:
@@ -72,7 +82,8 @@ class Best:
     """A model fitted: coordinates, loss there, and the errors that were used.
 
     `estimated` tells of which responses the errors come from the scatter, `scale` by how much
-    errors that were given had to be made larger, `others` where descents from other starts ended.
+    errors that were given had to be made larger, `others` where descents from other starts ended,
+    `elsewhere` what other data tell (`Information`).
     """
 
     model: Model
@@ -85,6 +96,7 @@ class Best:
     estimated: Mask
     others: Array
     result: Any = None
+    elsewhere: Array | None = None
 
     @property
     def values(self) -> dict[str, float]:
@@ -110,7 +122,8 @@ class Best:
     @cached_property
     def information(self) -> Information:
         """What the values tell of the free parameters."""
-        return information(self.model, self.at, self.weights, self.loss)
+        own = information(self.model, self.at, self.weights, self.loss)
+        return replace(own, elsewhere=self.elsewhere)
 
     @property
     def freedom(self) -> Array:

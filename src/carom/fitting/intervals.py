@@ -10,7 +10,7 @@ from scipy.special import ndtri, stdtrit
 from carom.dimensionless.rebounds import THROUGHOUT
 from carom.fitting.estimation import WEAK, Best, Information, estimate
 from carom.fitting.least_squares import descend
-from carom.fitting.model import OFFSET, Model
+from carom.fitting.model import OFFSET, Model, plain
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import RobustLoss
 from carom.fitting.restrictions import within_elastic_range
@@ -148,14 +148,22 @@ class Settled:
 def settle(model: Model, loss: RobustLoss, start: Mapping[str, float]) -> Settled:
     """Fit, and hold one parameter after the other until the data tell all that are free."""
     unbounded = estimate(model, loss)
-    whole = best = within_elastic_range(unbounded)
+    whole = within_elastic_range(unbounded)
+    return Settled(*without_weak(whole, start), whole, unbounded)
+
+
+def without_weak(
+    whole: Best, start: Mapping[str, float]
+) -> tuple[Best, tuple[tuple[str, ...], ...]]:
+    """Return the fit with one parameter after the other held, and the groups that are not told."""
+    best = whole
     groups: list[tuple[str, ...]] = []
     while group := weak_group(best.information, best.model.free):
         groups.append(group)
         if len(best.model.free) == 1:
             break
         best = _held(best, group, start[group[0]])
-    return Settled(best, tuple(groups), whole, unbounded)
+    return best, tuple(groups)
 
 
 def weak_group(information: Information, names: tuple[str, ...]) -> tuple[str, ...]:
@@ -169,7 +177,7 @@ def weak_group(information: Information, names: tuple[str, ...]) -> tuple[str, .
     if sizes[0] >= max(WEAK**2, ROUNDED * sizes[-1]):
         return ()
     members = [n for n, part in zip(names, directions[:, 0], strict=True) if abs(part) > LEAST_PART]
-    return tuple(sorted(members, key=HELD_FIRST.index))
+    return tuple(sorted(members, key=lambda name: HELD_FIRST.index(plain(name))))
 
 
 def _held(best: Best, group: tuple[str, ...], start: float) -> Best:

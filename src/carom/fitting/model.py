@@ -3,7 +3,7 @@
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,9 +33,9 @@ class Parameter(NamedTuple):
     high: float
     scale: float | None = 1.0  # None: logarithmic
 
-    def coordinate(self, value: float) -> float:
-        """Return what is varied in place of a value."""
-        return float(np.log(value)) if self.scale is None else value / self.scale
+    def coordinate(self, value: Any) -> Any:
+        """Return what is varied in place of a value, or of an array of them."""
+        return np.log(value) if self.scale is None else value / self.scale
 
     def value(self, coordinate: Array) -> Array:
         """Return the values of coordinates."""
@@ -45,8 +45,8 @@ class Parameter(NamedTuple):
 class Thickness(Parameter):
     """A thickness h, of which -(scale/h)^2 is varied: e is nearly linear in it."""
 
-    def coordinate(self, value: float) -> float:
-        """Return what is varied in place of a value."""
+    def coordinate(self, value: Any) -> Any:
+        """Return what is varied in place of a value, or of an array of them."""
         return -(((self.scale or 1.0) / value) ** 2)
 
     def value(self, coordinate: Array) -> Array:
@@ -298,6 +298,11 @@ class Model:
         """Return the model with some of the parameters that are held free."""
         held = {name: value for name, value in self.held.items() if name not in names}
         return replace(self, free=(*self.free, *names), held=held)
+
+
+def plain(name: str) -> str:
+    """Return the name of a parameter without the number of its set, which a joint fit adds."""
+    return name.rstrip("_0123456789")
 
 
 def offset_parameter(problem: FitProblem) -> Parameter:

@@ -11,6 +11,7 @@ from carom.fitting import plates
 from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged, suited
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import FitProblem
+from carom.fitting.restrictions import ELASTIC_TAKEN
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, checked_type, clipped, nearest, refusal
 from carom.quantities.units import number
@@ -30,6 +31,11 @@ class Options(NamedTuple):
     free: tuple[str, ...]
     start: Mapping[str, float]
     takes_elastic: bool
+
+    @property
+    def taken(self) -> tuple[str, ...]:
+        """Notes on what is taken for granted."""
+        return (ELASTIC_TAKEN,) if self.takes_elastic else ()
 
 
 def read_options(
@@ -165,6 +171,17 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
             raise refusal(f"fixed {name}", value, allowed)
         held[name] = si
     return held
+
+
+def read_shared(share: Collection[str] | str, free: Sequence[Collection[str]]) -> tuple[str, ...]:
+    """Return the parameters that sets share, of those free in each, or raise InputError."""
+    names = [share] if isinstance(share, str) else list(share)
+    for name in names:
+        common = [each for each in free[0] if all(each in own for own in free)]
+        if name not in common:
+            hint = f"all sets vary {', '.join(common) or 'nothing in common'}"
+            raise refusal("share", name, f"{hint}; chi is shared with kappa")
+    return tuple(dict.fromkeys(names))
 
 
 def _check_name(where: str, name: Any, problem: FitProblem) -> None:

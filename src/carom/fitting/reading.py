@@ -30,6 +30,7 @@ from carom.fitting.bounces import (
 )
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import NO_SPEED, FitProblem, IncomingMotion
+from carom.io.heads import TableFormat
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
@@ -67,9 +68,9 @@ def read_rebounds(data: Any, **how: Any) -> UserTable:
         raise
 
 
-def case_of_data(data: Any) -> Mapping[str, Any]:
+def case_of_data(data: Any, how: TableFormat) -> Mapping[str, Any]:
     """Return the case that stands in the data, or raise InputError if there is none."""
-    case = read_rebounds(data).case
+    case = read_rebounds(data, **how._asdict()).case
     if case is None:
         raise InputError(NO_BODIES)
     check_case(case)

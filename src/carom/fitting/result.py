@@ -260,12 +260,17 @@ class Fit(ReportedFit):
         return "\n".join([as_text(self), *([str(self.losses)] if self.losses else [])])
 
 
-def assembled(settled: Settled, confidence: float, taken: tuple[str, ...] = ()) -> Fit:
+def assembled(
+    settled: Settled,
+    confidence: float,
+    taken: tuple[str, ...] = (),
+    profile: ProfiledFit | None = None,
+) -> Fit:
     """Return the result of a fit: intervals, what is not determined, regimes, notes.
 
-    `taken` are notes on what was taken for granted.
+    `taken` are notes on what was taken for granted, `profile` the intervals if they are known.
     """
-    profile = profiled(settled.best, confidence)
+    profile = profile or profiled(settled.best, confidence)
     best, model = profile.best, profile.best.model
     estimates = {name: estimate_of(profile, name) for name in best.values}
     for name in model.free:

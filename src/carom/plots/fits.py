@@ -19,6 +19,7 @@ from carom.quantities.glossary import GLOSSARY
 ONE_INCIDENCE = 1e-9  # rad, between incidences that are drawn as one
 ACROSS = 2  # responses side by side
 UPPER, LOWER = 48.0, 20.0  # heights of curves and residuals, in mm
+PER_SET = 8.0  # height of a set in mm
 OUTLIERS: Any = {
     "marker": "o",
     "ls": "none",
@@ -120,6 +121,32 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     _mark(axis, speeds[outliers], values[outliers], dataset["row"].values[outliers])
     axis.set(xlabel=style.label("normal_speed"), ylabel=style.label("normal_restitution"))
     axis.legend(loc="best")
+    return figure
+
+
+@draws(
+    "parameters of several sets, what carom.joint_fit(...).to_dataset() returns",
+    *("value", "low", "high"),
+    along=("set", "parameter"),
+)
+def plot_sets(dataset: Drawable, **look: Unpack[Look]) -> Figure:
+    """Draw the parameters of several sets of data with their intervals, one below the other."""
+    names = [str(name) for name in dataset["parameter"].values]
+    sets = [str(name) for name in dataset["set"].values]
+    size = style.DOUBLE, 18.0 + PER_SET * len(sets)
+    figure, axes = style.new_figure(1, len(names), width=size[0], height=size[1], sharey=True)
+    places = np.arange(len(sets))[::-1]
+    for axis, name in zip(axes.flat, names, strict=True):
+        own = dataset.sel(parameter=name)
+        scale, unit = _scale(name, own["value"].values)
+        value, low, high = (scale * own[key].values for key in ("value", "low", "high"))
+        seen = np.isfinite(low)
+        reach = np.where(np.isfinite(high), high, value)
+        bars = np.stack([value - low, reach - value])[:, seen]
+        axis.errorbar(value[seen], places[seen], xerr=bars, **style.POINTS)
+        axis.set(xlabel=_label(name, unit), yticks=places, ylim=(-0.6, len(sets) - 0.4))
+        axis.set_yticklabels(sets)
+        axis.locator_params(axis="x", nbins=4)
     return figure
 
 

@@ -3,7 +3,8 @@
 Of a file all faults are said in one message, instead of one a run.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 from reprlib import Repr
 from typing import Any, Self, TypeVar
@@ -130,6 +131,14 @@ class Faults:
     def __enter__(self) -> Self:
         self._collecting = True
         return self
+
+    @contextmanager
+    def of(self, name: str) -> Iterator[None]:
+        """Collect what is wrong inside this context with one of several files."""
+        try:
+            yield
+        except InputError as error:
+            self.add(f"{heading(name)}: {error}")
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self._collecting = False

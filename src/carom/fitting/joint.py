@@ -1,0 +1,252 @@
+"""One model of several sets of data, some parameters of which are the same for all."""
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple, cast
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import fdtrc
+
+from carom.fitting.estimation import Best, estimate, fitted
+from carom.fitting.intervals import ProfiledFit, Settled, profiled, without_weak
+from carom.fitting.least_squares import descend
+from carom.fitting.model import Model, Parameter, plain
+from carom.fitting.problem import FitProblem, IncomingMotion, Weights
+from carom.quantities.arrays import Array
+
+Block = tuple[slice, slice]  # rows and responses of one set
+
+
+@dataclass(frozen=True, eq=False)
+class JointProblem(FitProblem):
+    """Sets of data: rows below each other, responses beside each other, nothing where they cross.
+
+    So each set keeps the errors that its own scatter gives.
+    """
+
+    parts: tuple[FitProblem, ...] = ()
+
+    @cached_property
+    def blocks(self) -> tuple[Block, ...]:
+        """Where each set is."""
+        rows = np.cumsum([0, *(len(part.measured) for part in self.parts)]).tolist()
+        columns = np.cumsum([0, *(len(part.responses) for part in self.parts)]).tolist()
+        ends = zip(rows, rows[1:], columns, columns[1:], strict=False)
+        return tuple((slice(a, b), slice(c, d)) for a, b, c, d in ends)
+
+    @cached_property
+    def least_errors(self) -> Array:
+        """The errors of the interpolated curves, by response."""
+        return np.concatenate([part.least_errors for part in self.parts])
+
+    @property
+    def on_plate(self) -> bool:
+        """Whether plates are struck, which are solved row by row."""
+        return any(part.on_plate for part in self.parts)
+
+    def filled(self, arrays: Sequence[Array], empty: float) -> Array:
+        """Return arrays of the sets, each (rows, responses), in their places."""
+        whole = np.full((self.blocks[-1][0].stop, self.blocks[-1][1].stop), empty)
+        for place, array in zip(self.blocks, arrays, strict=True):
+            whole[place] = array
+        return whole
+
+
+def joined(parts: Sequence[FitProblem]) -> JointProblem:
+    """Return several sets of data as one."""
+    names = tuple(name for part in parts for name in part.responses)
+    first, nothing = parts[0], np.empty((0, 0))
+    whole = JointProblem(first.pair, {}, {}, names, nothing, nothing, first.rows, parts=(*parts,))
+    measured, errors = (
+        whole.filled([getattr(part, name) for part in parts], np.nan)
+        for name in ("measured", "errors")
+    )
+    return replace(whole, measured=measured, errors=errors)
+
+
+@dataclass(frozen=True, eq=False)
+class JointModel(Model):
+    """Models of several sets; a free parameter that they do not share bears the number of its set.
+
+    `law` and `held` are of no account: each of `parts` has its own.
+    """
+
+    problem: JointProblem
+    parts: tuple[Model, ...] = ()
+    shared: Collection[str] = ()
+
+    def names(self, place: int) -> tuple[str, ...]:
+        """Return what the free parameters of a set are called here."""
+        own = self.parts[place].free
+        return tuple(name if name in self.shared else f"{name}_{place + 1}" for name in own)
+
+    @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The free parameters, each in the range that all sets allow it."""
+        ranges: dict[str, Parameter] = {}
+        for place, part in enumerate(self.parts):
+            for name, own in zip(self.names(place), part.parameters, strict=True):
+                seen = ranges.get(name, own)
+                low, high = max(seen.low, own.low), min(seen.high, own.high)
+                ranges[name] = seen._replace(name=name, low=low, high=high)
+        return tuple(ranges[name] for name in self.free)
+
+    def of_part(self, place: int, at: Array) -> Array:
+        """Return the coordinates of a set, of shape (batch, its parameters)."""
+        places = [self.free.index(name) for name in self.names(place)]
+        pairs = zip(self.parts[place].parameters, places, strict=True)
+        own = [each.coordinate(self.parameters[i].value(at[:, i])) for each, i in pairs]
+        return np.stack(own, axis=-1) if own else np.empty((len(at), 0))
+
+    def expected(self, at: Array, motion: IncomingMotion | None = None) -> Array:
+        """Return the responses at coordinates, of shape (batch, rows, responses)."""
+        whole = np.zeros((len(at), *self.problem.measured.shape))
+        for place, (rows, columns) in enumerate(self.problem.blocks):
+            whole[:, rows, columns] = self.parts[place].expected(self.of_part(place, at))
+        return whole
+
+    def weights(self, point: Array, sigma: Array, scale: Array) -> Weights:
+        """Return the weights at coordinates, those of each set in its place."""
+        factors = np.broadcast_to(np.eye(len(scale)), (len(sigma), len(scale), len(scale))).copy()
+        for place, (rows, columns) in enumerate(self.problem.blocks):
+            at = self.of_part(place, point[np.newaxis])[0]
+            own = self.parts[place].weights(at, sigma[rows, columns], scale[columns])
+            factors[rows, columns, columns] = own.factors
+        return Weights(factors)
+
+    def regimes(self, point: Array) -> NDArray[np.int8]:
+        """Return the regime of each row of all sets."""
+        at = point[np.newaxis]
+        own = [part.regimes(self.of_part(i, at)[0]) for i, part in enumerate(self.parts)]
+        return np.concatenate(own)
+
+    def holding(self, name: str, value: float) -> "JointModel":
+        """Return the model with one of the free parameters held, in all sets that have it."""
+        parts = tuple(
+            part.holding(plain(name), value) if name in self.names(place) else part
+            for place, part in enumerate(self.parts)
+        )
+        return joint_model(parts, self.shared)
+
+    def together(self, values: Sequence[Mapping[str, float]]) -> dict[str, float]:
+        """Return the values of sets by the names here; of what they share, the first one's."""
+        whole: dict[str, float] = {}
+        for place, own in enumerate(values):
+            for name in self.names(place):
+                whole.setdefault(name, own[plain(name)])
+        return whole
+
+
+def joint_model(parts: Sequence[Model], shared: Collection[str]) -> JointModel:
+    """Return the model of several sets in which parameters of these names are the same for all."""
+    problem, law = joined([part.problem for part in parts]), parts[0].law
+    model = JointModel(law, problem, (), {}, tuple(parts), tuple(shared))
+    names = (name for place in range(len(parts)) for name in model.names(place))
+    return replace(model, free=tuple(dict.fromkeys(names)))
+
+
+class JointlySettled(NamedTuple):
+    """A joint fit, and for each set what it says of it: with intervals, and what is not told.
+
+    `agreement` is the probability that sets which do share the parameters differ more.
+    """
+
+    best: Best
+    parts: tuple[tuple[Settled, ProfiledFit], ...]
+    agreement: float
+
+
+def settle_jointly(
+    alone: Sequence[Settled],
+    free: Sequence[Collection[str]],
+    starts: Sequence[Mapping[str, float]],
+    shared: Collection[str],
+    confidence: float,
+) -> JointlySettled:
+    """Fit sets once more that were fitted alone, with parameters of some names the same for all.
+
+    `free` are the names of the parameters to be varied, `starts` values to hold those at that the
+    sets do not tell.
+    """
+    parts = [
+        each.whole.model.freeing([name for name in names if name not in each.whole.model.free])
+        for each, names in zip(alone, free, strict=True)
+    ]
+    model = joint_model(parts, shared)
+    values = [each.whole.values for each in alone]
+    own, each_of = model.together(values), [{name: v[name] for name in shared} for v in values]
+    begun = np.array([model.coordinates(own | common) for common in each_of])
+    whole = estimate(model, alone[0].best.loss, np.clip(begun, *model.bounds))
+    best, groups = without_weak(whole, model.together(starts))
+    profile = profiled(best, confidence)
+    settled = []
+    for place, each in enumerate(alone):
+        weak = _of_part(groups, model.names(place))
+        part = Settled(_part(profile.best, place), weak, _part(whole, place), each.unbounded)
+        settled.append((part, _part_profile(profile, place, part.best)))
+    return JointlySettled(profile.best, tuple(settled), _agreement(model, alone, whole))
+
+
+def _of_part(
+    groups: Sequence[tuple[str, ...]], names: Collection[str]
+) -> tuple[tuple[str, ...], ...]:
+    """Return groups of parameters without those of other sets, by the names of one set."""
+    own = [tuple(plain(name) for name in group if name in names) for group in groups]
+    return tuple(group for group in own if group)
+
+
+def _part(best: Best, place: int) -> Best:
+    """Return what a joint fit says of one set."""
+    model = cast(JointModel, best.model)
+    rows, columns = model.problem.blocks[place]
+    at = model.of_part(place, best.at[np.newaxis])[0]
+    weights = Weights(best.weights.factors[rows, columns, columns])
+    part, sigma = model.parts[place], best.sigma[rows, columns]
+    total = float(np.square(part.residuals(weights, best.loss)(at[np.newaxis])).sum())
+    used = weights, best.loss, sigma, best.scale[columns], best.estimated[columns]
+    alone = Best(part, at, total, *used, np.empty((0, len(at))), best.result)
+    return replace(alone, elsewhere=_of_others(best, alone, place))
+
+
+def _of_others(best: Best, alone: Best, place: int) -> Array:
+    """Return slopes that tell of the parameters of a set as much as the other sets do."""
+    model = cast(JointModel, best.model)
+    places = [model.free.index(name) for name in model.names(place)]
+    step = model.of_part(place, np.stack([best.at, best.at + 1e-3]))
+    ratio = np.diff(step, axis=0)[0] / 1e-3  # coordinates of a part are in proportion to those here
+    covariance = best.information.covariance[np.ix_(places, places)] * np.outer(ratio, ratio)
+    more = np.linalg.inv(covariance) - alone.information.matrix
+    sizes, directions = np.linalg.eigh(more)
+    return np.asarray(np.sqrt(np.maximum(sizes, 0.0))[:, np.newaxis] * directions.T)
+
+
+def _part_profile(profile: ProfiledFit, place: int, part: Best) -> ProfiledFit:
+    """Return the intervals of one set."""
+    model = cast(JointModel, profile.best.model)
+    places = [model.free.index(name) for name in model.names(place)]
+    count = len(places)
+    ends = profile.ends[places].reshape(2 * count, -1)
+    own = model.of_part(place, ends).reshape(count, 2, count)
+    return ProfiledFit(part, own, profile.open[places])
+
+
+def _agreement(model: JointModel, alone: Sequence[Settled], whole: Best) -> float:
+    """Return the probability of a larger F: by how much the loss rises as parameters are shared.
+
+    Both fits have the errors that the sets have alone, so that contradictions do not enlarge them.
+    """
+    apart = joint_model(model.parts, ())
+    singles = [each.whole for each in alone]
+    problem = model.problem
+    sigma = problem.filled([each.sigma for each in singles], 1.0)
+    scale = np.concatenate([each.scale for each in singles])
+    start = apart.coordinates(apart.together([each.values for each in singles]))
+    best = fitted(apart, whole.loss, np.clip(start, *apart.bounds), sigma, scale)
+    weights = best.weights
+    shared = descend(model.residuals(weights, whole.loss), whole.at[np.newaxis], model.bounds)
+    more = len(best.at) - len(whole.at)
+    rise = max(float(shared.sums[0]) - best.sum, 0.0) / best.spread / more
+    freedom = problem.count - len(best.at) if not problem.all_errors_known else 1e9
+    return float(fdtrc(more, max(freedom, 1.0), rise))

@@ -1,0 +1,297 @@
+"""Several sets of data: fits side by side, what they share, and by how much they differ."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from math import inf, isfinite, sqrt
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from carom.fitting.estimates import Estimate
+from carom.fitting.estimation import Best
+from carom.fitting.intervals import Settled
+from carom.fitting.joint import settle_jointly
+from carom.fitting.options import NAMES, Options
+from carom.fitting.result import Fit, assembled
+from carom.io.labels import labelled_dataset
+from carom.plots.result import Result, card
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.refusals import InputError, nearest, refuse
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+SAID = {True: ", so that they differ", False: ", no difference shown", None: ""}
+UNLIKELY = 0.01  # probability below which sets contradict what they are to share
+
+
+@dataclass(frozen=True)
+class Difference(Estimate):
+    """The value of a parameter in one set less that in another, with its interval."""
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """The least and the largest value that is possible at all."""
+        return -inf, inf
+
+    @property
+    def differs(self) -> bool | None:
+        """Whether the interval excludes zero; None without one."""
+        return not self.low <= 0.0 <= self.high if self.determined else None
+
+
+@dataclass(frozen=True, eq=False)
+class JointFit(Result):
+    """Fits of several sets of data, which may share parameters; made by `carom.joint_fit`.
+
+    `fits` has the `Fit` of each set by its name; `joint["steel.csv"]` is one of them. `shared` are
+    the names of what they share, and `agreement` the probability that sets which do share it differ
+    more than these do, from an F-test; None if nothing is shared.
+
+    Examples
+    --------
+    >>> import carom
+    >>> data = carom.datasets.load("kharaz2001")
+    >>> joint = carom.joint_fit({"first": data, "again": data}, share="friction")
+    >>> joint["first"].friction == joint["again"].friction
+    True
+    """
+
+    fits: Mapping[str, Fit]
+    shared: tuple[str, ...]
+    agreement: float | None
+    _alone: Mapping[str, Mapping[str, float]] = field(repr=False)
+    _best: Best | None = field(repr=False)
+
+    def __getitem__(self, name: str) -> Fit:
+        return self.fits[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.fits)
+
+    def difference(self, parameter: str, one: str, other: str) -> Difference:
+        """Return the value of a parameter in one set less that in another, with its interval.
+
+        L = D - sqrt((v_1 - l_1)^2 + (u_2 - v_2)^2 - 2 r (v_1 - l_1)(u_2 - v_2)), and U likewise,
+        from values v and intervals l to u of both (Zou & Donner 2008; with correlation Zou 2007);
+        r is not 0 only if the sets share something.
+
+        Parameters
+        ----------
+        parameter : str
+            friction, kappa, chi, restitution, thickness or spin_offset.
+        one, other : str
+            Names of the sets.
+
+        Returns
+        -------
+        Difference
+            With value, low and high; `differs` tells whether the interval excludes 0.
+
+        Raises
+        ------
+        InputError
+            If there is no such parameter or set, or the sets share it.
+
+        Examples
+        --------
+        >>> steel = {"drop_height": [0.1, 0.1, 0.1], "rebound_height": [0.080, 0.082, 0.081]}
+        >>> brass = {"drop_height": [0.1, 0.1, 0.1], "rebound_height": [0.060, 0.061, 0.062]}
+        >>> balls = carom.joint_fit({"steel": steel, "brass": brass}, pair=pair)
+        >>> print(balls.difference("restitution", "steel", "brass"))
+        0.119 (0.104 to 0.134)
+        """
+        for name in (one, other):
+            if name not in self.fits:
+                raise InputError(
+                    f"set: {name!r} is not one of them; there are {', '.join(self.fits)}"
+                )
+        first, second = (self.fits[name].estimates.get(parameter) for name in (one, other))
+        if first is None or second is None:
+            hint = nearest(parameter, NAMES) or f"the sets have {', '.join(self._parameters)}"
+            raise InputError(f"parameter: both sets must have {parameter!r}; {hint}")
+        if parameter in self.shared or (parameter == "chi" and "kappa" in self.shared):
+            raise InputError(f"parameter: {parameter} is shared, so that it does not differ")
+        value = first.value - second.value
+        for name, each in ((one, first), (other, second)):
+            if not each.determined:
+                why = each.reason or "it was not varied"
+                return Difference(parameter, value, reason=f"{name}: {why}")
+        r = self._correlation(parameter, one, other)
+        below = _joined(first.value - first.low, second.high - second.value, r)
+        above = _joined(first.high - first.value, second.value - second.low, r)
+        return Difference(parameter, value, value - below, value + above)
+
+    def _correlation(self, parameter: str, one: str, other: str) -> float:
+        """Return the correlation of the values of a parameter in two sets."""
+        if self._best is None:
+            return 0.0
+        plain = "kappa" if parameter == "chi" else parameter
+        places = [list(self.fits).index(name) + 1 for name in (one, other)]
+        free = self._best.model.free
+        names = [f"{plain}_{place}" for place in places]
+        if not {*names} <= {*free}:
+            return 0.0
+        i, j = map(free.index, names)
+        return float(self._best.information.correlations[i, j])
+
+    @property
+    def differences(self) -> dict[str, dict[str, Difference]]:
+        """By parameter and set: the value in each later set less that in the first."""
+        first, *later = self.fits
+        names = {*self.shared, *(("chi",) if "kappa" in self.shared else ())}
+        return {
+            parameter: {name: self.difference(parameter, name, first) for name in later}
+            for parameter in self._parameters
+            if parameter not in names
+        }
+
+    @property
+    def _parameters(self) -> list[str]:
+        """Names of the parameters that all sets have, and one of them determines."""
+        every = [fit.estimates for fit in self.fits.values()]
+        return [
+            name
+            for name in NAMES
+            if all(name in each for each in every) and any(each[name].determined for each in every)
+        ]
+
+    @property
+    def verdict(self) -> str:
+        """Whether the sets allow what they are to share, in a sentence; empty without any."""
+        if self.agreement is None:
+            return ""
+        names = " and ".join(self.shared)
+        if self.agreement >= UNLIKELY:
+            return f"the sets agree in {names} (p = {self.agreement:.2g})"
+        alone = "; ".join(
+            f"{name} {', '.join(GLOSSARY[each].text(values[each], 3) for each in self.shared)}"
+            for name, values in self._alone.items()
+        )
+        return (
+            f"the sets contradict a common {names} (p = {self.agreement:.1g}), so that the "
+            f"intervals do not hold; alone they give: {alone}"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain numbers, texts and lists, for JSON; what is open is None.
+
+        Returns
+        -------
+        dict
+            sets (each as `Fit.to_dict` gives it), shared, agreement, verdict, and differences by
+            parameter and set, less the value of the first set; SI units.
+        """
+        return {
+            "sets": {name: fit.to_dict() for name, fit in self.fits.items()},
+            "shared": list(self.shared),
+            "agreement": self.agreement,
+            "verdict": self.verdict,
+            "differences": {
+                parameter: {name: each.to_dict() for name, each in by_set.items()}
+                for parameter, by_set in self.differences.items()
+            },
+        }
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return value, low and high along (set, parameter) in SI units, NaN if there is none."""
+        names, words = self._parameters, {"value": "value", "low": "lower end", "high": "upper end"}
+        variables: dict[str, Any] = {}
+        for key, what in words.items():
+            numbers = [[getattr(f[name], key) for name in names] for f in self.fits.values()]
+            variables[key] = ("set", "parameter"), numbers, {"long_name": f"{what}, SI"}
+        coords = {
+            "set": ("set", list(self.fits), {"long_name": "set of data"}),
+            "parameter": ("parameter", names, {"long_name": "parameter"}),
+        }
+        attrs = {"title": "parameters from several sets of rebounds", "verdict": self.verdict}
+        return labelled_dataset(variables, coords, attrs)
+
+    def cite(self) -> str:
+        """Return what to cite for this result, and for data that have a DOI, as BibTeX."""
+        every = "\n".join(fit.cite() for fit in self.fits.values())
+        return "".join(dict.fromkeys(re.split(r"(?m)^(?=@)", f"{every}\n")))
+
+    def _draw(self, dataset: Any, **look: Any) -> "Figure":
+        from carom.plots.fits import plot_sets  # which loads matplotlib
+
+        return plot_sets(dataset, **look)
+
+    def _repr_html_(self) -> str:
+        """Return a table and a picture for a notebook."""
+        rows = {
+            f"{name}, {parameter}": str(fit[parameter])
+            for name, fit in self.fits.items()
+            for parameter in self._parameters
+        }
+        return card("Parameters from several sets", rows, self.plot(), self.verdict)
+
+    def __str__(self) -> str:
+        confidence = next(iter(self.fits.values())).confidence
+        wide = max(map(len, self.fits))
+        lines = [
+            f"{len(self.fits)} sets; in brackets {100.0 * confidence:g} % intervals by profile "
+            "likelihood"
+        ]
+        first, differences = next(iter(self.fits)), self.differences
+        for parameter in self._parameters:
+            if parameter not in differences:
+                lines.append(f"{parameter}, shared: {self.fits[first][parameter]}")
+                continue
+            lines.append(parameter)
+            lines += [f"  {name:{wide}s}  {fit[parameter]}" for name, fit in self.fits.items()]
+            for name, each in differences[parameter].items():
+                lines.append(f"  {name} less {first}: {each}{SAID[each.differs]}")
+        lines += [self.verdict] if self.verdict else []
+        lines += [f"note, {name}: {note}" for name, fit in self.fits.items() for note in fit.notes]
+        return "\n".join(lines)
+
+
+def _joined(one: float, other: float, correlation: float) -> float:
+    """Return the width of an interval of a difference on one side, from those of both values."""
+    if not (isfinite(one) and isfinite(other)):
+        return inf
+    return sqrt(max(one**2 + other**2 - 2.0 * correlation * one * other, 0.0))
+
+
+def named_sets(data: Mapping[str, Any] | Sequence[Any]) -> dict[str, Any]:
+    """Return sets of data by names, those of files where they have some; InputError below two."""
+    if isinstance(data, Mapping):
+        sets = {str(name): each for name, each in data.items()}
+    else:
+        several = isinstance(data, Sequence) and not isinstance(data, str | bytes)
+        refuse(not several and "data: give several sets, e.g. ['steel.csv', 'brass.csv']")
+        files = [each if isinstance(each, str | Path) else None for each in data]
+        short = [None if each is None else Path(each).name for each in files]
+        whole = len({*filter(None, short)}) < sum(each is not None for each in short)
+        names = [
+            f"set {place}" if file is None else str(file if whole else Path(file).name)
+            for place, file in enumerate(files, 1)
+        ]
+        sets = dict(zip(names, data, strict=True))
+        refuse(len(sets) < len(data) and "data: one file is given twice; leave it out")
+    refuse(len(sets) < 2 and "data: one set alone; give several, or use carom.fit")
+    return sets
+
+
+def jointly_assembled(
+    names: Sequence[str],
+    alone: Sequence[tuple[Settled, Options]],
+    shared: tuple[str, ...],
+    confidence: float,
+) -> JointFit:
+    """Return the result of sets that were fitted alone, once more together if they share some."""
+    values = {n: settled.whole.values for n, (settled, _) in zip(names, alone, strict=True)}
+    if not shared:
+        fits = [assembled(settled, confidence, options.taken) for settled, options in alone]
+        return JointFit(dict(zip(names, fits, strict=True)), (), None, values, None)
+    settled, options = zip(*alone, strict=True)
+    free, starts = ([getattr(each, name) for each in options] for name in ("free", "start"))
+    joint = settle_jointly(settled, free, starts, shared, confidence)
+    fits = [
+        assembled(part, confidence, each.taken, profile)
+        for (part, profile), each in zip(joint.parts, options, strict=True)
+    ]
+    result = dict(zip(names, fits, strict=True))
+    return JointFit(result, shared, joint.agreement, values, joint.best)
