@@ -54,7 +54,7 @@ ALSO = {
 MADE = {  # by functions, which say what is in them
     *("Bench", "Collisions", "Contact", "ContactStep", "Estimate", "Fit", "HalfspaceImpact"),
     *("Impact", "JudgedCollisions", "LoadPath", "Obliquity", "Ranking", "Score", "Solution"),
-    *("AdhesiveImpact", "Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
+    *("AdhesiveImpact", "JointFit", "Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
 }
 WITHOUT_EXAMPLE = {"InputError", "EngineError", "Bench"}  # the last needs a program to be run
 INNER = {  # what the parts of Carom say to each other
@@ -70,7 +70,12 @@ NEVER_REFUSE = {
         "Pair.scales",
         "results.Solution.phase_at",
     ),
-    *("results.Solution.slip_angles", "verify.Tuning.best", "results.Fit.cite"),
+    *(
+        "results.Solution.slip_angles",
+        "verify.Tuning.best",
+        "results.Fit.cite",
+        "results.JointFit.cite",
+    ),
     *("impacts.curves.borders", "plots.style.new_figure"),
 }
 FORMULAS = """

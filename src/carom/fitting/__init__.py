@@ -162,8 +162,8 @@ def joint_fit(
         Parameters that are the same in all sets, of those that are varied; by default none.
     pair : Pair or sequence, optional
         The bodies, of all sets or of one after the other.
-    vary, fixed, robust, confidence, columns, sheet, decimal
-        As for `fit`, the same for all sets.
+    vary, fixed, robust, confidence, columns, sheet, decimal : as for `fit`
+        The same for all sets.
 
     Returns
     -------
@@ -178,11 +178,14 @@ def joint_fit(
 
     Examples
     --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> slow = {"angle [deg]": [20, 45, 60, 70], "impulse_ratio": [0.19, 0.21, 0.2, 0.2]}
     >>> fast = {"angle [deg]": [25, 50, 60, 75], "impulse_ratio": [0.2, 0.21, 0.19, 0.2]}
     >>> both = carom.joint_fit([slow, fast], pair=pair, share="friction", fixed={"restitution": 1})
     >>> print(both.verdict)
-    the sets agree in friction (p = 1)
+    the sets agree in friction (p = 0.98)
     """
     level, limited = checked_confidence(confidence), flag("robust", robust)
     sets = named_sets(data)

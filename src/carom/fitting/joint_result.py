@@ -54,7 +54,7 @@ class JointFit(Result):
     >>> import carom
     >>> data = carom.datasets.load("kharaz2001")
     >>> joint = carom.joint_fit({"first": data, "again": data}, share="friction")
-    >>> joint["first"].friction == joint["again"].friction
+    >>> joint["first"].friction.value == joint["again"].friction.value
     True
     """
 
@@ -100,7 +100,7 @@ class JointFit(Result):
         >>> brass = {"drop_height": [0.1, 0.1, 0.1], "rebound_height": [0.060, 0.061, 0.062]}
         >>> balls = carom.joint_fit({"steel": steel, "brass": brass}, pair=pair)
         >>> print(balls.difference("restitution", "steel", "brass"))
-        0.119 (0.104 to 0.134)
+        0.119 (0.0966 to 0.141)
         """
         for name in (one, other):
             if name not in self.fits:
@@ -138,7 +138,7 @@ class JointFit(Result):
 
     @property
     def differences(self) -> dict[str, dict[str, Difference]]:
-        """By parameter and set: the value in each later set less that in the first."""
+        """Values in each later set less those in the first, by parameter and set."""
         first, *later = self.fits
         names = {*self.shared, *(("chi",) if "kappa" in self.shared else ())}
         return {
