@@ -3,10 +3,9 @@
 What is shown of a fit: parameters, laws, charts with residuals, bodies, notes.
 """
 
-import re
 from base64 import b64decode
 from binascii import Error as NotBase64
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from math import isfinite, isnan
 from pathlib import Path
 from typing import Any
@@ -17,45 +16,32 @@ import xarray as xr
 from carom import datasets
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
-from carom.datasets.observables import BEFORE, OBSERVABLES
+from carom.datasets.observables import OBSERVABLES
+from carom.explorer.columns import lists, plain_words, taken
 from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.explorer.results import in_words
 from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View
 from carom.fitting import Estimate, Fit, fit
-from carom.fitting.bounces import BOUNCES, base
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
-from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.reading import (
-    FROM_SURFACE,
-    RECORDED,
-    UNSIGNED,
-    read_measurements,
-    read_problem,
-    read_rebounds,
-)
-from carom.io.rows import Column
-from carom.io.user_table import entry
+from carom.fitting.reading import RECORDED, read_measurements, read_problem, read_rebounds
+from carom.io.heads import TableFormat, table_format
+from carom.io.remedies import Remedies, offering
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text
 from carom.quantities.refusals import InputError, refusal
 
-COLUMN_KINDS = {
-    **dict.fromkeys(BEFORE, "before the impact"),
-    **dict.fromkeys(OBSERVABLES, "after the impact"),
-    **dict.fromkeys(BOUNCES, "drop and rebound"),
-    **dict.fromkeys((*FROM_SURFACE, *UNSIGNED), "after the impact"),
-    "surface_angle": "before the impact",
-    THICKNESS: "the plate",
-    DURATION: "after the impact",
-}
 BODIES_ASKED = (
     "{name} does not say which bodies struck each other. The fit needs their radius, their "
     "density and their elastic constants."
 )
+LISTS = Remedies(
+    "say it in the list of the column",
+    "choose one in the list of sheets",
+    "choose it in the list of decimal signs",
+)
 PAGE_SUBJECTS = {"data": "file", "results": "file", "pair": "bodies"}  # by those of Python
-OPTION_ASKED = re.compile(r'(?: If so,|; if it is there by another name,) add --column "[^"]*"')
 SHOWN_DIGITS = 6
 NO_NUMBER = "-"
 LEAST_WEIGHT = 1e-3  # of a law; of less it is said that it is below
@@ -66,22 +52,30 @@ SHOWN_ELSEWHERE = "columns that were not used"
 def answer(asked: dict[str, str]) -> dict[str, Any]:
     """Return the fit of a data set that comes along, by its name, or of a file that was sent.
 
-    A file is written into the working directory meanwhile, which `worker.Desk` has made for it.
-    Raises InputError if it is too large, no table, or cannot be fitted.
+    A file is written into the working directory meanwhile, which `worker.Desk` has made for it, and
+    so is what its columns hold. Raises Refused, with lists to choose that from, if it cannot be
+    fitted, and InputError if it is too large.
     """
+    how = table_format(None)
     if "data" in asked:
-        file = datasets.path(asked["data"])
-        return _fitted(file, asked["data"], None)
-    file, name = Path.cwd() / "upload.csv", shown_name(asked["name"])
+        return _fitted(datasets.path(asked["data"]), asked["data"], None, how)
+    file, name, said = Path.cwd() / "upload.csv", shown_name(asked["name"]), Path("map.toml")
     file.write_bytes(_decoded(asked["contents"]))
+    said.write_text(asked.get("columns", ""), "utf-8", "replace")
     try:
-        return _fitted(file, name, View.of(asked["bodies"]) if asked["bodies"] else None)
+        with offering(LISTS):
+            how = table_format(said)
+            view = View.of(asked["bodies"]) if asked["bodies"] else None
+            return _fitted(file, name, view, how) | {"lists": lists(file, how)}
     except Refused:  # of the bodies that the page sent
         raise
     except InputError as error:
-        raise InputError(_in_words_of_the_page(str(error), str(file), name)) from None
+        words = _in_words_of_the_page(str(error), str(file), name)
+        offer = lists(file, how)
+        raise Refused("", words, **({"lists": offer} if offer else {})) from None
     finally:
         file.unlink()
+        said.unlink()
 
 
 def shown_name(name: str) -> str:
@@ -93,7 +87,6 @@ def shown_name(name: str) -> str:
 def _in_words_of_the_page(message: str, path: str, name: str) -> str:
     subject, colon, rest = message.replace(path, name).partition(": ")
     rest = rest.replace(", or fix some, e.g. fixed={'restitution': 0.98}", "")
-    rest = OPTION_ASKED.sub("", rest)
     return in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
 
 
@@ -108,8 +101,8 @@ def _decoded(contents: str) -> bytes:
     return content
 
 
-def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
-    table = read_rebounds(file, what="file")
+def _fitted(file: Path, name: str, view: View | None, how: TableFormat) -> dict[str, Any]:
+    table = read_rebounds(file, what="file", **how._asdict())
     if len(table) > MOST_UPLOADED_ROWS:
         allowed = f"must be at most {MOST_UPLOADED_ROWS} rows; use carom fit for more"
         raise refusal("file", f"{len(table)} rows", allowed)
@@ -122,26 +115,6 @@ def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
     pair: Pair | None = view.pair if table.case is None and view is not None else None
     fitted = fit(table, pair=pair)
     return shown_fit(fitted, name, "page" if pair else "file", taken(table.cells, fitted))
-
-
-def taken(columns: Mapping[str, Column], fitted: Fit | None = None) -> list[dict[str, str]]:
-    """Return for each column its head, what it was taken for, and the unit it was read in."""
-    ignored = () if fitted is None else fitted._best.model.problem.ignored
-    empty = [name.partition(" ")[0] for name in ignored if "(" in name]
-    return [_taken(name, columns[name], entry(name) in empty) for name in columns]
-
-
-def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
-    quantity = entry(base(name))
-    if quantity not in COLUMN_KINDS:
-        return {"head": column.head, "kind": "not used", "meaning": "", "unit": ""}
-    si, kind, meaning = GLOSSARY[quantity].unit, COLUMN_KINDS[quantity], plain_words(quantity)
-    if name != quantity:
-        kind, meaning = "standard deviation", f"of {meaning}"
-    if empty:
-        kind = "not used: no value in it"
-    unit = str(column.unit) or ("" if si == "1" else f"{si} (the head names no unit)")
-    return {"head": column.head, "kind": kind, "meaning": meaning, "unit": unit}
 
 
 def shown_fit(
@@ -323,8 +296,3 @@ def _material(body: Any) -> str:
     if stuff.name:
         return str(stuff.name)
     return f"E = {text(stuff.young, 'Pa', 3)}, ν = {stuff.poisson:.3g}"
-
-
-def plain_words(name: str) -> str:
-    """Return what a quantity means, without the marks of formulas."""
-    return GLOSSARY[name].meaning.replace("$", "")
