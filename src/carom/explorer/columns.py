@@ -62,15 +62,16 @@ def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
 
 def lists(file: Path, how: TableFormat) -> dict[str, Any] | None:
     """Return what a reader may choose for a file, and what is chosen; None if that is no table."""
-    columns: list[Column] = []
+    columns, written = [], []
     with suppress(InputError):  # which is told as the fault of the file
         columns, _ = file_columns("file", file, how, 1)
-    if not any(is_number(cell) for column in columns for cell in islice(column.cells, 9)):
+        written, _ = file_columns("file", file, how._replace(decimal="."), 1)  # with commas as such
+    if not any(is_number(cell) for column in columns for cell in islice(column.cells, SHOWN_CELLS)):
         columns = []
     sheets = sheets_of(file)
     if not columns and len(sheets) < 2:
         return None
-    rows = [_row(column, how.columns) for column in columns]
+    rows = [_row(*both, how.columns) for both in zip(columns, written, strict=False)]
     numbered = {entry(row[key]) for row in rows for key in ("own", "name")} - {"", *KINDS}
     return {
         "sheets": sheets if len(sheets) > 1 else [],
@@ -89,7 +90,7 @@ def _quantity(name: str) -> dict[str, str]:
     return {"name": name, "kind": KINDS[quantity], "words": words, "si": si}
 
 
-def _row(column: Column, columns: Mapping[str, str]) -> dict[str, Any]:
+def _row(column: Column, written: Column, columns: Mapping[str, str]) -> dict[str, Any]:
     """Return a column with what it is by its head, by what is said of it, or by what is likely.
 
     `own` is the quantity in its head, with `own_unit` if that is no part of the head in brackets.
@@ -104,10 +105,9 @@ def _row(column: Column, columns: Mapping[str, str]) -> dict[str, Any]:
     return {
         "head": column.head,
         "letter": column.letter,
-        "first": [clipped(_shown(cell)) for cell in islice(column.cells, SHOWN_CELLS)],
+        "first": [clipped(_shown(cell)) for cell in islice(written.cells, SHOWN_CELLS)],
         "own": own if _is_known(own) else "",
         "own_unit": "" if own_unit == unit else own_unit,
-        "unit": unit,
         "fits": [si for si in UNITS if _fits(unit, si)],
         "likely": bool(likely),
         "suggested": bool(likely and not said),

@@ -30,14 +30,14 @@ from carom.io.remedies import Remedies, offering
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import Faults, InputError, refusal
 
 BODIES_ASKED = (
     "{name} does not say which bodies struck each other. The fit needs their radius, their "
     "density and their elastic constants."
 )
 LISTS = Remedies(
-    "say it in the list of the column",
+    "choose it in the list of the column",
     "choose one in the list of sheets",
     "choose it in the list of decimal signs",
 )
@@ -107,7 +107,8 @@ def _fitted(file: Path, name: str, view: View | None, how: TableFormat) -> dict[
         allowed = f"must be at most {MOST_UPLOADED_ROWS} rows; use carom fit for more"
         raise refusal("file", f"{len(table)} rows", allowed)
     if table.case is None and (view is None or view.in_numbers):
-        read_measurements(table)  # what no bodies make right is said before they are asked for
+        with Faults() as faults:  # what no bodies make right is said before they are asked for
+            read_measurements(table, faults)
         if not {*table.names} & {*OBSERVABLES, *RECORDED}:
             read_problem(table, View().pair)
         asked = BODIES_ASKED.format(name=name)

@@ -62,5 +62,5 @@ Carom.files = (() => {
     notice.classList.toggle("carom-wrong", wrong);
   }
 
-  return { build };
+  return { build, save };
 })();

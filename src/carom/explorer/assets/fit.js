@@ -9,7 +9,9 @@ Carom.fit = (() => {
   const panel = document.getElementById("fit-panel");
   const parts = {};
   let file = null; // {name, contents} of the reader's file
-  let used = null; // the bodies of the page that a file was fitted with
+  let columns = ""; // what its columns hold, as the text of a file map.toml
+  let told = null; // the bodies of the page that were last said
+  let used = null; // those that a file was fitted with
   let shown = null; // the fit
   let scaled = false; // whether residuals are in standard deviations
   let asking = null;
@@ -24,7 +26,7 @@ Carom.fit = (() => {
       option.title = title;
       parts.data.append(option);
     }
-    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.xls,.ods,text/csv,text/plain", tabIndex: -1 });
+    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.xls,.ods,.toml,text/csv,text/plain", tabIndex: -1 });
     parts.input.ariaLabel = "table of measured rebounds";
     parts.button = make("button", { id: "upload-button", type: "button" }, "Choose or drop a file");
     parts.drop = make("div", { id: "drop" }, parts.button, parts.input);
@@ -32,11 +34,12 @@ Carom.fit = (() => {
     parts.progress = make("p", { id: "fit-progress", role: "status" });
     parts.notice = make("p", { id: "fit-notice", className: "carom-notice", role: "alert" });
     parts.question = make("div", { id: "fit-ask", hidden: true });
+    parts.lists = make("div", {});
     parts.fit = make("div", { id: "fit" });
     const label = make("label", { htmlFor: "data" }, "Published measurements");
     const words = make("p", { className: "carom-note" }, "Friction, stiffness ratio and restitution from a table of measured rebounds, one impact a row.");
     const row = make("div", { className: "carom-fit-source" }, label, parts.data, make("span", { className: "carom-note" }, "or your own"), parts.drop, template, parts.progress);
-    panel.replaceChildren(words, row, parts.notice, parts.question, parts.fit);
+    panel.replaceChildren(words, row, parts.notice, parts.question, parts.lists, parts.fit);
     listen();
   }
 
@@ -65,19 +68,27 @@ Carom.fit = (() => {
       clear();
       return complain({ message: `${chosen.name} has ${chosen.size} bytes; it must have at most ${LARGEST}. Leave out what is not needed.` });
     }
+    const isMap = /\.toml$/i.test(chosen.name);
     const contents = await new Promise((done, fail) => {
       const reader = new FileReader();
       reader.onload = () => done(reader.result);
       reader.onerror = () => fail(reader.error);
-      reader.readAsDataURL(chosen);
+      if (isMap) reader.readAsText(chosen);
+      else reader.readAsDataURL(chosen);
     }).catch(() => null);
     if (contents === null) return complain({ message: `${chosen.name} could not be read; choose it again.` });
-    file = { name: chosen.name, contents };
+    if (isMap || file) columns = isMap ? contents : ""; // what was said is of one file, but a map may come first
+    if (isMap && !file) return complain({ message: `${chosen.name} is here; now choose the table whose columns it names.` });
+    if (!isMap) {
+      file = { name: chosen.name, contents };
+      told = null;
+    }
     if (parts.data.value) {
       parts.data.value = "";
       parts.data.dispatchEvent(new Event("change", { bubbles: true })); // the link forgets the data set
     }
-    ask();
+    list();
+    ask(told);
   }
 
   // The bodies of the page as words of a link, null if psi_1 and chi are given instead.
@@ -101,10 +112,15 @@ Carom.fit = (() => {
   // Fit the data set that is chosen, else the file; with the bodies of the page if these are said.
   async function ask(said = null) {
     const name = parts.data.value;
-    if (name) file = null;
+    if (name) {
+      file = null;
+      columns = "";
+      list();
+    }
+    told = said;
     clear();
     if (!name && !file) return;
-    const request = name ? { data: name } : { ...file, bodies: said ?? "" };
+    const request = name ? { data: name } : { ...file, bodies: said ?? "", columns };
     asking = new AbortController();
     const mine = asking;
     progress();
@@ -118,6 +134,18 @@ Carom.fit = (() => {
     } finally {
       if (mine === asking) rest();
     }
+  }
+
+  // Ask again with what the lists say.
+  function again(said) {
+    columns = parts.lists.firstChild?.said() ?? columns;
+    ask(said);
+  }
+
+  function list(lists = null, open = false) {
+    const held = parts.lists.contains(document.activeElement);
+    parts.lists.replaceChildren(...(lists ? [Carom.fitColumns.build(lists, open, () => again(told))] : []));
+    if (held) parts.lists.querySelector("summary")?.focus();
   }
 
   function clear() {
@@ -145,22 +173,27 @@ Carom.fit = (() => {
     parts.progress.textContent = "";
   }
 
-  function complain({ field, message }) {
+  function complain({ field, message, lists }) {
+    if (lists) list(lists, true);
     const label = field && Carom.fields.label(field);
     parts.notice.textContent = label ? `${label}: ${message}` : message;
     parts.notice.scrollIntoView({ block: "nearest" });
   }
 
-  function askBodies({ message, columns }) {
+  function askBodies({ message, lists }) {
+    list(lists, true);
+    parts.question.hidden = false;
+    parts.question.waits = message;
+    rewrite();
+  }
+
+  function rewrite() {
     const own = bodies();
-    const use = make("button", { id: "fit-bodies", type: "button" }, `Use the bodies of the page: ${own ? inWords() : ""}`);
-    use.addEventListener("click", () => ask(bodies()));
+    const use = make("button", { id: "fit-bodies", type: "button", onclick: () => again(bodies()) }, `Use the bodies of the page: ${own ? inWords() : ""}`);
     const other = make("p", { className: "carom-note" }, own
       ? "Or choose others in the controls first, or write them into the file as the empty table shows."
       : "Choose bodies in the controls first, instead of ψ₁ and χ, or write them into the file as the empty table shows.");
-    parts.question.replaceChildren(make("p", {}, message), ...(own ? [use] : []), other, Carom.fitTables.columns(columns));
-    parts.question.hidden = false;
-    parts.question.waits = true;
+    parts.question.replaceChildren(make("p", {}, parts.question.waits), ...(own ? [use] : []), other);
   }
 
   // A fit stays as it is when the bodies change, until the reader wants another.
@@ -171,21 +204,14 @@ Carom.fit = (() => {
     const differs = used !== null && now !== null && now !== used;
     parts.question.hidden = !differs;
     if (!differs || document.getElementById("fit-again")) return;
-    const again = make("button", { id: "fit-again", type: "button" }, "Fit again");
-    again.addEventListener("click", () => ask(bodies()));
-    parts.question.replaceChildren(make("p", {}, "The bodies have changed: "), again);
-    parts.question.waits = false;
-  }
-
-  function rewrite() {
-    const columns = parts.question.querySelector("table");
-    const message = parts.question.querySelector("p").textContent;
-    askBodies({ message, columns: [] });
-    parts.question.querySelector("table").replaceWith(columns);
+    const button = make("button", { id: "fit-again", type: "button", onclick: () => again(bodies()) }, "Fit again");
+    parts.question.replaceChildren(make("p", {}, "The bodies have changed: "), button);
+    parts.question.waits = "";
   }
 
   function show(fit, said) {
     shown = fit;
+    list(fit.lists);
     used = fit.bodies.from === "page" ? said : null;
     const words = (name, children) => make("div", { className: `carom-fit-words ${name}` }, ...children);
     parts.keys = make("div", { className: "carom-keys" });

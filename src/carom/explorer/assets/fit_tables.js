@@ -71,5 +71,5 @@ Carom.fitTables = (() => {
     return [make("div", {}, columns(fit.columns)), notesAndText];
   }
 
-  return { head, beside, below, columns };
+  return { head, beside, below, table, fold };
 })();
