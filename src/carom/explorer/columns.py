@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from contextlib import suppress
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -66,7 +65,7 @@ def lists(file: Path, how: TableFormat) -> dict[str, Any] | None:
     with suppress(InputError):  # which is told as the fault of the file
         columns, _ = file_columns("file", file, how, 1)
         written, _ = file_columns("file", file, how._replace(decimal="."), 1)  # with commas as such
-    if not any(is_number(cell) for column in columns for cell in islice(column.cells, SHOWN_CELLS)):
+    if not any(is_number(cell) for column in columns for cell in column.cells):
         columns = []
     sheets = sheets_of(file)
     if not columns and len(sheets) < 2:
@@ -105,7 +104,7 @@ def _row(column: Column, written: Column, columns: Mapping[str, str]) -> dict[st
     return {
         "head": column.head,
         "letter": column.letter,
-        "first": [clipped(_shown(cell)) for cell in islice(written.cells, SHOWN_CELLS)],
+        "first": [clipped(_shown(cell)) for cell in written.cells[:SHOWN_CELLS]],
         "own": own if _is_known(own) else "",
         "own_unit": "" if own_unit == unit else own_unit,
         "fits": [si for si in UNITS if _fits(unit, si)],
@@ -114,6 +113,10 @@ def _row(column: Column, written: Column, columns: Mapping[str, str]) -> dict[st
         "name": name if _is_known(name) else "",
         "chosen": chosen if is_unit(chosen) and chosen != unit else "",
     }
+
+
+def _shown(cell: Any) -> str:
+    return cell if isinstance(cell, str) else f"{cell:g}"
 
 
 def _parts(words: str) -> tuple[str, str]:
@@ -129,10 +132,6 @@ def _fits(unit: str, si: str) -> bool:
     with suppress(InputError):
         return bool(unit) and bool(factor_of("unit", unit, si))
     return False
-
-
-def _shown(cell: Any) -> str:
-    return cell if isinstance(cell, str) else f"{cell:g}"
 
 
 def plain_words(name: str) -> str:

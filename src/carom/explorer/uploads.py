@@ -283,13 +283,11 @@ def words_of(pair: Pair) -> str:
     """Return the bodies of a fit in words."""
     first = f"ball of {text(pair.first.radius, 'm', 4)} radius, {_material(pair.first)}"
     second: Any = pair.second
-    if pair.thickness is not None:
-        return f"{first}; on a plate of {text(pair.thickness, 'm', 4)}, {_material(second)}"
-    if not isinstance(second, Sphere | Cup):
-        plate = pair.thickness and f"plate of {text(pair.thickness, 'm', 4)}"
-        return f"{first}; on a {plate or 'half-space'}, {_material(second)}"
-    kind = "sphere" if isinstance(second, Sphere) else "cup"
-    return f"{first}; on a {kind} of {text(second.radius, 'm', 4)} radius, {_material(second)}"
+    shape = "half-space" if pair.thickness is None else f"plate of {text(pair.thickness, 'm', 4)}"
+    if isinstance(second, Sphere | Cup):
+        kind = "sphere" if isinstance(second, Sphere) else "cup"
+        shape = f"{kind} of {text(second.radius, 'm', 4)} radius"
+    return f"{first}; on a {shape}, {_material(second)}"
 
 
 def _material(body: Any) -> str:

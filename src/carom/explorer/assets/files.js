@@ -1,5 +1,4 @@
 // Files of what the page shows, by what they show; each a button that says what it is doing.
-window.Carom = window.Carom || {};
 
 Carom.files = (() => {
   const PICTURE = [["png", "PNG"], ["svg", "SVG"], ["pdf", "PDF"]];

@@ -1,5 +1,4 @@
 // Measured rebounds: a data set that comes along or a file of the reader's, and its fit.
-window.Carom = window.Carom || {};
 
 Carom.fit = (() => {
   const { largest_upload: LARGEST } = Carom.config; // bytes of a file
@@ -20,14 +19,9 @@ Carom.fit = (() => {
   function build() {
     const { can, why } = Carom.source;
     if (!can.fit) return panel.replaceChildren(make("p", { className: "carom-note" }, why));
-    parts.data = make("select", { id: "data" }, new Option("none", ""));
-    for (const { name, title } of Carom.config.datasets) {
-      const option = new Option(name, name);
-      option.title = title;
-      parts.data.append(option);
-    }
-    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.xls,.ods,.toml,text/csv,text/plain", tabIndex: -1 });
-    parts.input.ariaLabel = "table of measured rebounds";
+    const published = Carom.config.datasets.map(({ name, title }) => make("option", { value: name, title }, name));
+    parts.data = make("select", { id: "data" }, new Option("none", ""), ...published);
+    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.xls,.ods,.toml,text/csv,text/plain", hidden: true });
     parts.button = make("button", { id: "upload-button", type: "button" }, "Choose or drop a file");
     parts.drop = make("div", { id: "drop" }, parts.button, parts.input);
     const template = make("a", { id: "template", className: "carom-button", download: "template.csv", href: Carom.source.file("template.csv") }, "Empty table to fill in");
@@ -79,10 +73,7 @@ Carom.fit = (() => {
     if (contents === null) return complain({ message: `${chosen.name} could not be read; choose it again.` });
     if (isMap || file) columns = isMap ? contents : ""; // what was said is of one file, but a map may come first
     if (isMap && !file) return complain({ message: `${chosen.name} is here; now choose the table whose columns it names.` });
-    if (!isMap) {
-      file = { name: chosen.name, contents };
-      told = null;
-    }
+    if (!isMap) [file, told] = [{ name: chosen.name, contents }, null];
     if (parts.data.value) {
       parts.data.value = "";
       parts.data.dispatchEvent(new Event("change", { bubbles: true })); // the link forgets the data set
@@ -230,8 +221,7 @@ Carom.fit = (() => {
   }
 
   function cell(chart) {
-    const title = make("h3", {}, chart.response[0].toUpperCase() + chart.response.slice(1));
-    title.title = chart.meaning;
+    const title = make("h3", { title: chart.meaning }, chart.response[0].toUpperCase() + chart.response.slice(1));
     return make("section", { className: "carom-cell" }, title, make("div", { className: "carom-chart carom-fit-curve" }), make("div", { className: "carom-chart carom-fit-residual" }));
   }
 

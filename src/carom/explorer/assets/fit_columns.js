@@ -1,5 +1,4 @@
 // Lists by which a reader says what the columns of a file hold, its sheet, its decimal sign.
-window.Carom = window.Carom || {};
 
 Carom.fitColumns = (() => {
   const SIGNS = [["", "choose"], [",", "comma: 0,5"], [".", "point: 0.5"]];
@@ -11,7 +10,7 @@ Carom.fitColumns = (() => {
   function choice(label, pairs, value) {
     const select = make("select", {}, ...options(pairs));
     select.value = value;
-    return [make("label", {}, `${label} `, select), select];
+    return [make("div", {}, make("label", {}, `${label} `, select)), select];
   }
 
   // What a column may hold, by kind, and below it the standard deviations of the same.
@@ -30,6 +29,7 @@ Carom.fitColumns = (() => {
     const unit = make("select", { ariaLabel: `unit of ${head}` });
     const mark = make("span", { className: "carom-note" }, column.suggested ? "suggested" : "");
     holds.value = column.name;
+    holds.ariaDescription = mark.textContent;
 
     function offer(wanted, ...more) {
       const names = [...new Set([...(units[si()] ?? []), ...more].filter(Boolean))];
@@ -48,8 +48,8 @@ Carom.fitColumns = (() => {
       return chosen ? `${holds.value} [${chosen}]` : holds.value;
     }
 
-    const cells = [make("code", {}, head), column.first.join(" · "), make("div", {}, holds, mark), unit];
-    return { cells, said: () => [head, said()] };
+    const line = make("div", { className: "carom-column" }, make("code", {}, head), make("span", {}, column.first.join(" · ")), holds, make("span", {}, unit, mark));
+    return { line, said: () => [head, said()] };
   }
 
   // A fold with all lists; its `text` is what they say, as a file map.toml holds it.
@@ -57,7 +57,6 @@ Carom.fitColumns = (() => {
     const [sheetList, sheet] = choice("Sheet", [["", lists.columns.length ? "that with numbers" : "choose"], ...lists.sheets.map((name) => [name, name])], lists.sheet);
     const [signList, sign] = choice("Decimal sign", SIGNS, lists.decimal);
     const rows = lists.columns.map((column) => row(column, lists));
-    const table = Carom.fitTables.table("", ["column", "first values", "holds", "unit"], rows.map(({ cells }) => cells));
     const lines = (pairs) => pairs.filter(([, text]) => text).map(([key, text]) => `${key} = ${quoted(text)}\n`).join("");
 
     function text() {
@@ -67,7 +66,7 @@ Carom.fitColumns = (() => {
 
     const button = make("button", { id: "fit-columns-use", type: "button", onclick: use }, "Read the file like this");
     const save = make("button", { id: "fit-columns-save", type: "button", title: "for this page, and for carom fit", onclick: () => Carom.files.save(new Blob([text()]), "map.toml") }, "Save as map.toml");
-    const fold = Carom.fitTables.fold("Columns of the file", open, ...(lists.sheets.length ? [sheetList] : []), ...(lists.asks_decimal ? [signList] : []), ...(rows.length ? [table] : []), button, save);
+    const fold = Carom.fitTables.fold("Columns of the file: what each holds", open, ...(lists.sheets.length ? [sheetList] : []), ...(lists.asks_decimal ? [signList] : []), ...rows.map(({ line }) => line), button, save);
     return Object.assign(fold, { id: "fit-columns", said: text });
   }
 
