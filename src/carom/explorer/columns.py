@@ -61,7 +61,8 @@ def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
 
 def lists(file: Path, how: TableFormat) -> dict[str, Any] | None:
     """Return what a reader may choose for a file, and what is chosen; None if that is no table."""
-    columns, written = [], []
+    columns: list[Column] = []
+    written: list[Column] = []
     with suppress(InputError):  # which is told as the fault of the file
         columns, _ = file_columns("file", file, how, 1)
         written, _ = file_columns("file", file, how._replace(decimal="."), 1)  # with commas as such

@@ -16,7 +16,7 @@ import xarray as xr
 from carom import datasets
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
-from carom.datasets.observables import OBSERVABLES
+from carom.datasets.observables import INCIDENCE, OBSERVABLES
 from carom.explorer.columns import lists, plain_words, taken
 from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.explorer.results import in_words
@@ -24,7 +24,7 @@ from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View
 from carom.fitting import Estimate, Fit, fit
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
-from carom.fitting.reading import RECORDED, read_measurements, read_problem, read_rebounds
+from carom.fitting.reading import read_measurements, read_problem, read_rebounds
 from carom.io.heads import TableFormat, table_format
 from carom.io.remedies import Remedies, offering
 from carom.quantities.arrays import Array
@@ -108,8 +108,8 @@ def _fitted(file: Path, name: str, view: View | None, how: TableFormat) -> dict[
         raise refusal("file", f"{len(table)} rows", allowed)
     if table.case is None and (view is None or view.in_numbers):
         with Faults() as faults:  # what no bodies make right is said before they are asked for
-            read_measurements(table, faults)
-        if not {*table.names} & {*OBSERVABLES, *RECORDED}:
+            there = {*read_measurements(table, faults).rows.columns}
+        if not there & {*OBSERVABLES} or not there & {*INCIDENCE, "normal_speed"}:
             read_problem(table, View().pair)
         asked = BODIES_ASKED.format(name=name)
         return {"asks": "bodies", "name": name, "message": asked, "columns": taken(table.cells)}
