@@ -1,6 +1,7 @@
-"""What the columns of a lab file hold, said by lists on the page: the fit is that of the command."""
+"""What the columns of a lab file hold, said by lists on the page: the fit is the command's."""
 
-import io
+from itertools import pairwise
+from math import pi
 from pathlib import Path
 
 import openpyxl
@@ -24,7 +25,7 @@ def rows(speed=1.2):
     pair = carom.Pair(carom.Sphere(radius="5 mm", **body), carom.HalfSpace(**body), FRICTION)
     for angle in ANGLES:
         hit = carom.impact(pair, speed=speed, angle=f"{angle} deg")
-        yield 90.0 - angle, speed, round(hit.spin_out * 30.0 / 3.141592653589793, 4)
+        yield 90.0 - angle, speed, round(hit.spin_out * 30.0 / pi, 4)
 
 
 def german():
@@ -65,10 +66,7 @@ def test_a_german_export_is_read_by_lists_and_stored(visit, tmp_path, monkeypatc
     assert holding(seen, "Drehzahl [U/min]") == "spin of the first body after · spin_out"
     assert seen.page.locator("#fit-columns").get_by_text("suggested").count() == 1
     assert "82,0 · 74,0 · 66,0" in seen.page.inner_text("#fit-columns")
-    for head, quantity in (
-        (GERMAN, "angle of incidence from the s"),
-        ("Tempo [m/s]", "speed of a"),
-    ):
+    for head, quantity in (GERMAN, "angle of incidence from the s"), ("Tempo [m/s]", "speed of a"):
         holds(seen, head).focus()
         seen.page.keyboard.type(quantity)
     assert holding(seen, GERMAN) == "angle of incidence from the surface · surface_angle"
@@ -124,17 +122,16 @@ def test_one_of_two_sheets(visit, tmp_path, monkeypatch, capsys):
 @pytest.mark.parametrize("width", [400, 1400])
 def test_lists_have_room_and_names(visit, width):
     seen = opened(visit("?theme=dark", width=width), "fit-panel")
-    upload(seen, b"angle [deg];w\n" + b"1,234;2,345\n" * 3)
-    seen.until(lambda: seen.page.get_by_label("Decimal sign").is_visible())
+    upload(seen, f"angle [deg];w{width}\n".encode() + b"1,234;2,345\n" * 3)
+    seen.until(lambda: holds(seen, f"w{width}").is_visible())
     assert seen.page.evaluate("document.documentElement.scrollWidth") <= width
     boxes = [each.bounding_box() for each in seen.page.locator("#fit-columns select:visible").all()]
     assert len(boxes) == 3
     assert min(box["width"] for box in boxes) > 90
-    for above, below in zip(boxes, boxes[1:], strict=False):
+    for above, below in pairwise(boxes):
         assert above["y"] + above["height"] <= below["y"]
     asked = seen.page.context.new_cdp_session(seen.page)
     nodes = asked.send("Accessibility.getFullAXTree")["nodes"]
-    names = {
-        each["name"]["value"] for each in nodes if each.get("role", {}).get("value") == "combobox"
-    }
-    assert {"Decimal sign", "what angle [deg] holds", "what w holds"} <= names
+    lists = [each for each in nodes if each.get("role", {}).get("value") == "combobox"]
+    names = {each["name"]["value"] for each in lists}
+    assert {"Decimal sign", "what angle [deg] holds", f"what w{width} holds"} <= names
