@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.io.remedies import offered
+from carom.io.remedies import REMEDIES
 from carom.quantities.arrays import plain_numbers
 from carom.quantities.texts import BLANKS, LONGEST_TEXT, SIGN
 
@@ -133,5 +133,5 @@ def _asked(shown: str, text: str, sign: str) -> str:
     less, thousand = text.replace(sign, POINT), text.replace(sign, "")
     return (
         f"{shown} may be {less} or {thousand}, with a separator of thousands; if it is {less}, "
-        f"{offered().decimal.format(sign=sign)}, else leave the separators out"
+        f"{REMEDIES.get().decimal.format(sign=sign)}, else leave the separators out"
     )

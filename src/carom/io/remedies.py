@@ -25,29 +25,14 @@ SHELL = Remedies(
     "add --decimal {sign}",
 )
 
-_remedies: ContextVar[Remedies] = ContextVar("remedies", default=PYTHON)
+REMEDIES: ContextVar[Remedies] = ContextVar("remedies", default=PYTHON)
 
 
 @contextmanager
 def offering(remedies: Remedies) -> Iterator[None]:
-    """Let messages inside of this context name these remedies instead of Python's arguments.
-
-    Examples
-    --------
-    >>> from carom.io.remedies import SHELL, offered, offering
-    >>> offered().decimal.format(sign=",")
-    "give decimal=','"
-    >>> with offering(SHELL):
-    ...     offered().decimal.format(sign=",")
-    'add --decimal ,'
-    """
-    token = _remedies.set(remedies)
+    """Let messages inside of this context name these remedies instead of Python's arguments."""
+    token = REMEDIES.set(remedies)
     try:
         yield
     finally:
-        _remedies.reset(token)
-
-
-def offered() -> Remedies:
-    """Return the remedies that messages name."""
-    return _remedies.get()
+        REMEDIES.reset(token)

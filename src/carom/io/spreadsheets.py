@@ -12,7 +12,7 @@ from zipfile import ZipFile
 
 from carom.io.decimals import is_number
 from carom.io.extras import extra
-from carom.io.remedies import offered
+from carom.io.remedies import REMEDIES
 from carom.io.rows import Column, is_blank
 from carom.io.table_rows import RowSource, read_rows
 from carom.io.user_table import UserTable
@@ -43,7 +43,7 @@ def read_spreadsheet(
         book = calamine.CalamineWorkbook.from_filelike(io.BytesIO(content))
         sheets = {
             name: book.get_sheet_by_name(name).to_python(skip_empty_area=False)
-            for name in _readable(book, sheet)
+            for name in _readable(calamine, book, sheet)
         }
     except calamine.PasswordError:
         raise refusal(what, path, "it has a password; store it without") from None
@@ -55,15 +55,16 @@ def read_spreadsheet(
 
 def sheets_of(path: Path) -> list[str]:
     """Return the names of the sheets that may be read, none of a file that is no spreadsheet."""
-    calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
-    with path.open("rb") as file, suppress(calamine.CalamineError):
-        return _readable(calamine.CalamineWorkbook.from_filelike(file), "")
+    with path.open("rb") as file:
+        if file.peek(4).startswith(STARTS):
+            calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
+            with suppress(calamine.CalamineError):
+                return _readable(calamine, calamine.CalamineWorkbook.from_filelike(file), "")
     return []
 
 
-def _readable(book: Any, sheet: str) -> list[str]:
+def _readable(calamine: Any, book: Any, sheet: str) -> list[str]:
     """Return the names of the sheets with cells that are not hidden, and of the one asked for."""
-    calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
     return [
         each.name
         for each in book.sheets_metadata
@@ -105,7 +106,7 @@ def _chosen(
     if not likely:
         raise refusal(what, path, "it is empty; there must be a header and numbers")
     if len(likely) > 1:
-        say = offered().sheet.format(path=path, sheet=likely[0])
+        say = REMEDIES.get().sheet.format(path=path, sheet=likely[0])
         raise refusal(what, path, f"its sheets {_listed(likely)} may be meant; {say}")
     more = [f"the sheet {likely[0]!r} was read, not {_listed({*filled} - {*likely})}"]
     return likely[0], more if len(filled) > 1 else []

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.heads import is_open, spelled
-from carom.io.remedies import offered
+from carom.io.remedies import REMEDIES
 from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
@@ -124,7 +124,7 @@ class UserTable(Rows, Printed):
                 near = nearest(spelled(name), there)
                 hint = near or f"found {', '.join(there) or 'no other'};"
                 needed = ", ".join(spelled(key) for key in names)
-                remedy = offered().column.format(head="ITS HEAD", name=name)
+                remedy = REMEDIES.get().column.format(head="ITS HEAD", name=name)
                 there_as = f"; if it is there by another name, {remedy}"
                 asked = there_as if self.is_of_file and not near else ""
                 words = f"column missing; {hint} needed are {needed}"
@@ -265,7 +265,7 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
             if column.letter:
                 angle = hint.partition(" [")[0] in ANGLES
                 asked += " It is measured from the normal." if angle else ""
-                remedy = offered().column.format(head=clipped(column.head), name=meaning)
+                remedy = REMEDIES.get().column.format(head=clipped(column.head), name=meaning)
                 asked += f" If so, {remedy}"
             faults.add(f"{heading(name)}: unknown column; {asked}")
     for name in table.names:
