@@ -87,6 +87,8 @@ def test_a_german_export_is_read_by_lists_and_stored(visit, tmp_path, monkeypatc
     assert "now choose the table" in notice(seen)
     upload(seen, german(), "again.csv")
     seen.page.wait_for_selector("#fit-bodies")
+    said = seen.page.evaluate("document.getElementById('fit-columns').said()")
+    assert said == file.read_text("utf-8")  # lists that nobody touches say what they were told
     assert fit_with_bodies_of_page(seen) == words
 
 

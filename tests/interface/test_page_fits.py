@@ -273,3 +273,30 @@ def test_a_mapping_that_does_not_fit_is_refused(columns, words, folder):
     line = refused("", asked, measured(0.123), "given=bodies", columns=columns)
     assert words in line
     assert str(folder) not in line
+
+
+def test_nothing_is_offered_for_what_lists_cannot_mend():
+    """Two columns of one head, which no mapping tells apart; a text without numbers."""
+    for content in ("angle [deg],x,x\n10,1,2\n20,2,3\n", "once upon a time\nthere was\n"):
+        with pytest.raises(carom.InputError) as error:
+            asked(content)
+        assert error.value.more == {}
+
+
+@pytest.mark.parametrize(
+    ("head", "own", "own_unit", "fits"),
+    [
+        ("angle_deg", "angle", "deg", []),
+        ("psi_1", "psi_in", "", []),
+        ("h1 (cm)", "h1", "", ["m"]),
+        ("rebound_height_2_error [mm]", "rebound_height_2_error", "", ["m"]),
+        ("spin_out [1/min]", "spin_out", "", []),  # turns or radians
+        ("column C", "", "", []),
+    ],
+)
+def test_what_a_head_says(head, own, own_unit, fits):
+    rows, lists = offered(f"x [deg],{head}\n10,0.5\n", as_toml(TableFormat({head: "column B"})))
+    row = rows[head]
+    assert (row["own"], row["own_unit"], row["fits"], row["name"]) == (own, own_unit, fits, "")
+    names = {each["name"] for each in lists["quantities"]}
+    assert own.removesuffix("_error") in {"", *names}

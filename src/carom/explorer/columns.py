@@ -66,7 +66,9 @@ def lists(file: Path, how: TableFormat) -> dict[str, Any] | None:
     with suppress(InputError):  # which is told as the fault of the file
         columns, _ = file_columns("file", file, how, 1)
         written, _ = file_columns("file", file, how._replace(decimal="."), 1)  # with commas as such
-    if not any(is_number(cell) for column in columns for cell in column.cells):
+    if len({column.head for column in columns}) < len(columns) or not any(
+        is_number(cell) for column in columns for cell in column.cells
+    ):
         columns = []
     sheets = sheets_of(file)
     if not columns and len(sheets) < 2:

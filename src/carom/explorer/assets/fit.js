@@ -58,6 +58,7 @@ Carom.fit = (() => {
 
   async function take(chosen) {
     if (!chosen) return;
+    list();
     if (chosen.size > LARGEST) {
       clear();
       return complain({ message: `${chosen.name} has ${chosen.size} bytes; it must have at most ${LARGEST}. Leave out what is not needed.` });
@@ -78,7 +79,6 @@ Carom.fit = (() => {
       parts.data.value = "";
       parts.data.dispatchEvent(new Event("change", { bubbles: true })); // the link forgets the data set
     }
-    list();
     ask(told);
   }
 
