@@ -84,7 +84,8 @@ def test_bodies_are_asked_for_where_the_file_does_not_tell_them():
         reply = asked(measured(0.123), bodies)
         assert reply["asks"] == "bodies"
         assert reply["message"].startswith("me.csv does not say which bodies")
-        assert [row["head"] for row in reply["columns"]] == ["angle [deg]", "contact_beta", "run"]
+        taken = {row["head"]: row["name"] for row in reply["lists"]["columns"]}
+        assert taken == {"angle [deg]": "angle", "contact_beta": "contact_beta", "run": ""}
     reply = asked(measured(0.123), "given=bodies&radius=5")
     assert reply["bodies"]["from"] == "page"
     assert "ball of 5 mm radius, bearing-steel" in reply["bodies"]["text"]
@@ -123,7 +124,7 @@ def test_columns_say_what_they_were_taken_for():
     assert columns[0]["meaning"] == "angle of incidence from the normal"
     assert [row["unit"] for row in columns] == ["deg", "", ""]
     rows = "1,10,-3,1\n1,20,-9,1\n1,30,-20,1\n1,60,-30,1\n"
-    columns = asked(f"speed,angle [deg],spin_out,spin_out_error\n{rows}")["columns"]
+    columns = asked(f"speed,angle [deg],spin_out,spin_out_error\n{rows}", "given=bodies")["columns"]
     assert columns[0]["unit"] == "m/s (the head names no unit)"
     assert columns[3]["kind"] == "standard deviation"
 

@@ -1,12 +1,11 @@
 """The columns of a file for the page: what each was taken for, and what it may hold instead."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from carom.datasets.observables import BEFORE, OBSERVABLES
-from carom.fitting import Fit
 from carom.fitting.bounces import BOUNCES, base
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.reading import FROM_SURFACE, UNSIGNED
@@ -39,9 +38,8 @@ UNITS = {
 SHOWN_CELLS = 3
 
 
-def taken(columns: Mapping[str, Column], fitted: Fit | None = None) -> list[dict[str, str]]:
+def taken(columns: Mapping[str, Column], ignored: Iterable[str]) -> list[dict[str, str]]:
     """Return for each column its head, what it was taken for, and the unit it was read in."""
-    ignored = () if fitted is None else fitted._best.model.problem.ignored
     empty = [name.partition(" ")[0] for name in ignored if "(" in name]
     return [_taken(name, columns[name], entry(name) in empty) for name in columns]
 

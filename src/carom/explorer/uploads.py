@@ -5,7 +5,7 @@ What is shown of a fit: parameters, laws, charts with residuals, bodies, notes.
 
 from base64 import b64decode
 from binascii import Error as NotBase64
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from math import isfinite, isnan
 from pathlib import Path
 from typing import Any
@@ -27,6 +27,7 @@ from carom.fitting.estimates import significant
 from carom.fitting.reading import read_measurements, read_problem, read_rebounds
 from carom.io.heads import TableFormat, table_format
 from carom.io.remedies import Remedies, offering
+from carom.io.rows import Column
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text
@@ -111,15 +112,13 @@ def _fitted(file: Path, name: str, view: View | None, how: TableFormat) -> dict[
             there = {*read_measurements(table, faults).rows.columns}
         if not there & {*OBSERVABLES} or not there & {*INCIDENCE, "normal_speed"}:
             read_problem(table, View().pair)
-        asked = BODIES_ASKED.format(name=name)
-        return {"asks": "bodies", "name": name, "message": asked, "columns": taken(table.cells)}
+        return {"asks": "bodies", "name": name, "message": BODIES_ASKED.format(name=name)}
     pair: Pair | None = view.pair if table.case is None and view is not None else None
-    fitted = fit(table, pair=pair)
-    return shown_fit(fitted, name, "page" if pair else "file", taken(table.cells, fitted))
+    return shown_fit(fit(table, pair=pair), name, "page" if pair else "file", table.cells)
 
 
 def shown_fit(
-    result: Fit, name: str, bodies_from: str, columns: list[dict[str, str]]
+    result: Fit, name: str, bodies_from: str, cells: Mapping[str, Column]
 ) -> dict[str, Any]:
     """Return all that the page shows of a fit, as JSON can hold it."""
     problem, dataset = result._best.model.problem, result.to_dataset()
@@ -136,7 +135,7 @@ def shown_fit(
         "regimes": [] if problem.is_normal else _regimes(result),
         "notes": [in_words(note) for note in result.notes if not note.startswith(SHOWN_ELSEWHERE)],
         "charts": charts,
-        "columns": columns,
+        "columns": taken(cells, problem.ignored),
         "bodies": {"from": bodies_from, "text": words_of(problem.pair)},
         "words": str(result),
     }
