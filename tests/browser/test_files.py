@@ -147,6 +147,16 @@ def fitted_friction(seen):
     return float(row.locator("td").nth(2).inner_text())
 
 
+def holds(seen, head):
+    """The list of what a column holds, by its name for a screen reader."""
+    return seen.page.get_by_label(f"what {head} holds", exact=True)
+
+
+def holding(seen, head):
+    """What a column was taken for, as its list shows it."""
+    return holds(seen, head).evaluate("list => list.selectedOptions[0].text")
+
+
 BAD = {
     "text.csv": b"once upon a time\nthere was a ball\n",
     "columns.csv": b"colour,size\n1,2\n3,4\n",
@@ -165,7 +175,8 @@ def test_bodies_are_asked_for_and_a_fit_stays_until_another_is_wanted(visit):
     assert seen.page.locator(".carom-parameters").count() == 0
     words = seen.page.inner_text("#fit-ask")
     assert "mine.csv does not say which bodies struck each other" in words
-    assert "angle of incidence from the normal" in words  # what the columns were taken for
+    assert holding(seen, "angle [deg]") == "angle of incidence from the normal · angle"
+    assert holding(seen, "run") == "not used"
     seen.page.fill("#radius", "6")
     seen.until(lambda: "ball of 6 mm radius" in seen.page.inner_text("#fit-bodies"))
     seen.page.fill("#radius", "5")

@@ -1,5 +1,6 @@
 """Cells of files: decimal commas, what is missing, sheets, and all faults at once, by cell."""
 
+import ast
 import io
 import re
 from datetime import datetime
@@ -12,6 +13,7 @@ from tests.checks import PAIR, refused
 import carom
 from carom.io import table_rows
 from carom.io.heads import TableFormat, as_toml, table_format
+from carom.io.remedies import SHELL, offering
 from carom.io.tables import read_table
 from carom.io.user_table import column_in_si, in_units
 
@@ -44,10 +46,10 @@ DECIMALS = {  # the first column of a file, its numbers, or words of the line th
     "a;b\n1.5;x\n2;y\n": [1.5, 2.0],
     "a;b\n1.234;x\n2;y\n": [1.234, 2.0],  # a point is decimal where no comma is
     "a;b\n0,125;1\n": [0.125],
-    "a;b\n1,234;x\n2,345;y\n": "a: 1,234 in cell A2 may be 1.234 or 1234, .* --decimal ,",
+    "a;b\n1,234;x\n2,345;y\n": "a: 1,234 in cell A2 may be 1.234 or 1234, .* give decimal=','",
     'a,b\n"1,234",5\n': "a: 1,234 in cell A2 may be 1.234 or 1234",
     'a,b\n"1,234",0.5\n': "a: 1,234 in cell A2 may be 1.234 or 1234",
-    "a;b\n1.234;0,5\n": r"a: 1.234 in cell A2 may be 1.234 or 1234, .* --decimal \.",
+    "a;b\n1.234;0,5\n": r"a: 1.234 in cell A2 may be 1.234 or 1234, .* give decimal='\.'",
     "a;b\n5;1\n0,5;2\n1.5;3\n": "0,5 in cell A3 and 1.5 in cell A4 have different decimal signs",
     "a;b\n0,5;2\n1.234;3\n": "0,5 in cell A2 and 1.234 in cell A3 have different",
     "a;b\n1.234,5;2\n": [np.nan],
@@ -107,11 +109,11 @@ def test_rows_that_were_not_done_are_left_out_and_said(stored):
     )
 
 
-def test_all_faults_are_said_at_once_with_the_options_that_mend_them(stored):
+def test_all_faults_are_said_at_once_with_what_mends_them(stored):
     text = "Winkel [°];theta_r;speed;spin_out [rpm]\n10;5;1;fast\n20;6;;-1,234\n30;7;2;0.5\n"
     line = refused("^4 faults: ", carom.fit, stored(text), pair=PAIR)
-    assert 'If so, add --column "Winkel [°]=angle"' in line
-    assert 'If so, add --column "theta_r=rebound_angle"' in line
+    assert "If so, give columns={'Winkel [°]': 'angle'}" in line
+    assert "If so, give columns={'theta_r': 'rebound_angle'}" in line
     assert "spin_out: -1,234 in cell D3 and 0.5 in cell D4 have different decimal signs" in line
     assert "speed: no value in cell C3" in line
 
@@ -146,8 +148,12 @@ def test_the_option_that_mends_a_column_has_a_unit_where_it_is_needed(stored):
     text = "Winkel [Grad];v_in;Drehzahl [1/min]\n10;1;-200\n20;1;-300\n30;1;-9\n"
     line = refused("^3 faults: ", carom.fit, stored(text), pair=PAIR)
     assert "did you mean 'angle'? It is measured from the normal." in line
+    found = map(ast.literal_eval, re.findall(r"give columns=(\{[^}]*\})", line))
+    names = {head: name for each in found for head, name in each.items()}
+    with offering(SHELL):
+        line = refused("^3 faults: ", carom.fit, stored(text), pair=PAIR)
     options = re.findall('add --column "([^"]*)"', line)
-    names = dict(option.rsplit("=", 1) for option in options)
+    assert dict(option.rsplit("=", 1) for option in options) == names
     assert names == {
         "Winkel [Grad]": "angle [deg]",
         "v_in": "speed",

@@ -284,7 +284,8 @@ def test_commands_read_files_in_one_way_and_store_it(tmp_path, capsys, monkeypat
     assert main([*fit, "lab.xlsx:Neu", *options]) == 0
     assert json.loads(capsys.readouterr().out) == first
     assert main([*fit, "lab.xlsx", *options]) == 2
-    assert "its sheets 'Alt', 'Neu' may be meant" in capsys.readouterr().err
+    said = "its sheets 'Alt', 'Neu' may be meant; say which, by lab.xlsx:Alt or --sheet\n"
+    assert capsys.readouterr().err.endswith(said)
     columns = 'columns = {"Winkel" = "angle", "v_in" = "speed"}\nsheet = "Alt"\n'
     table = '[sweep]\ntable = "two.xlsx"\n' + columns
     for sheet in book:

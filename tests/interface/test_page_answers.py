@@ -143,7 +143,7 @@ def test_addresses_of_fits():
         assert client.get("/fit?data=kharaz2001").json == {"words": "fitted"}
     assert worker.asked == [{"data": "kharaz2001"}]
     assert client.get("/fit?data=nothing").json["field"] == "data"
-    file = {"contents": "data:text/csv;base64,eA==", "name": "a.csv", "bodies": ""}
+    file = {"contents": "data:text/csv;base64,eA==", "name": "a.csv", "bodies": "", "columns": ""}
     assert client.post("/fit", json=file).json == {"words": "fitted"}
     assert worker.asked[1:] == [file]
     refused = {"field": "", "message": "file: it did not arrive; choose it again"}

@@ -1,14 +1,19 @@
 """Fits on the page are the library's; columns are explained, and bodies asked for."""
 
+import io
 import json
 from base64 import b64encode
 from functools import cache
+from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 from tests.checks import measured, refused
 
 import carom
+from carom.cli import main
+from carom.io.heads import TableFormat, as_toml
 
 pytest.importorskip("flask")
 
@@ -25,9 +30,9 @@ def sent(content):
     return f"data:text/csv;base64,{b64encode(content).decode()}"
 
 
-def asked(content, bodies="", name="folder/me.csv"):
+def asked(content, bodies="", name="folder/me.csv", columns=""):
     text = content if isinstance(content, bytes) else content.encode()
-    return answer({"contents": sent(text), "name": name, "bodies": bodies})
+    return answer({"contents": sent(text), "name": name, "bodies": bodies, "columns": columns})
 
 
 @pytest.fixture(autouse=True)
@@ -79,7 +84,8 @@ def test_bodies_are_asked_for_where_the_file_does_not_tell_them():
         reply = asked(measured(0.123), bodies)
         assert reply["asks"] == "bodies"
         assert reply["message"].startswith("me.csv does not say which bodies")
-        assert [row["head"] for row in reply["columns"]] == ["angle [deg]", "contact_beta", "run"]
+        taken = {row["head"]: row["name"] for row in reply["lists"]["columns"]}
+        assert taken == {"angle [deg]": "angle", "contact_beta": "contact_beta", "run": ""}
     reply = asked(measured(0.123), "given=bodies&radius=5")
     assert reply["bodies"]["from"] == "page"
     assert "ball of 5 mm radius, bearing-steel" in reply["bodies"]["text"]
@@ -93,6 +99,10 @@ WRONG = [
     ("angel [deg],contact_beta\n10,0.5\n", "did you mean"),
     ("colour,size\n1,2\n", "no measured response"),
     ("angle,contact_beta\n10,0.5\n", "for degrees write"),
+    ("x [deg],contact_beta\n10,0.5\n", "by another name, choose it in the list of the column"),
+    ("theta;contact_beta\n1,234;0,5\n", "If so, choose it in the list of the column"),
+    ("angle;contact_beta\n1,234;1,5\n1.2;2\n", "have different decimal signs"),
+    ("angle [deg];contact_beta\n1,234;1,235\n", "choose it in the list of decimal signs"),
 ]
 
 
@@ -114,7 +124,7 @@ def test_columns_say_what_they_were_taken_for():
     assert columns[0]["meaning"] == "angle of incidence from the normal"
     assert [row["unit"] for row in columns] == ["deg", "", ""]
     rows = "1,10,-3,1\n1,20,-9,1\n1,30,-20,1\n1,60,-30,1\n"
-    columns = asked(f"speed,angle [deg],spin_out,spin_out_error\n{rows}")["columns"]
+    columns = asked(f"speed,angle [deg],spin_out,spin_out_error\n{rows}", "given=bodies")["columns"]
     assert columns[0]["unit"] == "m/s (the head names no unit)"
     assert columns[3]["kind"] == "standard deviation"
 
@@ -159,3 +169,135 @@ def test_the_process_that_fits():
         refused("^file: ", worker.fit, contents=sent(b"what"), name="a.csv", bodies="")
     finally:
         worker.close()
+
+
+HEADS = "Winkel zur Platte [\N{DEGREE SIGN}];Drehzahl;Vorher;v_in;Notiz\r\n"
+SAID = {  # in the lists: what they write for each head
+    "Winkel zur Platte [\N{DEGREE SIGN}]": "surface_angle",
+    "Drehzahl": "spin_out [rpm]",
+    "Vorher": "spin [rad/s]",
+    "v_in": "speed",
+}
+
+
+def german():
+    """A table as German Excel exports it, of a ball of bearing steel whose friction is 0.17."""
+    body = {"material": "bearing-steel"}
+    pair = carom.Pair(carom.Sphere(radius="5 mm", **body), carom.HalfSpace(**body), 0.17)
+    rows = []
+    for angle in range(8, 80, 8):
+        hit = carom.impact(pair, speed=1.2, angle=f"{angle} deg", spin="0 rpm")
+        turns = hit.spin_out * 30.0 / np.pi
+        rows.append(f"{90.0 - angle:.1f};{turns:.4f};0;1,2;gut\r\n".replace(".", ","))
+    return (HEADS + "".join(rows)).encode("cp1252")
+
+
+def offered(content, columns=""):
+    with pytest.raises(carom.InputError) as error:
+        asked(content, "given=bodies", columns=columns)
+    lists = error.value.more["lists"]
+    return {column["head"]: column for column in lists["columns"]}, lists
+
+
+def test_what_a_column_may_hold_is_offered_and_suggestions_are_not_used():
+    rows, lists = offered(german())
+    assert [row["letter"] for row in rows.values()] == [*"ABCDE"]
+    assert {head: (row["name"], row["suggested"]) for head, row in rows.items()} == {
+        "Winkel zur Platte [\N{DEGREE SIGN}]": ("", False),
+        "Drehzahl": ("spin_out", True),
+        "Vorher": ("", False),
+        "v_in": ("speed", True),
+        "Notiz": ("", False),
+    }
+    assert [row["fits"] for row in rows.values()] == [["rad"], [], [], [], []]
+    assert rows["v_in"]["first"] == ["1,2", "1,2", "1,2"]  # as it is written
+    assert (lists["sheets"], lists["asks_decimal"]) == ([], False)
+    offers = {each["name"]: each for each in lists["quantities"]}
+    assert offers["surface_angle"]["words"] == "angle of incidence from the surface"
+    columns = as_toml(TableFormat({"Drehzahl": "spin [rpm]", "v_in": "column D"}))
+    rows, _ = offered(german(), columns)
+    assert (rows["Drehzahl"]["name"], rows["Drehzahl"]["chosen"]) == ("spin", "rpm")
+    assert (rows["v_in"]["name"], rows["v_in"]["suggested"], rows["v_in"]["likely"]) == (
+        *("", False, True),
+    )
+
+
+def test_what_the_lists_say_is_what_the_command_reads(capsys, folder):
+    """One file says it to both, and both give one fit: that of the quantities that are meant."""
+    columns = as_toml(TableFormat(SAID))
+    reply = asked(german(), "given=bodies&radius=5", columns=columns)
+    assert float(reply["parameters"][0]["value"]) == pytest.approx(0.17, rel=2e-3)
+    case = '[first]\nradius = "5 mm"\nmaterial = "bearing-steel"\n'
+    for name, text in {"map.toml": columns, "case.toml": case}.items():
+        Path(name).write_text(text, encoding="utf-8")
+    Path("lab.csv").write_bytes(german())
+    capsys.readouterr()
+    assert main(["fit", "lab.csv", "--case", "case.toml", "--columns", "map.toml"]) == 0
+    assert capsys.readouterr().out.strip() == reply["words"]
+    for name in ("map.toml", "case.toml", "lab.csv"):
+        Path(name).unlink()
+    rows = {column["head"]: column for column in reply["lists"]["columns"]}
+    assert {head: rows[head]["name"] for head in SAID} == {
+        head: name.partition(" ")[0] for head, name in SAID.items()
+    }
+
+
+def test_sheets_and_decimal_signs_are_offered_where_they_matter():
+    book, file = openpyxl.Workbook(), io.BytesIO()
+    for sheet, factor in ((book.active, 1.0), (book.create_sheet("Neu"), 0.5)):
+        for row in ("angle [deg]", "contact_beta"), (10, factor), (20, 0.9 * factor), (60, 0.1):
+            sheet.append(row)
+    book.save(file)
+    _, lists = offered(file.getvalue())
+    assert (lists["sheets"], lists["columns"]) == (["Sheet", "Neu"], [])
+    reply = asked(file.getvalue(), columns='sheet = "Neu"')
+    assert reply["lists"]["columns"][1]["first"] == ["0.5", "0.45", "0.1"]
+    text = "angle [deg];rebound_angle [deg]\n1,234;1,111\n2,345;2,222\n"
+    rows, lists = offered(text)
+    assert lists["asks_decimal"]
+    assert rows["angle [deg]"]["first"] == ["1,234", "2,345"]
+    lists = asked(text, columns='decimal = ","')["lists"]
+    assert (lists["asks_decimal"], lists["decimal"]) == (True, ",")
+
+
+@pytest.mark.parametrize(
+    ("columns", "words"),
+    [
+        ("angel", "columns: 'map.toml' cannot be used; it is not TOML"),
+        ("colour = 1", "columns: 'colour' in map.toml is unknown"),
+        ('[columns]\nx = "speed"', "file has no column of that name"),
+        ('[columns]\nrun = "angle"', "'angle': two columns, A and C, have this name"),
+        ('sheet = "A"', "me.csv is no spreadsheet"),
+    ],
+)
+def test_a_mapping_that_does_not_fit_is_refused(columns, words, folder):
+    line = refused("", asked, measured(0.123), "given=bodies", columns=columns)
+    assert words in line
+    assert str(folder) not in line
+
+
+def test_nothing_is_offered_for_what_lists_cannot_mend():
+    """Two columns of one head, which no mapping tells apart; a text without numbers."""
+    for content in ("angle [deg],x,x\n10,1,2\n20,2,3\n", "once upon a time\nthere was\n"):
+        with pytest.raises(carom.InputError) as error:
+            asked(content)
+        assert error.value.more == {}
+
+
+@pytest.mark.parametrize(
+    ("head", "own", "own_unit", "fits"),
+    [
+        ("angle_deg", "angle", "deg", []),
+        ("psi_1", "psi_in", "", []),
+        ("h1 (cm)", "h1", "", ["m"]),
+        ("rebound_height_2_error [mm]", "rebound_height_2_error", "", ["m"]),
+        ("spin_out [1/min]", "spin_out", "", []),  # turns or radians
+        ("column C", "", "", []),
+    ],
+)
+def test_what_a_head_says(head, own, own_unit, fits):
+    rows, lists = offered(f"x [deg],{head}\n10,0.5\n", as_toml(TableFormat({head: "column B"})))
+    row = rows[head]
+    assert (row["own"], row["own_unit"], row["fits"], row["name"]) == (own, own_unit, fits, "")
+    names = {each["name"] for each in lists["quantities"]}
+    assert own.removesuffix("_error") in {"", *names}

@@ -17,6 +17,7 @@ from carom.cli.programs import lammps_app, liggghts_app
 from carom.cli.sweep import sweep_command
 from carom.cli.track import track_command
 from carom.cli.verify import app as verify_app
+from carom.io.remedies import SHELL, offering
 from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant, remark
 
@@ -61,7 +62,8 @@ def _built() -> Any:
 def answer(arguments: list[str] | None) -> int:
     """Run a command and return its exit code; raises InputError for bad input."""
     try:
-        code = int(_built()(arguments, standalone_mode=False) or 0)
+        with offering(SHELL):
+            code = int(_built()(arguments, standalone_mode=False) or 0)
     except typer.TyperException as error:
         if type(error).__name__ == "NoArgsIsHelpError":  # no command: the message is the help
             typer.echo(error.format_message())

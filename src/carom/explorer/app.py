@@ -37,7 +37,7 @@ WRITTEN_FILES = (  # of a view, which take time
     *("template.csv", "history.csv", "history.nc"),
     *(f"{picture}.{kind}" for picture in PICTURES for kind in ("png", "svg", "pdf")),
 )
-UPLOADED = ("contents", "name", "bodies")
+UPLOADED = ("contents", "name", "bodies", "columns")
 ASSETS = Path(__file__).with_name("assets")
 ANSWERED_IN_JSON = ("/answer", "/laws", "/fit")  # whose errors are JSON, of others text
 SECONDS_UNTIL_AGAIN = 1  # for what is being compiled
@@ -163,7 +163,7 @@ def _one_line(error: Exception) -> Response:
     if isinstance(error, Preparing):
         return _refusal("", str(error), 503, again=SECONDS_UNTIL_AGAIN, percent=error.percent)
     if isinstance(error, Refused):
-        return _refusal(error.field, error.message)
+        return _refusal(error.field, error.message, **error.more)
     if isinstance(error, InputError):
         return _refusal(*_parted(str(error)))
     if isinstance(error, Busy):

@@ -37,7 +37,7 @@ def tables(advance: Advance) -> str:
         "prefixes": {unit: _prefixes(unit) for unit in ("s", "N", "J", "m", "m/s")},
     }
     text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
-    return f"window.Carom = window.Carom || {{}};\nCarom.tables = {text};\n"
+    return f"Carom.tables = {text};\n"
 
 
 def _packed(restitution: float, advance: Advance) -> dict[str, Any]:

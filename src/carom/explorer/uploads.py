@@ -3,7 +3,6 @@
 What is shown of a fit: parameters, laws, charts with residuals, bodies, notes.
 """
 
-import re
 from base64 import b64decode
 from binascii import Error as NotBase64
 from collections.abc import Iterable, Mapping
@@ -17,45 +16,33 @@ import xarray as xr
 from carom import datasets
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
-from carom.datasets.observables import BEFORE, OBSERVABLES
+from carom.datasets.observables import INCIDENCE, OBSERVABLES
+from carom.explorer.columns import lists, plain_words, taken
 from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.explorer.results import in_words
 from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View
 from carom.fitting import Estimate, Fit, fit
-from carom.fitting.bounces import BOUNCES, base
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
-from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.reading import (
-    FROM_SURFACE,
-    RECORDED,
-    UNSIGNED,
-    read_measurements,
-    read_problem,
-    read_rebounds,
-)
+from carom.fitting.reading import read_measurements, read_problem, read_rebounds
+from carom.io.heads import TableFormat, table_format
+from carom.io.remedies import Remedies, offering
 from carom.io.rows import Column
-from carom.io.user_table import entry
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import Faults, InputError, refusal
 
-COLUMN_KINDS = {
-    **dict.fromkeys(BEFORE, "before the impact"),
-    **dict.fromkeys(OBSERVABLES, "after the impact"),
-    **dict.fromkeys(BOUNCES, "drop and rebound"),
-    **dict.fromkeys((*FROM_SURFACE, *UNSIGNED), "after the impact"),
-    "surface_angle": "before the impact",
-    THICKNESS: "the plate",
-    DURATION: "after the impact",
-}
 BODIES_ASKED = (
     "{name} does not say which bodies struck each other. The fit needs their radius, their "
     "density and their elastic constants."
 )
+LISTS = Remedies(
+    "choose it in the list of the column",
+    "choose one in the list of sheets",
+    "choose it in the list of decimal signs",
+)
 PAGE_SUBJECTS = {"data": "file", "results": "file", "pair": "bodies"}  # by those of Python
-OPTION_ASKED = re.compile(r'(?: If so,|; if it is there by another name,) add --column "[^"]*"')
 SHOWN_DIGITS = 6
 NO_NUMBER = "-"
 LEAST_WEIGHT = 1e-3  # of a law; of less it is said that it is below
@@ -66,22 +53,30 @@ SHOWN_ELSEWHERE = "columns that were not used"
 def answer(asked: dict[str, str]) -> dict[str, Any]:
     """Return the fit of a data set that comes along, by its name, or of a file that was sent.
 
-    A file is written into the working directory meanwhile, which `worker.Desk` has made for it.
-    Raises InputError if it is too large, no table, or cannot be fitted.
+    A file is written into the working directory meanwhile, which `worker.Desk` has made for it, and
+    so is what its columns hold. Raises Refused, with lists to choose that from, if it cannot be
+    fitted, and InputError if it is too large.
     """
+    how = table_format(None)
     if "data" in asked:
-        file = datasets.path(asked["data"])
-        return _fitted(file, asked["data"], None)
-    file, name = Path.cwd() / "upload.csv", shown_name(asked["name"])
+        return _fitted(datasets.path(asked["data"]), asked["data"], None, how)
+    file, name, said = Path.cwd() / "upload.csv", shown_name(asked["name"]), Path("map.toml")
     file.write_bytes(_decoded(asked["contents"]))
+    said.write_text(asked.get("columns", ""), "utf-8", "replace")
     try:
-        return _fitted(file, name, View.of(asked["bodies"]) if asked["bodies"] else None)
+        with offering(LISTS):
+            how = table_format(said)
+            view = View.of(asked["bodies"]) if asked["bodies"] else None
+            return _fitted(file, name, view, how) | {"lists": lists(file, how)}
     except Refused:  # of the bodies that the page sent
         raise
     except InputError as error:
-        raise InputError(_in_words_of_the_page(str(error), str(file), name)) from None
+        words = _in_words_of_the_page(str(error), str(file), name)
+        offer = lists(file, how)
+        raise Refused("", words, **({"lists": offer} if offer else {})) from None
     finally:
         file.unlink()
+        said.unlink()
 
 
 def shown_name(name: str) -> str:
@@ -93,7 +88,6 @@ def shown_name(name: str) -> str:
 def _in_words_of_the_page(message: str, path: str, name: str) -> str:
     subject, colon, rest = message.replace(path, name).partition(": ")
     rest = rest.replace(", or fix some, e.g. fixed={'restitution': 0.98}", "")
-    rest = OPTION_ASKED.sub("", rest)
     return in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
 
 
@@ -108,44 +102,23 @@ def _decoded(contents: str) -> bytes:
     return content
 
 
-def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
-    table = read_rebounds(file, what="file")
+def _fitted(file: Path, name: str, view: View | None, how: TableFormat) -> dict[str, Any]:
+    table = read_rebounds(file, what="file", **how._asdict())
     if len(table) > MOST_UPLOADED_ROWS:
         allowed = f"must be at most {MOST_UPLOADED_ROWS} rows; use carom fit for more"
         raise refusal("file", f"{len(table)} rows", allowed)
     if table.case is None and (view is None or view.in_numbers):
-        read_measurements(table)  # what no bodies make right is said before they are asked for
-        if not {*table.names} & {*OBSERVABLES, *RECORDED}:
+        with Faults() as faults:  # what no bodies make right is said before they are asked for
+            there = {*read_measurements(table, faults).rows.columns}
+        if not there & {*OBSERVABLES} or not there & {*INCIDENCE, "normal_speed"}:
             read_problem(table, View().pair)
-        asked = BODIES_ASKED.format(name=name)
-        return {"asks": "bodies", "name": name, "message": asked, "columns": taken(table.cells)}
+        return {"asks": "bodies", "name": name, "message": BODIES_ASKED.format(name=name)}
     pair: Pair | None = view.pair if table.case is None and view is not None else None
-    fitted = fit(table, pair=pair)
-    return shown_fit(fitted, name, "page" if pair else "file", taken(table.cells, fitted))
-
-
-def taken(columns: Mapping[str, Column], fitted: Fit | None = None) -> list[dict[str, str]]:
-    """Return for each column its head, what it was taken for, and the unit it was read in."""
-    ignored = () if fitted is None else fitted._best.model.problem.ignored
-    empty = [name.partition(" ")[0] for name in ignored if "(" in name]
-    return [_taken(name, columns[name], entry(name) in empty) for name in columns]
-
-
-def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
-    quantity = entry(base(name))
-    if quantity not in COLUMN_KINDS:
-        return {"head": column.head, "kind": "not used", "meaning": "", "unit": ""}
-    si, kind, meaning = GLOSSARY[quantity].unit, COLUMN_KINDS[quantity], plain_words(quantity)
-    if name != quantity:
-        kind, meaning = "standard deviation", f"of {meaning}"
-    if empty:
-        kind = "not used: no value in it"
-    unit = str(column.unit) or ("" if si == "1" else f"{si} (the head names no unit)")
-    return {"head": column.head, "kind": kind, "meaning": meaning, "unit": unit}
+    return shown_fit(fit(table, pair=pair), name, "page" if pair else "file", table.cells)
 
 
 def shown_fit(
-    result: Fit, name: str, bodies_from: str, columns: list[dict[str, str]]
+    result: Fit, name: str, bodies_from: str, cells: Mapping[str, Column]
 ) -> dict[str, Any]:
     """Return all that the page shows of a fit, as JSON can hold it."""
     problem, dataset = result._best.model.problem, result.to_dataset()
@@ -162,7 +135,7 @@ def shown_fit(
         "regimes": [] if problem.is_normal else _regimes(result),
         "notes": [in_words(note) for note in result.notes if not note.startswith(SHOWN_ELSEWHERE)],
         "charts": charts,
-        "columns": columns,
+        "columns": taken(cells, problem.ignored),
         "bodies": {"from": bodies_from, "text": words_of(problem.pair)},
         "words": str(result),
     }
@@ -309,13 +282,11 @@ def words_of(pair: Pair) -> str:
     """Return the bodies of a fit in words."""
     first = f"ball of {text(pair.first.radius, 'm', 4)} radius, {_material(pair.first)}"
     second: Any = pair.second
-    if pair.thickness is not None:
-        return f"{first}; on a plate of {text(pair.thickness, 'm', 4)}, {_material(second)}"
-    if not isinstance(second, Sphere | Cup):
-        plate = pair.thickness and f"plate of {text(pair.thickness, 'm', 4)}"
-        return f"{first}; on a {plate or 'half-space'}, {_material(second)}"
-    kind = "sphere" if isinstance(second, Sphere) else "cup"
-    return f"{first}; on a {kind} of {text(second.radius, 'm', 4)} radius, {_material(second)}"
+    shape = "half-space" if pair.thickness is None else f"plate of {text(pair.thickness, 'm', 4)}"
+    if isinstance(second, Sphere | Cup):
+        kind = "sphere" if isinstance(second, Sphere) else "cup"
+        shape = f"{kind} of {text(second.radius, 'm', 4)} radius"
+    return f"{first}; on a {shape}, {_material(second)}"
 
 
 def _material(body: Any) -> str:
@@ -323,8 +294,3 @@ def _material(body: Any) -> str:
     if stuff.name:
         return str(stuff.name)
     return f"E = {text(stuff.young, 'Pa', 3)}, ν = {stuff.poisson:.3g}"
-
-
-def plain_words(name: str) -> str:
-    """Return what a quantity means, without the marks of formulas."""
-    return GLOSSARY[name].meaning.replace("$", "")

@@ -7,7 +7,7 @@ stand in `data/page.toml`, with others of the page.
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, partial
 from importlib.resources import files
 from math import inf, isfinite
 from typing import Any, NamedTuple, Self
@@ -74,16 +74,18 @@ FIELDS = {name: Field(**words) for name, words in PAGE["fields"].items()}
 class Refused(InputError):
     """A field of the page cannot be what it is, in the page's own words; "" is the whole link.
 
-    Its text begins with the label of the field, for those who have no field to look at.
+    Its text begins with the label of the field, for those who have no field to look at. `more` is
+    what else the page is told, as lists to choose from for a file.
     """
 
-    def __init__(self, field: str, message: str) -> None:
+    def __init__(self, field: str, message: str, **more: Any) -> None:
         super().__init__(f"{FIELDS[field].label}: {message}" if field else message)
         self.field = field
         self.message = " ".join(message.splitlines())
+        self.more = more
 
-    def __reduce__(self) -> tuple[type["Refused"], tuple[str, str]]:
-        return Refused, (self.field, self.message)
+    def __reduce__(self) -> Any:
+        return partial(Refused, **self.more), (self.field, self.message)
 
 
 def read_number(name: str, text: Any) -> float:

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.io.remedies import REMEDIES
 from carom.quantities.arrays import plain_numbers
 from carom.quantities.texts import BLANKS, LONGEST_TEXT, SIGN
 
@@ -131,6 +132,6 @@ def sign_of(column: Cells, told: set[str], cell_of: Callable[[int], str]) -> tup
 def _asked(shown: str, text: str, sign: str) -> str:
     less, thousand = text.replace(sign, POINT), text.replace(sign, "")
     return (
-        f"{shown} may be {less} or {thousand}, with a separator of thousands; if it is {less}, say "
-        f"--decimal {sign} (decimal={sign!r} in Python), else leave the separators out"
+        f"{shown} may be {less} or {thousand}, with a separator of thousands; if it is {less}, "
+        f"{REMEDIES.get().decimal.format(sign=sign)}, else leave the separators out"
     )

@@ -6,11 +6,13 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import reduce
 from itertools import chain
+from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
 
 from carom.io.decimals import is_number
 from carom.io.extras import extra
+from carom.io.remedies import REMEDIES
 from carom.io.rows import Column, is_blank
 from carom.io.table_rows import RowSource, read_rows
 from carom.io.user_table import UserTable
@@ -40,10 +42,8 @@ def read_spreadsheet(
     try:
         book = calamine.CalamineWorkbook.from_filelike(io.BytesIO(content))
         sheets = {
-            each.name: book.get_sheet_by_name(each.name).to_python(skip_empty_area=False)
-            for each in book.sheets_metadata
-            if each.typ == calamine.SheetTypeEnum.WorkSheet
-            and (each.name == sheet or each.visible == calamine.SheetVisibleEnum.Visible)
+            name: book.get_sheet_by_name(name).to_python(skip_empty_area=False)
+            for name in _readable(calamine, book, sheet)
         }
     except calamine.PasswordError:
         raise refusal(what, path, "it has a password; store it without") from None
@@ -51,6 +51,26 @@ def read_spreadsheet(
         raise refusal(what, path, f"it is no spreadsheet, .xlsx, .xls or .ods; {error}") from None
     name, notes = _chosen(what, path, sheets, sheet)
     return read_rows(_Sheet(what, path, sheets[name], notes), fewest, decimal)
+
+
+def sheets_of(path: Path) -> list[str]:
+    """Return the names of the sheets that may be read, none of a file that is no spreadsheet."""
+    with path.open("rb") as file:
+        if file.peek(4).startswith(STARTS):
+            calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
+            with suppress(calamine.CalamineError):
+                return _readable(calamine, calamine.CalamineWorkbook.from_filelike(file), "")
+    return []
+
+
+def _readable(calamine: Any, book: Any, sheet: str) -> list[str]:
+    """Return the names of the sheets with cells that are not hidden, and of the one asked for."""
+    return [
+        each.name
+        for each in book.sheets_metadata
+        if each.typ == calamine.SheetTypeEnum.WorkSheet
+        and (each.name == sheet or each.visible == calamine.SheetVisibleEnum.Visible)
+    ]
 
 
 def _check_size(what: str, path: str, content: bytes) -> None:
@@ -86,7 +106,7 @@ def _chosen(
     if not likely:
         raise refusal(what, path, "it is empty; there must be a header and numbers")
     if len(likely) > 1:
-        say = f"say which, by {path}:{likely[0]}, --sheet or sheet="
+        say = REMEDIES.get().sheet.format(path=path, sheet=likely[0])
         raise refusal(what, path, f"its sheets {_listed(likely)} may be meant; {say}")
     more = [f"the sheet {likely[0]!r} was read, not {_listed({*filled} - {*likely})}"]
     return likely[0], more if len(filled) > 1 else []

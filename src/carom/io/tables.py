@@ -52,7 +52,7 @@ def read_table(
     if isinstance(source, UserTable) and not how.columns:
         return source
     if isinstance(source, str | Path):
-        source_columns, table = _of_file(what, source, how, fewest)
+        source_columns, table = file_columns(what, source, how, fewest)
     else:
         for name in ("sheet", "decimal"):
             refuse(getattr(how, name) and f"{name}: only a file has it; leave it out")
@@ -75,7 +75,7 @@ def _twice(name: str, letters: list[str]) -> str:
     return f"{spelled(name)!r}: two columns{where} have this name; leave one of them out"
 
 
-def _of_file(
+def file_columns(
     what: str, source: str | Path, how: TableFormat, fewest: int
 ) -> tuple[list[Column], UserTable]:
     """Return the columns of a file by their heads, and a table of its rows; its start tells all."""

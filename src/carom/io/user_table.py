@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.heads import is_open, spelled
+from carom.io.remedies import REMEDIES
 from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
@@ -123,7 +124,8 @@ class UserTable(Rows, Printed):
                 near = nearest(spelled(name), there)
                 hint = near or f"found {', '.join(there) or 'no other'};"
                 needed = ", ".join(spelled(key) for key in names)
-                there_as = f'; if it is there by another name, add --column "ITS HEAD={name}"'
+                remedy = REMEDIES.get().column.format(head="ITS HEAD", name=name)
+                there_as = f"; if it is there by another name, {remedy}"
                 asked = there_as if self.is_of_file and not near else ""
                 words = f"column missing; {hint} needed are {needed}"
                 raise InputError(f"{spelled(name)}: {words}{asked}")
@@ -257,12 +259,14 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
     unknown = tuple(name for name in table.names if name not in names)
     for name in unknown:
         column = table.cells[name]
-        if (hint := _likely(name, names)) and (column.fault or not column.missing.all()):
+        hint, meaning = suggested(name, column, names)
+        if hint:
             asked = f"did you mean {hint!r}?"
             if column.letter:
                 angle = hint.partition(" [")[0] in ANGLES
                 asked += " It is measured from the normal." if angle else ""
-                asked += f' If so, add --column "{clipped(column.head)}={_meaning(hint, column)}"'
+                remedy = REMEDIES.get().column.format(head=clipped(column.head), name=meaning)
+                asked += f" If so, {remedy}"
             faults.add(f"{heading(name)}: unknown column; {asked}")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
@@ -270,12 +274,18 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
     return unknown
 
 
-def _meaning(hint: str, column: Column) -> str:
-    """Return what a column is to be called, with a unit where that of its head is not enough."""
-    name, unit = hint.partition(" [")[0], str(column.unit)
-    if is_open(name, unit):
-        return f"{name} [{USUAL_UNITS.get(GLOSSARY[entry(name)].unit, 'ITS UNIT')}]"
-    return name if unit else hint
+def suggested(name: str, column: Column, names: Iterable[str]) -> tuple[str, str]:
+    """Return the head of a known column that another one likely is, and what it is to be called.
+
+    That has a unit where the one of its head is not enough. Both are empty if there is none.
+    """
+    hint = _likely(name, list(names))
+    if not hint or (not column.fault and column.missing.all()):
+        return "", ""
+    known, unit = hint.partition(" [")[0], str(column.unit)
+    if is_open(known, unit):
+        return hint, f"{known} [{USUAL_UNITS.get(GLOSSARY[entry(known)].unit, 'ITS UNIT')}]"
+    return hint, known if unit else hint
 
 
 def entry(name: str) -> str:

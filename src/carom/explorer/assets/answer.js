@@ -1,5 +1,4 @@
 // What there is to see of an impact that was solved: its scene, histories, curve and numbers.
-window.Carom = window.Carom || {};
 
 Carom.answer = (() => {
   const POINTS = 241; // of the curve

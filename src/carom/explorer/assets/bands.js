@@ -1,5 +1,4 @@
 // Bands of phases and regimes behind a chart, with names where they fit; others are named where one points.
-window.Carom = window.Carom || {};
 
 Carom.bands = (() => {
   const FONT = "11px";
@@ -39,10 +38,8 @@ Carom.bands = (() => {
   }
 
   function element(className, style, text = "") {
-    const made = document.createElement("div");
-    made.className = className;
+    const made = Carom.elements.make("div", className, text);
     Object.assign(made.style, style);
-    made.textContent = text;
     return made;
   }
 

@@ -1,5 +1,4 @@
 // A second impact beside the one that the controls set: kept as its query, and answered likewise.
-window.Carom = window.Carom || {};
 
 Carom.beside = (() => {
   const box = (id) => document.getElementById(id);

@@ -1,5 +1,4 @@
 // What both canvases share: sharp at any pixel density, layers that are kept, arrows, words, keys.
-window.Carom = window.Carom || {};
 
 Carom.canvas = (() => {
   const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif";

@@ -1,5 +1,4 @@
 // The charts of time: friction force between its limits, and where the energy is.
-window.Carom = window.Carom || {};
 
 Carom.histories = (() => {
   const ENERGIES = { // fill pattern of plotly; their colours are those of the theme
@@ -145,12 +144,7 @@ Carom.histories = (() => {
   }
 
   // The value of a history at a share of the contact; null outside.
-  function between(values, share) {
-    if (share < 0 || share > 1) return null;
-    const place = share * (values.length - 1);
-    const low = Math.min(values.length - 2, Math.floor(place));
-    return values[low] + (values[low + 1] - values[low]) * (place - low);
-  }
+  const between = (values, share) => (share < 0 || share > 1 ? null : Carom.scene.between(values, 0, 1, share));
 
   const digits = (value) => (value === null ? "" : Number(value.toPrecision(3)).toString().replace("-", "−"));
   const percent = (value) => (value === null ? "" : `${(100 * value).toFixed(0)}\u00a0%`);

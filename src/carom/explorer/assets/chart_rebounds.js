@@ -1,5 +1,4 @@
 // The chart of psi_2 against psi_1: exact curve, regimes, contact laws, and where this impact lies.
-window.Carom = window.Carom || {};
 
 Carom.rebounds = (() => {
   const PLACE = "<br>ψ₁ = %{x:.4g}, ψ₂ = %{y:.4g}<extra></extra>";

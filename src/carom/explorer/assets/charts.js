@@ -1,5 +1,4 @@
 // The three charts: drawn one a frame, so that the film goes on; drawn again for another size or theme.
-window.Carom = window.Carom || {};
 
 Carom.charts = (() => {
   const CHARTS = {

@@ -1,5 +1,4 @@
 // The time of the film, as a share of the contact's duration: 0 first touch, 1 separation.
-window.Carom = window.Carom || {};
 
 Carom.clock = (() => {
   const FIRST = -0.6;

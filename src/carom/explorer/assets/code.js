@@ -1,5 +1,4 @@
 // The lines of Python of what the page shows, once one looks at them.
-window.Carom = window.Carom || {};
 
 Carom.code = (() => {
   const WAIT = 200; // ms without a change

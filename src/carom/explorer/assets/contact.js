@@ -1,5 +1,4 @@
 // Where two drawn bodies overlap: the line at which each is flattened.
-window.Carom = window.Carom || {};
 
 Carom.contact = (() => {
   const POINTS = 24; // along the line, where it is curved

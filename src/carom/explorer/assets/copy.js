@@ -1,5 +1,4 @@
 // Answers of the copy of the page that runs without a server: from tables and springs, in the browser.
-window.Carom = window.Carom || {};
 
 Carom.source = (() => {
   const PROGRAM = "install Carom with its extra \"explore\", then run carom explore";

@@ -1,5 +1,4 @@
 // The present time as a line over the charts of time; pointing at such a chart sets the time.
-window.Carom = window.Carom || {};
 
 Carom.cursor = (() => {
   const CHARTS = { forces: "forcesAt", energies: "energiesAt" };
@@ -11,11 +10,7 @@ Carom.cursor = (() => {
   function lineOf({ plot }) {
     const drawn = plot.querySelector(":scope > .carom-cursor");
     if (drawn) return drawn;
-    const line = document.createElement("div");
-    line.className = "carom-cursor";
-    line.setAttribute("aria-hidden", "true");
-    plot.append(line);
-    return line;
+    return plot.appendChild(Carom.elements.make("div", { className: "carom-cursor", ariaHidden: "true" }));
   }
 
   // The line over a chart, the name of a narrow phase under it, and the values in the keys.

@@ -1,5 +1,4 @@
 // Elements of the page, each made in one call.
-window.Carom = window.Carom || {};
 
 Carom.elements = (() => {
   // An element with these properties, or with this class, and what it holds.

@@ -1,5 +1,4 @@
 // What the reader sets: numbers with sliders, choices; together they are the query of a link.
-window.Carom = window.Carom || {};
 
 Carom.fields = (() => {
   const { make } = Carom.elements;
@@ -18,10 +17,8 @@ Carom.fields = (() => {
 
   function labelOf(name) {
     const { label, symbol } = described[name];
-    const element = make("label", { htmlFor: name }, label);
-    if (symbol) element.append(" ", Carom.tips.symbol(symbol));
-    if (described[name].hint) element.title = described[name].hint;
-    return element;
+    const sign = symbol ? [" ", Carom.tips.symbol(symbol)] : [];
+    return make("label", { htmlFor: name, title: described[name].hint }, label, ...sign);
   }
 
   function number(name) {
@@ -31,18 +28,13 @@ Carom.fields = (() => {
     const parts = [labelOf(name), typed, make("span", { className: "carom-unit", textContent: unit })];
     if (slider) {
       const [min, max, step] = slider;
-      const along = make("input", { id: `${name}-slider`, type: "range", min, max, step });
-      along.ariaLabel = `${label}, slider`;
-      parts.push(along);
+      parts.push(make("input", { id: `${name}-slider`, type: "range", min, max, step, ariaLabel: `${label}, slider` }));
     }
     return parts;
   }
 
   function choice(name) {
-    const options = described[name].choices.map((each) => {
-      const [value, text] = Array.isArray(each) ? each : [each, each];
-      return make("option", { value, textContent: text });
-    });
+    const options = described[name].choices.map(([value, text]) => new Option(text, value));
     return [labelOf(name), make("select", { id: name }, ...options)];
   }
 

@@ -1,5 +1,4 @@
 // Files of what the page shows, by what they show; each a button that says what it is doing.
-window.Carom = window.Carom || {};
 
 Carom.files = (() => {
   const PICTURE = [["png", "PNG"], ["svg", "SVG"], ["pdf", "PDF"]];
@@ -62,5 +61,5 @@ Carom.files = (() => {
     notice.classList.toggle("carom-wrong", wrong);
   }
 
-  return { build };
+  return { build, save };
 })();

@@ -1,5 +1,4 @@
 // Measured rebounds: a data set that comes along or a file of the reader's, and its fit.
-window.Carom = window.Carom || {};
 
 Carom.fit = (() => {
   const { largest_upload: LARGEST } = Carom.config; // bytes of a file
@@ -9,7 +8,9 @@ Carom.fit = (() => {
   const panel = document.getElementById("fit-panel");
   const parts = {};
   let file = null; // {name, contents} of the reader's file
-  let used = null; // the bodies of the page that a file was fitted with
+  let columns = ""; // what its columns hold, as the text of a file map.toml
+  let told = null; // the bodies of the page that were last said
+  let used = null; // those that a file was fitted with
   let shown = null; // the fit
   let scaled = false; // whether residuals are in standard deviations
   let asking = null;
@@ -18,25 +19,21 @@ Carom.fit = (() => {
   function build() {
     const { can, why } = Carom.source;
     if (!can.fit) return panel.replaceChildren(make("p", { className: "carom-note" }, why));
-    parts.data = make("select", { id: "data" }, new Option("none", ""));
-    for (const { name, title } of Carom.config.datasets) {
-      const option = new Option(name, name);
-      option.title = title;
-      parts.data.append(option);
-    }
-    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.xls,.ods,text/csv,text/plain", tabIndex: -1 });
-    parts.input.ariaLabel = "table of measured rebounds";
+    const published = Carom.config.datasets.map(({ name, title }) => make("option", { value: name, title }, name));
+    parts.data = make("select", { id: "data" }, new Option("none", ""), ...published);
+    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.xls,.ods,.toml,text/csv,text/plain", hidden: true });
     parts.button = make("button", { id: "upload-button", type: "button" }, "Choose or drop a file");
     parts.drop = make("div", { id: "drop" }, parts.button, parts.input);
     const template = make("a", { id: "template", className: "carom-button", download: "template.csv", href: Carom.source.file("template.csv") }, "Empty table to fill in");
     parts.progress = make("p", { id: "fit-progress", role: "status" });
     parts.notice = make("p", { id: "fit-notice", className: "carom-notice", role: "alert" });
     parts.question = make("div", { id: "fit-ask", hidden: true });
+    parts.lists = make("div", {});
     parts.fit = make("div", { id: "fit" });
     const label = make("label", { htmlFor: "data" }, "Published measurements");
     const words = make("p", { className: "carom-note" }, "Friction, stiffness ratio and restitution from a table of measured rebounds, one impact a row.");
     const row = make("div", { className: "carom-fit-source" }, label, parts.data, make("span", { className: "carom-note" }, "or your own"), parts.drop, template, parts.progress);
-    panel.replaceChildren(words, row, parts.notice, parts.question, parts.fit);
+    panel.replaceChildren(words, row, parts.notice, parts.question, parts.lists, parts.fit);
     listen();
   }
 
@@ -61,23 +58,28 @@ Carom.fit = (() => {
 
   async function take(chosen) {
     if (!chosen) return;
+    list();
     if (chosen.size > LARGEST) {
       clear();
       return complain({ message: `${chosen.name} has ${chosen.size} bytes; it must have at most ${LARGEST}. Leave out what is not needed.` });
     }
+    const isMap = /\.toml$/i.test(chosen.name);
     const contents = await new Promise((done, fail) => {
       const reader = new FileReader();
       reader.onload = () => done(reader.result);
       reader.onerror = () => fail(reader.error);
-      reader.readAsDataURL(chosen);
+      if (isMap) reader.readAsText(chosen);
+      else reader.readAsDataURL(chosen);
     }).catch(() => null);
     if (contents === null) return complain({ message: `${chosen.name} could not be read; choose it again.` });
-    file = { name: chosen.name, contents };
+    if (isMap || file) columns = isMap ? contents : ""; // what was said is of one file, but a map may come first
+    if (isMap && !file) return complain({ message: `${chosen.name} is here; now choose the table whose columns it names.` });
+    if (!isMap) [file, told] = [{ name: chosen.name, contents }, null];
     if (parts.data.value) {
       parts.data.value = "";
       parts.data.dispatchEvent(new Event("change", { bubbles: true })); // the link forgets the data set
     }
-    ask();
+    ask(told);
   }
 
   // The bodies of the page as words of a link, null if psi_1 and chi are given instead.
@@ -101,10 +103,15 @@ Carom.fit = (() => {
   // Fit the data set that is chosen, else the file; with the bodies of the page if these are said.
   async function ask(said = null) {
     const name = parts.data.value;
-    if (name) file = null;
+    if (name) {
+      file = null;
+      columns = "";
+      list();
+    }
+    told = said;
     clear();
     if (!name && !file) return;
-    const request = name ? { data: name } : { ...file, bodies: said ?? "" };
+    const request = name ? { data: name } : { ...file, bodies: said ?? "", columns };
     asking = new AbortController();
     const mine = asking;
     progress();
@@ -118,6 +125,18 @@ Carom.fit = (() => {
     } finally {
       if (mine === asking) rest();
     }
+  }
+
+  // Ask again with what the lists say.
+  function again(said) {
+    columns = parts.lists.firstChild?.said() ?? columns;
+    ask(said);
+  }
+
+  function list(lists = null, open = false) {
+    const held = parts.lists.contains(document.activeElement);
+    parts.lists.replaceChildren(...(lists ? [Carom.fitColumns.build(lists, open, () => again(told))] : []));
+    if (held) parts.lists.querySelector("summary")?.focus();
   }
 
   function clear() {
@@ -145,22 +164,27 @@ Carom.fit = (() => {
     parts.progress.textContent = "";
   }
 
-  function complain({ field, message }) {
+  function complain({ field, message, lists }) {
+    if (lists) list(lists, true);
     const label = field && Carom.fields.label(field);
     parts.notice.textContent = label ? `${label}: ${message}` : message;
     parts.notice.scrollIntoView({ block: "nearest" });
   }
 
-  function askBodies({ message, columns }) {
+  function askBodies({ message, lists }) {
+    list(lists, true);
+    parts.question.hidden = false;
+    parts.question.waits = message;
+    rewrite();
+  }
+
+  function rewrite() {
     const own = bodies();
-    const use = make("button", { id: "fit-bodies", type: "button" }, `Use the bodies of the page: ${own ? inWords() : ""}`);
-    use.addEventListener("click", () => ask(bodies()));
+    const use = make("button", { id: "fit-bodies", type: "button", onclick: () => again(bodies()) }, `Use the bodies of the page: ${own ? inWords() : ""}`);
     const other = make("p", { className: "carom-note" }, own
       ? "Or choose others in the controls first, or write them into the file as the empty table shows."
       : "Choose bodies in the controls first, instead of ψ₁ and χ, or write them into the file as the empty table shows.");
-    parts.question.replaceChildren(make("p", {}, message), ...(own ? [use] : []), other, Carom.fitTables.columns(columns));
-    parts.question.hidden = false;
-    parts.question.waits = true;
+    parts.question.replaceChildren(make("p", {}, parts.question.waits), ...(own ? [use] : []), other);
   }
 
   // A fit stays as it is when the bodies change, until the reader wants another.
@@ -171,21 +195,14 @@ Carom.fit = (() => {
     const differs = used !== null && now !== null && now !== used;
     parts.question.hidden = !differs;
     if (!differs || document.getElementById("fit-again")) return;
-    const again = make("button", { id: "fit-again", type: "button" }, "Fit again");
-    again.addEventListener("click", () => ask(bodies()));
-    parts.question.replaceChildren(make("p", {}, "The bodies have changed: "), again);
-    parts.question.waits = false;
-  }
-
-  function rewrite() {
-    const columns = parts.question.querySelector("table");
-    const message = parts.question.querySelector("p").textContent;
-    askBodies({ message, columns: [] });
-    parts.question.querySelector("table").replaceWith(columns);
+    const button = make("button", { id: "fit-again", type: "button", onclick: () => again(bodies()) }, "Fit again");
+    parts.question.replaceChildren(make("p", {}, "The bodies have changed: "), button);
+    parts.question.waits = "";
   }
 
   function show(fit, said) {
     shown = fit;
+    list(fit.lists);
     used = fit.bodies.from === "page" ? said : null;
     const words = (name, children) => make("div", { className: `carom-fit-words ${name}` }, ...children);
     parts.keys = make("div", { className: "carom-keys" });
@@ -204,8 +221,7 @@ Carom.fit = (() => {
   }
 
   function cell(chart) {
-    const title = make("h3", {}, chart.response[0].toUpperCase() + chart.response.slice(1));
-    title.title = chart.meaning;
+    const title = make("h3", { title: chart.meaning }, chart.response[0].toUpperCase() + chart.response.slice(1));
     return make("section", { className: "carom-cell" }, title, make("div", { className: "carom-chart carom-fit-curve" }), make("div", { className: "carom-chart carom-fit-residual" }));
   }
 

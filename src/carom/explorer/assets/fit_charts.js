@@ -1,5 +1,4 @@
 // Charts of a fit: what was measured with its errors, the curves of laws, and what is left below.
-window.Carom = window.Carom || {};
 
 Carom.fitCharts = (() => {
   const PADDING = 0.08; // of a range

@@ -1,5 +1,4 @@
 // The words and tables of a fit: parameters, laws, notes, what the columns were taken for.
-window.Carom = window.Carom || {};
 
 Carom.fitTables = (() => {
   const { make } = Carom.elements;
@@ -71,5 +70,5 @@ Carom.fitTables = (() => {
     return [make("div", {}, columns(fit.columns)), notesAndText];
   }
 
-  return { head, beside, below, columns };
+  return { head, beside, below, fold };
 })();

@@ -1,5 +1,4 @@
 // Keys of lines and areas above a chart, and what they are at the present time.
-window.Carom = window.Carom || {};
 
 Carom.keys = (() => {
   // A piece of a line in its colour and dash.

@@ -1,6 +1,5 @@
 // An impact in plain numbers: springs that remember their slip follow it in small steps, and the
 // table says how it ends. Units are those of the elastic impact: d_max, V_1, d_max/V_1.
-window.Carom = window.Carom || {};
 
 Carom.law = (() => {
   const TIMES = 200; // intervals of histories

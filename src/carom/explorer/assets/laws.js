@@ -1,5 +1,4 @@
 // Contact laws to choose from; the same strip is the key to their lines in the charts.
-window.Carom = window.Carom || {};
 
 Carom.laws = (() => {
   const { make } = Carom.elements;
@@ -22,16 +21,13 @@ Carom.laws = (() => {
   }
 
   function chip({ label, used_by: users }, row) {
-    const input = Object.assign(make("input"), { type: "checkbox", name: "law", value: label, id: `law-${row}` });
+    const input = make("input", { type: "checkbox", name: "law", value: label, id: `law-${row}` });
     const sample = make("span", "carom-line");
-    const called = Object.assign(make("span", "carom-called"), { innerHTML: written(label) });
-    const remark = make("span", "carom-remark");
-    remark.id = `law-${row}-remark`;
-    called.id = `law-${row}-called`;
+    const called = make("span", { className: "carom-called", id: `law-${row}-called`, innerHTML: written(label) });
+    const remark = make("span", { className: "carom-remark", id: `law-${row}-remark` });
     input.setAttribute("aria-labelledby", called.id);
     input.setAttribute("aria-describedby", remark.id);
-    const element = make("label", "carom-chip", input, sample, called, remark);
-    element.title = `${label}: used by ${users}`;
+    const element = make("label", { className: "carom-chip", title: `${label}: used by ${users}` }, input, sample, called, remark);
     element.addEventListener("pointerenter", () => input.checked && Carom.charts.stress(label));
     element.addEventListener("pointerleave", () => Carom.charts.stress(null));
     input.addEventListener("focus", () => input.checked && Carom.charts.stress(label));
@@ -40,11 +36,7 @@ Carom.laws = (() => {
     return element;
   }
 
-  function button(className, press) {
-    const made = Object.assign(make("button", className), { type: "button" });
-    made.addEventListener("click", press);
-    return made;
-  }
+  const button = (className, onclick, ...words) => make("button", { className, type: "button", onclick }, ...words);
 
   function build() {
     const { can, why } = Carom.source;
@@ -52,8 +44,7 @@ Carom.laws = (() => {
     strip = make("fieldset", "carom-laws carom-folded", title, ...catalogue.map(chip));
     strip.ariaLabel = title.textContent;
     more = button("carom-more", () => fold(!strip.classList.contains("carom-folded")));
-    clear = button("carom-clear", () => (choose([]), changed(), more.focus()));
-    clear.textContent = "Remove all";
+    clear = button("carom-clear", () => (choose([]), changed(), more.focus()), "Remove all");
     const buttons = make("div", "carom-law-buttons", more, clear);
     place = (folded) => (folded ? strip.append(buttons) : title.after(buttons));
     place(true);

@@ -1,5 +1,4 @@
 // The address bar, the link to copy and the files: all say what the page shows.
-window.Carom = window.Carom || {};
 
 Carom.link = (() => {
   const FILES = "a.carom-download";

@@ -1,6 +1,5 @@
 // The normal motion of an impact in units of d_max, V_1 and F_max, on the steps in which the contact
 // is followed: elastic bodies, or viscous ones with the loss time alpha.
-window.Carom = window.Carom || {};
 
 Carom.normal = (() => {
   const EVEN = 600; // even intervals of the whole: a multiple of those of histories and of tractions

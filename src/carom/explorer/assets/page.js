@@ -1,5 +1,4 @@
 // Brings the parts together: one question at a time to the source, the newest wins; what is drawn when.
-window.Carom = window.Carom || {};
 
 Carom.page = (() => {
   const WORDS = "input:not([type=range]), textarea, select, button, summary, a, [contenteditable], [role=tab]";

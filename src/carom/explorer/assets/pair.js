@@ -1,5 +1,4 @@
 // Two bodies: their effective constants, the scales of their impact, and how they move.
-window.Carom = window.Carom || {};
 
 Carom.pair = (() => {
   const SOLID = 0.4; // K^2/R^2 of a solid sphere

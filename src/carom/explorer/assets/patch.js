@@ -1,5 +1,4 @@
 // The contact from above: traction as shading, stick and slip; and the traction along the middle.
-window.Carom = window.Carom || {};
 
 Carom.patch = (() => {
   const { canvas, profile } = Carom;

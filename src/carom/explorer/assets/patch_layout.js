@@ -1,5 +1,4 @@
 // Where the contact from above has its map, its profile, its colour bar and the words below.
-window.Carom = window.Carom || {};
 
 Carom.patchLayout = (() => {
   const { canvas } = Carom;

@@ -1,6 +1,5 @@
 // The balls on their way: where they are and how far they have turned, before, during and after.
 // Lengths are in radii of the first, and motion is magnified so that it can be seen.
-window.Carom = window.Carom || {};
 
 Carom.paths = (() => {
   const BEYOND = 0.6; // of the contact's duration that is shown before and after

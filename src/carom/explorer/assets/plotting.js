@@ -1,5 +1,4 @@
 // What all charts share: plotly, loaded late; a frame of fixed margins; keys above, bands below the lines.
-window.Carom = window.Carom || {};
 
 Carom.plotting = (() => {
   const MARGIN = { l: 44, r: 12, t: 22, b: 40 };
@@ -13,11 +12,7 @@ Carom.plotting = (() => {
 
   function load() {
     loading ||= new Promise((done, fail) => {
-      const script = document.createElement("script");
-      script.src = "plotly.min.js";
-      script.onload = done;
-      script.onerror = fail;
-      document.head.append(script);
+      document.head.append(Carom.elements.make("script", { src: "plotly.min.js", onload: done, onerror: fail }));
     });
     return loading;
   }
@@ -25,15 +20,10 @@ Carom.plotting = (() => {
   // The parts of a chart's box, made once: keys, and the plot between bands and their names.
   function parts(box) {
     if (!box.carom) {
-      const made = (name, parent) => {
-        const element = document.createElement("div");
-        element.className = `carom-${name}`;
-        parent.append(element);
-        return element;
-      };
+      const made = (name, parent) => parent.appendChild(Carom.elements.make("div", `carom-${name}`));
       const [keys, plot] = [made("keys", box), made("plot", box)];
       const [bands, drawing, names, upright] = ["bands", "drawing", "names", "upright"].map((name) => made(name, plot));
-      names.setAttribute("aria-hidden", "true");
+      names.ariaHidden = "true";
       box.carom = { keys, plot, bands, drawing, names, upright };
     }
     return box.carom;

@@ -1,5 +1,4 @@
 // Examples with a story: a choice sets the controls and tells what there is to see.
-window.Carom = window.Carom || {};
 
 Carom.presets = (() => {
   const NONE = "";

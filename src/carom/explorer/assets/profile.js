@@ -1,5 +1,4 @@
 // The traction along the middle of the contact, between the limits of friction.
-window.Carom = window.Carom || {};
 
 Carom.profile = (() => {
   const { canvas } = Carom;

@@ -1,5 +1,4 @@
 // Numbers as the page prints them: six digits, in the unit with a prefix that suits them.
-window.Carom = window.Carom || {};
 
 Carom.quantities = (() => {
   const DIGITS = 6;

@@ -1,6 +1,5 @@
 // psi_2 from the table: Chebyshev series on patches of chi and of psi_1, scaled so that the borders
 // between the regimes lie at 1, 2 and 3.
-window.Carom = window.Carom || {};
 
 Carom.rebound = (() => {
   const read = new Map(); // tables by restitution, as numbers

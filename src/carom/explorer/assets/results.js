@@ -1,5 +1,4 @@
 // The numbers of an impact, and whether the theory holds for it.
-window.Carom = window.Carom || {};
 
 Carom.results = (() => {
   const MARKS = { // sign, class, what a reader of the screen says; in the order in which they are shown
@@ -50,32 +49,28 @@ Carom.results = (() => {
   function line([first, second], both) {
     const { name, symbol, meaning } = first || second;
     const sign = Carom.tips.symbol(symbol);
-    const words = make("span", "", SHORT[name] || meaning);
-    words.title = meaning;
+    const words = make("span", { title: meaning }, SHORT[name] || meaning);
     const cells = [value(first), ...(both ? [value(second)] : [])];
-    const head = make("th", "carom-sign", sign);
-    head.scope = "row";
+    const head = make("th", { className: "carom-sign", scope: "row" }, sign);
     const row = make("tr", "", head, make("td", "carom-meaning", words), ...cells);
     row.dataset.name = (first || second).name;
     return row;
   }
 
   function head() {
-    const column = (text) => Object.assign(make("th", "", text), { scope: "col" });
+    const column = (text) => make("th", { scope: "col" }, text);
     return make("thead", "", make("tr", "", make("td"), make("td", "carom-meaning"), column("this"), column("beside")));
   }
 
   function table(answers) {
     const both = Boolean(answers[1]);
     const body = make("tbody", "", ...rows(answers).map((row) => line(row, both)));
-    return make("table", `carom-results${both ? " carom-both" : ""}`, ...(both ? [head()] : []), body);
+    return make("table", `carom-table carom-results${both ? " carom-both" : ""}`, ...(both ? [head()] : []), body);
   }
 
   function finding({ mark, text }) {
     const [sign, look, meaning] = MARKS[mark];
-    const icon = make("span", "carom-mark", sign);
-    icon.setAttribute("role", "img");
-    icon.ariaLabel = `${meaning}: `;
+    const icon = make("span", { className: "carom-mark", role: "img", ariaLabel: `${meaning}: ` }, sign);
     return make("li", `carom-${look}`, icon, make("span", "", text));
   }
 

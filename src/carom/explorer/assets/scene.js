@@ -1,5 +1,4 @@
 // An impact in time, and what it is at an instant.
-window.Carom = window.Carom || {};
 
 Carom.scene = (() => {
   const ROUNDING = 1e-9;
@@ -126,5 +125,5 @@ Carom.scene = (() => {
     return { data, facts, at, phaseAt, forceAt, psiAt, bodiesAt, clockAt, pressureAt };
   }
 
-  return { of, nameOf };
+  return { of, nameOf, between };
 })();

@@ -1,5 +1,4 @@
 // One sentence for every instant of an impact: what happens in the contact, and why.
-window.Carom = window.Carom || {};
 
 Carom.sentence = (() => {
   const PEAK = 0.012; // the share around the largest compression that belongs to it

@@ -1,5 +1,4 @@
 // Answers of the live page: the server that sent it.
-window.Carom = window.Carom || {};
 
 Carom.source = (() => {
   const GONE = { field: "", message: "The page has lost its program. Start it again: carom explore" };

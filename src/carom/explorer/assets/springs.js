@@ -1,6 +1,5 @@
 // What a contact remembers: springs at s = r^2, deflected by u, of which each bears at most D - s.
 // Between knots u is linear in s, and a knot lies wherever slip begins, so that a front is sharp.
-window.Carom = window.Carom || {};
 
 Carom.springs = (() => {
   const MOST = 16384; // knots

@@ -1,5 +1,4 @@
 // The balls as they meet and part: motion magnified, contact flattened, path and speeds.
-window.Carom = window.Carom || {};
 
 Carom.stage = (() => {
   const { canvas, contact } = Carom;

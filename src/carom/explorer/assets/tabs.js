@@ -1,5 +1,4 @@
 // Charts, measurements, files, Python: one panel at a time.
-window.Carom = window.Carom || {};
 
 Carom.tabs = (() => {
   const list = document.getElementById("tabs");
@@ -9,11 +8,9 @@ Carom.tabs = (() => {
 
   function build() {
     panels.forEach((panel) => {
-      const tab = document.createElement("button");
-      Object.assign(tab, { type: "button", id: `tab-${panel.id}`, textContent: panel.dataset.tab });
-      tab.setAttribute("role", "tab");
+      const tab = Carom.elements.make("button", { type: "button", id: `tab-${panel.id}`, role: "tab" }, panel.dataset.tab);
       tab.setAttribute("aria-controls", panel.id);
-      panel.setAttribute("role", "tabpanel");
+      panel.role = "tabpanel";
       panel.setAttribute("aria-labelledby", tab.id);
       tab.addEventListener("click", () => choose(panel.dataset.tab));
       list.append(tab);

@@ -1,5 +1,4 @@
 // Light or dark, by choice or as the system is; colours for what is drawn on a canvas.
-window.Carom = window.Carom || {};
 
 Carom.theme = (() => {
   const CHOICES = ["auto", "light", "dark"];
@@ -18,14 +17,8 @@ Carom.theme = (() => {
   function apply() {
     document.documentElement.dataset.theme = shown();
     colors = null;
-    label();
+    document.getElementById("theme").textContent = `Theme: ${choice}`;
     heard.forEach((hear) => hear(choice));
-  }
-
-  function label() {
-    const button = document.getElementById("theme");
-    const text = `Theme: ${choice}`;
-    if (button && button.textContent !== text) button.textContent = text;
   }
 
   // The value of a CSS variable, each read once per theme.

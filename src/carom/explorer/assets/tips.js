@@ -1,5 +1,4 @@
 // Symbols explained where one points at them, by mouse, key or finger.
-window.Carom = window.Carom || {};
 
 Carom.tips = (() => {
   const GAP = 6; // pixels between a symbol and what is said of it

@@ -1,5 +1,4 @@
 // What of the bodies fits on the canvas: its scale, and the arrows of their velocities.
-window.Carom = window.Carom || {};
 
 Carom.view = (() => {
   const DEPTH = 0.55; // of a plane or cup that is shown, in radii of the ball
