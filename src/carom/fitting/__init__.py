@@ -7,11 +7,13 @@ from typing import Any
 
 from carom.bodies.pairs import Pair
 from carom.fitting.estimates import Estimate
+from carom.fitting.groups import by_groups
 from carom.fitting.intervals import settle
 from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
 from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import RobustLoss
 from carom.fitting.reading import read_problem, read_rebounds
+from carom.fitting.repeats import with_readings
 from carom.fitting.restrictions import ELASTIC_TAKEN, refuse_contradicted
 from carom.fitting.result import Fit, assembled
 from carom.quantities.keywords import known_keywords
@@ -124,14 +126,14 @@ def fit(
     """
     level, limited = checked_confidence(confidence), flag("robust", robust)
     table = read_rebounds(data, columns=columns, sheet=sheet, decimal=decimal)
-    problem = read_problem(table, pair)
+    loss = RobustLoss() if limited else RobustLoss(inf)
+    problem = by_groups(read_problem(table, pair), loss)
     options = read_options(problem, vary, fixed)
     check_count(problem, options.free)
     turns = OFFSET in options.free or options.start[OFFSET]
     law = STRAIGHT if problem.is_normal and not turns else EXACT
     model = Model(suited(law, problem), problem, (), options.start).freeing(options.free)
-    loss = RobustLoss() if limited else RobustLoss(inf)
-    settled = settle(model, loss, options.start)
+    settled = settle(with_readings(model, loss), loss, options.start)
     if options.takes_elastic:
         refuse_contradicted(settled.whole)
     return assembled(settled, level, (ELASTIC_TAKEN,) if options.takes_elastic else ())

@@ -19,6 +19,7 @@ BEFORE, AFTER = HEIGHTS.values()
 AFTERWARDS = ("rebound_height", INTERVAL, AFTER)  # each tells the speed after a bounce
 NUMBERED = re.compile(rf"({'|'.join(AFTERWARDS)})_([2-9]|[1-9]\d)({ERROR})?")
 SHORT = re.compile(rf"h(\d|[1-9]\d)({ERROR})?")  # h0, h1, h2: successive heights
+PLACE = "place of a bounce"  # column of whole numbers: the next bounce of a drop has the next one
 TWICE = ("speed", "angle", "tangential_speed", "contact_angle", "psi_in")  # besides heights
 MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit
 MOST_GROWTH = 1.1  # of an interval over the one before it: beyond, a bounce was missed
@@ -190,7 +191,8 @@ def _down_the_rows(rows: UserTable, speeds: Series) -> tuple[UserTable, list[str
     two = Series([speed[:-1], speed[1:]], [None if error is None else error[:-1]] * 2)
     if error is not None:
         two.errors[1] = error[1:]
-    kept = rows.kept(np.arange(len(rows)) > 0)
+    places = np.arange(len(rows), dtype=np.float64)
+    kept = replace(rows, columns={**rows.columns, PLACE: places}).kept(places > 0)
     drops = int((~np.isfinite(speed[1:]) & np.isfinite(speed[:-1])).sum()) + 1
     way = TIME if TIME in rows.columns else INTERVAL
     remark = f"{way}: rows are successive bounces" + f" of {drops} drops" * (drops > 1)
@@ -217,6 +219,9 @@ def _unfolded(rows: UserTable, way: str, series: Series) -> UserTable:
     if count > 1 and lost.any():
         rows.faults.add(f"{way}: one is missing before a later one in {whole.named(lost)}")
     columns = {**whole.columns, BEFORE: before, AFTER: after, **_straight(len(before))}
+    if count > 1:
+        places = np.arange(count) + (count + 2.0) * np.arange(len(rows))[:, np.newaxis]
+        columns[PLACE] = places.ravel()
     ends = {BEFORE: series.errors[:-1], AFTER: series.errors[1:]}
     for name, errors in ends.items():
         if any(each is not None for each in errors):

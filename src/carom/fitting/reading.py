@@ -23,13 +23,15 @@ from carom.fitting.bounces import (
     BOUNCES,
     INTERVAL,
     MOST_RESTITUTION,
+    PLACE,
     TIME,
     base,
     parted,
     with_speeds,
 )
+from carom.fitting.groups import GROUP
 from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.problem import NO_SPEED, FitProblem, IncomingMotion
+from carom.fitting.problem import NO_SPEED, Bounces, FitProblem, IncomingMotion
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
@@ -99,7 +101,7 @@ def read_measurements(
     """
     names = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more))
     table, later = parted(table, faults)
-    ignored = tuple(name for name in others(table, names, faults) if name != TRACK)
+    ignored = tuple(n for n in others(table, (*names, GROUP), faults) if n != TRACK)
     gaps = (*OBSERVABLES, *RECORDED, DURATION)
     may_miss = [name for name in gaps if name not in NEVER_MISSING]
     is_series = bool(later) or INTERVAL in table.names  # where an empty row parts two drops
@@ -233,6 +235,8 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
         ignored=(*ignored, *empty),
         knows_friction=knows_friction,
         doi=table.comments.get("doi", ""),
+        bounces=_bounces(rows),
+        trials=len(rows),
     )
     problem, signs = with_signs(problem)
     faults.settle()
@@ -241,6 +245,13 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
     rows = problem.rows
     _check_responses(bodies, rows, problem.motion, problem.contact_velocity)
     return problem
+
+
+def _bounces(rows: UserTable) -> Bounces | None:
+    """Return which rows are successive bounces, if there are any."""
+    if PLACE not in rows.columns:
+        return None
+    return Bounces(rows[PLACE].astype(np.int64), TIME in rows.columns)
 
 
 def _columns_of_plates(pair: Pair | None, table: UserTable) -> tuple[str, ...]:

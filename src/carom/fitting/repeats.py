@@ -1,14 +1,45 @@
-"""Repeated trials: what rows with one motion before tell of the scatter, without any law."""
+"""Rows that are not independent: repeated trials of one setting, successive bounces of a drop."""
+
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from carom.fitting.estimation import Best
+from carom.fitting.estimation import Best, estimate, likelihood
+from carom.fitting.model import Model
+from carom.fitting.problem import RobustLoss
 from carom.quantities.glossary import GLOSSARY
 
 FEWEST = 4  # degrees of freedom from which a scatter is told
 ODD = 1e-3  # chance of a scatter between groups that is called too large
+SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)  # of readings in the scatter of successive bounces
+SLIGHTLY = 0.5  # of -2 log likelihood: by which a smaller share may be less likely
+
+
+def with_readings(model: Model, loss: RobustLoss) -> Model:
+    """Return the model with the share of readings in the scatter of bounces, where it is unknown.
+
+    It is the smallest that is nearly as likely as any, which makes the longest intervals; by
+    restricted likelihood (Patterson & Thompson 1971).
+    """
+    problem = model.problem
+    if problem.bounces is None or problem.all_errors_known:
+        return model
+    models: list[Model] = []
+    against: list[float] = []
+    start = estimate(model, loss).at[np.newaxis]
+    for share in SHARES:
+        bounces = problem.bounces._replace(share=share)
+        words = (
+            f"{problem.responses[0]}: {100.0 * share:.0f} % of the variance of successive bounces "
+            "counts as that of readings, which two bounces have in common"
+        )
+        told = replace(problem, bounces=bounces, remarks=(*problem.remarks, words))
+        models.append(replace(model, problem=told))
+        best = estimate(models[-1], loss, start)
+        against.append(likelihood(best) + float(np.linalg.slogdet(best.information.matrix)[1]))
+    return models[int(np.argmax(np.array(against) <= min(against) + SLIGHTLY))]
 
 
 def groups_of(best: Best) -> NDArray[np.int64]:
