@@ -63,7 +63,8 @@ def fit(
         normal_speed_out_2; or times between bounces alone, bounce_interval or bounce_time. Heights
         in a file need their unit. A column thickness holds those of many plates. Standard
         deviations are in columns `<name>_error`, also for the motion before; where none are given
-        they come from the scatter. A blank cell, "-", NaN, NA or n/a means not measured.
+        they come from the scatter. Rows with the same `group`, a text or number, repeat one
+        setting: their means are fitted, and an error of the motion before is common to them. A blank cell, "-", NaN, NA or n/a means not measured.
     pair : Pair, optional
         The bodies, by default those in the comment "# case:" of the file.
     vary : names, optional

@@ -13,7 +13,7 @@ from carom.quantities.glossary import GLOSSARY
 
 FEWEST = 4  # degrees of freedom from which a scatter is told
 ODD = 1e-3  # chance of a scatter between groups that is called too large
-SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)  # of readings in the scatter of successive bounces
+SHARES = (0.0, 0.5, 1.0)  # of readings in the scatter of successive bounces
 SLIGHTLY = 0.5  # of -2 log likelihood: by which a smaller share may be less likely
 
 
