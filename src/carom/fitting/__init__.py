@@ -64,7 +64,8 @@ def fit(
         in a file need their unit. A column thickness holds those of many plates. Standard
         deviations are in columns `<name>_error`, also for the motion before; where none are given
         they come from the scatter. Rows with the same `group`, a text or number, repeat one
-        setting: their means are fitted, and an error of the motion before is common to them. A blank cell, "-", NaN, NA or n/a means not measured.
+        setting: their means are fitted, and an error of the motion before is common to them. A
+        blank cell, "-", NaN, NA or n/a means not measured.
     pair : Pair, optional
         The bodies, by default those in the comment "# case:" of the file.
     vary : names, optional

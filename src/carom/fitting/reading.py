@@ -224,6 +224,7 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
             "speed: column missing; how far a plate gives way depends on the speed, so add speed "
             "and angle, or normal_speed"
         )
+    places = rows.columns.get(PLACE)
     problem = FitProblem(
         pair=bodies,
         before=before,
@@ -235,7 +236,7 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
         ignored=(*ignored, *empty),
         knows_friction=knows_friction,
         doi=table.comments.get("doi", ""),
-        bounces=_bounces(rows),
+        bounces=None if places is None else Bounces(places.astype(np.int64), TIME in rows.columns),
         trials=len(rows),
     )
     problem, signs = with_signs(problem)
@@ -245,13 +246,6 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
     rows = problem.rows
     _check_responses(bodies, rows, problem.motion, problem.contact_velocity)
     return problem
-
-
-def _bounces(rows: UserTable) -> Bounces | None:
-    """Return which rows are successive bounces, if there are any."""
-    if PLACE not in rows.columns:
-        return None
-    return Bounces(rows[PLACE].astype(np.int64), TIME in rows.columns)
 
 
 def _columns_of_plates(pair: Pair | None, table: UserTable) -> tuple[str, ...]:
