@@ -88,7 +88,10 @@ def test_groups_may_be_numbers_and_rows_may_have_none():
 
 def test_what_is_assumed_is_said():
     table = repeated(4)
-    assert any("without speed_error" in note for note in carom.fit(table, pair=PAIR).notes)
+    assert any(
+        "group: speed taken as exact, as there is no speed_error" in note
+        for note in carom.fit(table, pair=PAIR).notes
+    )
     del table["angle_error"]
     fit = carom.fit(table, pair=PAIR)
     assert any("between the groups, as there is no speed_error and" in note for note in fit.notes)

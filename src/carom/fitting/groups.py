@@ -128,11 +128,10 @@ def _means(
 
 def _assumed(problem: FitProblem) -> list[str]:
     """Return what is assumed of a motion before that has no errors."""
-    exact = [
-        n for n in problem.before if np.any(problem.before[n]) and n not in problem.before_errors
-    ]
-    told = " and ".join(f"{name}{ERROR}" for name in exact)
+    moving = [name for name, values in problem.before.items() if np.any(values)]
+    exact = [name for name in moving if name not in problem.before_errors]
+    missing = f"as there is no {' and '.join(f'{name}{ERROR}' for name in exact)}"
     if not problem.before_errors:
-        why = f"as there is no {told}, common to a group"
-        return [f"{GROUP}: errors of the means come from the scatter between the groups, {why}"]
-    return [f"{GROUP}: without {told} these count as exact"] if exact else []
+        words = f"errors of the means come from the scatter between the groups, {missing}"
+        return [f"{GROUP}: {words}, which a group has in common"]
+    return [f"{GROUP}: {' and '.join(exact)} taken as exact, {missing}"] if exact else []
