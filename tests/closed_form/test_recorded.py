@@ -1,11 +1,15 @@
 """Quantities as people record them: one impact, written in any of them, gives one fit."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.optimize import least_squares
 from tests.checks import PAIR, refused
 
 import carom
 from carom.fitting.bounces import GRAVITY
+from carom.fitting.problem import Bounces, shared_readings
 
 SEED = 20261126
 ANGLES = np.radians([5.0, 15.0, 25.0, 35.0, 45.0, 55.0, 65.0])
@@ -233,13 +237,82 @@ def test_errors_of_bounces_are_those_of_their_speeds():
     np.testing.assert_allclose(problem.errors[:, 0], expected, rtol=1e-12)
 
 
+def of_readings(e, readings, error, exact):
+    """Least squares of the restitution and the first speed of each drop: readings independent."""
+    count = np.arange(readings.shape[1])
+
+    def left(at):
+        return ((at[1:, np.newaxis] * at[0] ** count - readings) / error).ravel()
+
+    found = least_squares(left, [e, *exact[:, 0]], xtol=1e-14, ftol=1e-14, x_scale="jac")
+    return found.x[0], np.sqrt(np.linalg.inv(found.jac.T @ found.jac)[0, 0])
+
+
+@pytest.mark.parametrize("robust", [False, True])
+def test_bounces_in_a_row_are_one_drop(robust):
+    """Speeds with errors that are given: value and error are those of the first speeds, unknown."""
+    random, errors = np.random.default_rng(SEED), [2e-3, 4e-3, 3e-3, 2e-3]
+    read = SPEEDS_OF_DROPS + errors * random.normal(size=SPEEDS_OF_DROPS.shape)
+    data = dict(zip(NAMES, read.T, strict=True))
+    data |= {f"{name}_error": np.full(3, each) for name, each in zip(NAMES, errors, strict=True)}
+    actual = carom.fit(data, pair=PAIR, robust=robust).restitution
+    value, error = of_readings(0.9, read, errors, SPEEDS_OF_DROPS)
+    assert actual.value == pytest.approx(value, abs=(0.3 if robust else 5e-3) * error)
+    longer = 1.2 if robust else 1.0
+    assert actual.high - actual.low == pytest.approx(3.92 * longer * error, rel=0.01 + longer - 1.0)
+
+
+@pytest.mark.parametrize("times", [False, True])
+def test_correlations_of_bounces_are_those_of_many_readings(times):
+    """20,000 drops of four speeds; the first reading is better, and one rebound is missing."""
+    random, e = np.random.default_rng(SEED), np.array([0.9, 0.7, 0.8, 0.6])
+    sizes = np.array([1.0, 1.0, 1.0, 1.0, 1.0] if times else [0.3, 1.0, 2.0, 1.5, 1.0])
+    readings = sizes * random.normal(size=(20_000, 5))
+    if times:
+        ticks = random.normal(size=(20_000, 6)) / np.sqrt(2.0)
+        readings = np.diff(ticks, axis=1)
+    left = readings[:, 1:] - e * readings[:, :-1]
+    problem = carom.fit(IN_A_ROW["speeds"], pair=PAIR)._best.model.problem
+    rows = problem.rows.kept(np.arange(9) < 4)
+    problem = replace(
+        problem,
+        before={name: values[:4] for name, values in problem.before.items()},
+        before_errors={"normal_speed": sizes[:-1]},
+        measured=np.array([[1.0], [1.0], [np.nan], [1.0]]),
+        errors=np.where(np.arange(4) == 2, np.nan, sizes[1:])[:, np.newaxis],
+        rows=rows,
+    )
+    actual, larger = shared_readings(problem, Bounces(np.arange(4), times), e, 1.0)
+    expected = np.corrcoef(left.T)
+    there = np.ix_([0, 1, 3], [0, 1, 3])
+    np.testing.assert_allclose(actual[there], expected[there], atol=0.03)
+    assert actual[2].tolist() == [0.0, 0.0, 1.0, 0.0]
+    expected = left.std(axis=0) / np.hypot(sizes[1:], e * sizes[:-1])
+    np.testing.assert_allclose(larger[[0, 1, 3]], expected[[0, 1, 3]], rtol=0.03)
+
+
 @pytest.mark.slow
 def test_intervals_hold_for_several_bounces_in_a_row():
-    """Heights to 1 % of each, unknown: one error counts after a bounce and before the next."""
+    """Heights to 1 % of each, unknown: 93 to 99 % of 150 sets, where all are 95 to 98 %."""
     random, held, sets = np.random.default_rng(SEED), 0, 150
     exact = heights(np.array([bounced(first, 3) for first in np.linspace(1.0, 2.0, 6)]))
     for _ in range(sets):
         noisy = exact * random.normal(1.0, 0.01, exact.shape)
         fit = carom.fit({f"h{i} [m]": column for i, column in enumerate(noisy.T)}, pair=PAIR)
         held += fit.restitution.low <= 0.9 <= fit.restitution.high
-    assert held >= 0.93 * sets
+    assert 0.93 * sets <= held <= 0.99 * sets
+
+
+def test_the_share_of_readings_is_found_and_said():
+    """Of 30 drops by readings alone, and by bounces that scatter alone."""
+    random, shape = np.random.default_rng(SEED), (30, 4)
+    exact = np.array([bounced(first, 4) for first in np.linspace(1.0, 2.0, 30)])
+    read = exact * random.normal(1.0, 0.005, exact.shape)
+    ratios = 0.9 * random.normal(1.0, 0.005, shape)
+    scattered = exact[:, :1] * np.cumprod(np.hstack([np.ones((30, 1)), ratios]), axis=1)
+    for speeds, expected in ((read, 1.0), (scattered, 0.0)):
+        names = ("normal_speed", "normal_speed_out", *(f"normal_speed_out_{i}" for i in (2, 3, 4)))
+        fit = carom.fit(dict(zip(names, speeds.T, strict=True)), pair=PAIR)
+        share = fit._best.model.problem.bounces.share
+        assert share == expected
+        assert any(f"{100.0 * share:.0f} % of the variance" in note for note in fit.notes)

@@ -100,7 +100,8 @@ def fit_command(
     surface_angle and surface_angle_out are angles from the surface, spin_out_magnitude is a spin
     without sign. Of vertical drops give drop_height or normal_speed, and rebound_height,
     normal_speed_out or normal_restitution; or times, bounce_interval or bounce_time. Further
-    bounces of a drop are in rebound_height_2, rebound_height_3 and so on.
+    bounces of a drop are in rebound_height_2, rebound_height_3 and so on. A column group tells
+    which rows repeat one setting.
     Leave a cell blank, or write '-', where nothing was measured. Standard deviations are in columns
     such as spin_out_error and angle_error.
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from carom.bodies.pairs import Pair
 from carom.fitting.estimates import Estimate
+from carom.fitting.groups import by_groups
 from carom.fitting.intervals import Settled, settle
 from carom.fitting.joint_result import JointFit, jointly_assembled, named_sets
 from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
@@ -19,6 +20,7 @@ from carom.fitting.options import (
 )
 from carom.fitting.problem import RobustLoss
 from carom.fitting.reading import read_problem, read_rebounds
+from carom.fitting.repeats import with_readings
 from carom.fitting.restrictions import refuse_contradicted
 from carom.fitting.result import Fit, assembled
 from carom.quantities.keywords import known_keywords
@@ -68,7 +70,9 @@ def fit(
         normal_speed_out_2; or times between bounces alone, bounce_interval or bounce_time. Heights
         in a file need their unit. A column thickness holds those of many plates. Standard
         deviations are in columns `<name>_error`, also for the motion before; where none are given
-        they come from the scatter. A blank cell, "-", NaN, NA or n/a means not measured.
+        they come from the scatter. Rows with the same `group`, a text or number, repeat one
+        setting: their means are fitted, and an error of the motion before is common to them. A
+        blank cell, "-", NaN, NA or n/a means not measured.
     pair : Pair, optional
         The bodies, by default those in the comment "# case:" of the file.
     vary : names, optional
@@ -209,13 +213,14 @@ def _settled(
     how: Mapping[str, Any],
 ) -> tuple[Settled, Options]:
     """Return the best fit of one set of data, and what was varied."""
-    problem = read_problem(read_rebounds(data, **how), pair)
+    loss = RobustLoss() if limited else RobustLoss(inf)
+    problem = by_groups(read_problem(read_rebounds(data, **how), pair), loss)
     options = read_options(problem, vary, fixed)
     check_count(problem, options.free)
     turns = OFFSET in options.free or options.start[OFFSET]
     law = STRAIGHT if problem.is_normal and not turns else EXACT
     model = Model(suited(law, problem), problem, (), options.start).freeing(options.free)
-    settled = settle(model, RobustLoss() if limited else RobustLoss(inf), options.start)
+    settled = settle(with_readings(model, loss), loss, options.start)
     if options.takes_elastic:
         refuse_contradicted(settled.whole)
     return settled, options

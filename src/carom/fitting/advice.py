@@ -160,6 +160,7 @@ def _impacts(problem: FitProblem) -> FitProblem:
         before_errors=errors,
         measured=np.zeros((count, len(problem.responses))),
         errors=np.full((count, len(problem.responses)), np.nan),
+        bounces=None,
     )
 
 

@@ -1,9 +1,8 @@
 """Bounces of a ball that is dropped: heights, times between them, several in a row."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,17 +18,11 @@ BEFORE, AFTER = HEIGHTS.values()
 AFTERWARDS = ("rebound_height", INTERVAL, AFTER)  # each tells the speed after a bounce
 NUMBERED = re.compile(rf"({'|'.join(AFTERWARDS)})_([2-9]|[1-9]\d)({ERROR})?")
 SHORT = re.compile(rf"h(\d|[1-9]\d)({ERROR})?")  # h0, h1, h2: successive heights
+PLACE = "place of a bounce"  # column of whole numbers: the next bounce of a drop has the next one
 TWICE = ("speed", "angle", "tangential_speed", "contact_angle", "psi_in")  # besides heights
 MOST_RESTITUTION = 1.5  # that scatter may reach; beyond it is a percentage, or another unit
 MOST_GROWTH = 1.1  # of an interval over the one before it: beyond, a bounce was missed
 HIGHEST, LONGEST = 10.0, 3.0  # m and s, beyond which a unit is asked about
-
-
-class Series(NamedTuple):
-    """Speeds after successive bounces, and their errors, of shape (bounces,) of (rows,)."""
-
-    speeds: list[Array]
-    errors: list[Array | None]
 
 
 def base(name: str) -> str:
@@ -75,39 +68,38 @@ def with_speeds(rows: UserTable, later: Mapping[str, Array]) -> tuple[UserTable,
     bounces in a row of the table each has a row of its own.
     """
     rows = _with_intervals(rows)
-    there = [name for name in (*BOUNCES, *later) if name in rows.columns or name in later]
+    columns = {**rows.columns, **later}
+    there = [name for name in (*BOUNCES, *later) if name in columns]
     if not there:
         return rows, []
     ways = [name for name in AFTERWARDS if name in rows.columns]
     _refuse_twice(rows, there, ways)
-    _check_units(rows, later)
+    _check_units(replace(rows, columns=columns))
     way = ways[0] if ways else ""
-    series = [name for name in later if not name.endswith(ERROR)]
+    series = sorted((n for n in later if not n.endswith(ERROR)), key=_number)
     if any(base(name) != way for name in series) or (TIME in rows.columns and series):
         raise InputError(
             f"{series[0]}: give {base(series[0])}, too, and no other series of bounces"
         )
-    speeds = _speeds(rows, way, later)
-    columns, remarks = dict(rows.columns), []
-    first = next((name for name in ("drop_height", BEFORE) if name in columns), "")
-    if way == INTERVAL and not series and not first:
-        return _down_the_rows(rows, speeds)
-    if first:
-        start = _speed(first, columns[first], columns.get(first + ERROR))
-        speeds = Series([start[0], *speeds.speeds], [start[1], *speeds.errors])
-    elif way != INTERVAL:
+    if [*map(_number, series)] != [*range(2, len(series) + 2)]:
+        raise InputError(f"{series[0]}: columns of later bounces are numbered from 2 on")
+    first = [name for name in ("drop_height", BEFORE) if name in columns][:1]
+    if not first and way != INTERVAL:
         rows.require("drop_height")
-    if series:
-        measured = len(speeds.speeds) - 1
-        remarks.append(
-            f"{way}: up to {measured} bounces in a row of the table, each with its speed"
-        )
-    if len(speeds.speeds) < 2:  # a drop height with another quantity after
-        columns[BEFORE] = speeds.speeds[0]
-        if speeds.errors[0] is not None:
-            columns[BEFORE + ERROR] = speeds.errors[0]
-        return replace(rows, columns=columns | _straight(len(rows))), remarks
-    return _unfolded(rows, way, speeds), remarks
+    speeds, errors = _speeds(columns, (*first, *ways, *series))
+    if not first and not series:
+        return _down_the_rows(rows, speeds, errors)
+    if not ways:  # a drop height with another quantity after
+        own = {**rows.columns, BEFORE: speeds[:, 0], **_straight(len(rows))}
+        if np.isfinite(errors).any():
+            own[BEFORE + ERROR] = errors[:, 0]
+        return replace(rows, columns=own), []
+    remark = f"{way}: up to {len(series) + 1} bounces in a row of the table, each with its speed"
+    return _unfolded(rows, way, speeds, errors), [remark] if series else []
+
+
+def _number(name: str) -> int:
+    return int(name.rpartition("_")[2])
 
 
 def _with_intervals(rows: UserTable) -> UserTable:
@@ -136,12 +128,11 @@ def _refuse_twice(rows: UserTable, there: list[str], ways: list[str]) -> None:
             raise InputError(f"{same[0]}: {words}")
 
 
-def _check_units(rows: UserTable, later: Mapping[str, Array]) -> None:
+def _check_units(rows: UserTable) -> None:
     """Add to the faults heights and times that drops in a laboratory do not have."""
-    checked = replace(rows, columns={**rows.columns, **later})
-    for name in (n for n in checked.columns if base(n) in (*HEIGHTS, INTERVAL)):
-        checked.refuse(name, checked[name] <= 0.0, "must be positive")
-        largest = float(np.max(np.nan_to_num(checked[name]), initial=0.0))
+    for name in (n for n in rows.columns if base(n) in (*HEIGHTS, INTERVAL)):
+        rows.refuse(name, rows[name] <= 0.0, "must be positive")
+        largest = float(np.max(np.nan_to_num(rows[name]), initial=0.0))
         bare = name in rows.cells and not str(rows.cells[name].unit)  # asked for already
         if base(name) in HEIGHTS and largest > HIGHEST and not bare:
             fast = np.sqrt(2.0 * GRAVITY * largest)
@@ -157,44 +148,34 @@ def _check_units(rows: UserTable, later: Mapping[str, Array]) -> None:
             )
 
 
-def _speed(name: str, values: Array, error: Array | None) -> tuple[Array, Array | None]:
-    """Return the speed at which a flight begins or ends, and its error."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        if name in HEIGHTS:
-            speed = np.sqrt(2.0 * GRAVITY * np.where(values > 0.0, values, np.nan))
-            return speed, None if error is None else GRAVITY * error / speed
-    factor = 0.5 * GRAVITY if name == INTERVAL else 1.0
-    return factor * values, None if error is None else factor * error
-
-
-def _speeds(rows: UserTable, way: str, later: Mapping[str, Array]) -> Series:
-    """Return the speeds after the first bounce of each row, after the second, ..."""
-    if not way:
-        return Series([], [])
-    numbers = sorted(int(name.rpartition("_")[2]) for name in later if not name.endswith(ERROR))
-    if numbers != [*range(2, len(numbers) + 2)]:
-        raise InputError(f"{way}_{numbers[0]}: columns of later bounces are numbered from 2 on")
-    values = {**rows.columns, **later}
-    names = (way, *(f"{way}_{number}" for number in numbers))
-    pairs = [_speed(way, values[name], values.get(name + ERROR)) for name in names]
-    return Series(*map(list, zip(*pairs, strict=True)))
+def _speeds(columns: Mapping[str, Array], names: Iterable[str]) -> tuple[Array, Array]:
+    """Return the speeds of flights by columns, and their errors, NaN where none are given."""
+    speeds, errors = [], []
+    for name in names:
+        values, error = columns[name], columns.get(name + ERROR, np.nan * columns[name])
+        if base(name) in HEIGHTS:
+            speeds.append(np.sqrt(2.0 * GRAVITY * np.where(values > 0.0, values, np.nan)))
+            errors.append(GRAVITY * error / speeds[-1])
+        else:
+            factor = 0.5 * GRAVITY if base(name) == INTERVAL else 1.0
+            speeds.append(factor * values)
+            errors.append(factor * error)
+    return np.stack(speeds, axis=-1), np.stack(errors, axis=-1)
 
 
 def _straight(count: int) -> dict[str, Array]:
     return {"tangential_speed": np.zeros(count)}
 
 
-def _down_the_rows(rows: UserTable, speeds: Series) -> tuple[UserTable, list[str]]:
+def _down_the_rows(rows: UserTable, speeds: Array, errors: Array) -> tuple[UserTable, list[str]]:
     """Return one row for each bounce whose intervals before and after stand in successive rows."""
-    (speed,), (error,) = speeds
-    two = Series([speed[:-1], speed[1:]], [None if error is None else error[:-1]] * 2)
-    if error is not None:
-        two.errors[1] = error[1:]
-    kept = rows.kept(np.arange(len(rows)) > 0)
-    drops = int((~np.isfinite(speed[1:]) & np.isfinite(speed[:-1])).sum()) + 1
+    two, both = (np.hstack([each[:-1], each[1:]]) for each in (speeds, errors))
+    places = np.arange(len(rows), dtype=np.float64)
+    kept = replace(rows, columns={**rows.columns, PLACE: places}).kept(places > 0)
+    drops = int((~np.isfinite(two[:, 1]) & np.isfinite(two[:, 0])).sum()) + 1
     way = TIME if TIME in rows.columns else INTERVAL
     remark = f"{way}: rows are successive bounces" + f" of {drops} drops" * (drops > 1)
-    unfolded = _unfolded(kept, INTERVAL, two)
+    unfolded = _unfolded(kept, INTERVAL, two, both)
     return unfolded.kept(np.isfinite(unfolded[AFTER])), [remark]
 
 
@@ -205,24 +186,23 @@ def _repeated(rows: UserTable, count: int) -> UserTable:
         for name, column in rows.cells.items()
     }
     columns = {name: values[places] for name, values in rows.columns.items()}
-    return replace(rows, cells=cells, columns=columns, rows=rows.rows[places])
+    in_series = np.arange(len(places)) + 2.0 * places  # a gap parts drops
+    return replace(rows, cells=cells, columns={**columns, PLACE: in_series}, rows=rows.rows[places])
 
 
-def _unfolded(rows: UserTable, way: str, series: Series) -> UserTable:
+def _unfolded(rows: UserTable, way: str, speeds: Array, errors: Array) -> UserTable:
     """Return one row for each bounce: the speed after one is that before the next."""
-    speeds, count = np.stack(series.speeds, axis=-1), len(series.speeds) - 1
+    count = speeds.shape[1] - 1
     before, after = speeds[:, :-1].ravel(), speeds[:, 1:].ravel()
     whole = rows if count == 1 else _repeated(rows, count)
     lost = np.isfinite(after) & ~np.isfinite(before)
     if count > 1 and lost.any():
         rows.faults.add(f"{way}: one is missing before a later one in {whole.named(lost)}")
     columns = {**whole.columns, BEFORE: before, AFTER: after, **_straight(len(before))}
-    ends = {BEFORE: series.errors[:-1], AFTER: series.errors[1:]}
-    for name, errors in ends.items():
-        if any(each is not None for each in errors):
-            none = 0.0 if name == BEFORE else np.nan
-            each = [np.full(len(rows), none) if e is None else e for e in errors]
-            columns[name + ERROR] = np.stack(each, axis=-1).ravel()
+    if np.isfinite(errors[:, :-1]).any():
+        columns[BEFORE + ERROR] = np.nan_to_num(errors[:, :-1]).ravel()
+    if np.isfinite(errors[:, 1:]).any():
+        columns[AFTER + ERROR] = errors[:, 1:].ravel()
     if way == "rebound_height":
         fallen = {"drop_height": before, way: after} if "drop_height" in columns else {way: after}
         columns |= {name: speed**2 / (2.0 * GRAVITY) for name, speed in fallen.items()}

@@ -27,8 +27,12 @@ def budget(best: Best) -> Budget:
     To first order an error v of a row, in the unit of the responses, moves the coordinates by
     C S^T D W v: W makes residuals independent, D is the slope of the root of the loss, S that of
     the roots over the coordinates, and C = (S^T S)^-1. The covariance of a row is the sum of v v^T
-    over the columns (`Model.weights`), so that the parts are those of a sum of squares.
+    over the columns (`Model.weights`), so that the parts are those of a sum of squares. Readings
+    that are after one bounce and before the next are one quantity.
     """
+    if best.weights.across is not None:
+        whole = np.ones((1, len(best.model.free)))
+        return Budget(best.model.problem.responses, best.model.free, whole)
     slope = _slope_of_root(best)
     gain = best.information.slopes @ best.information.covariance
     names, squares = [], []

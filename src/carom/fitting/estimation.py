@@ -150,8 +150,10 @@ class Best:
     @property
     def _doubts(self) -> Array:
         """One over the degrees of freedom of errors from the scatter, 0 where they are known."""
-        own = np.maximum(self.model.problem.present.sum(axis=0) - self.information.used, 1.0)
-        return np.asarray((self.estimated | (self.scale > 1.0)) / own)
+        problem = self.model.problem
+        own = np.maximum(problem.present.sum(axis=0) - self.information.used, 1.0)
+        uncertain = self.estimated | (self.scale > 1.0)
+        return np.asarray(1.0 / np.where(uncertain, own, problem.error_freedom))
 
     @property
     def spread(self) -> float:

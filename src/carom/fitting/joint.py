@@ -16,6 +16,7 @@ from carom.fitting.model import Model, Parameter, plain
 from carom.fitting.problem import FitProblem, IncomingMotion, Weights
 from carom.quantities.arrays import Array
 
+MANY = 1e9  # degrees of freedom, as good as known
 Block = tuple[slice, slice]  # rows and responses of one set
 
 
@@ -40,6 +41,11 @@ class JointProblem(FitProblem):
     def least_errors(self) -> Array:
         """The errors of the interpolated curves, by response."""
         return np.concatenate([part.least_errors for part in self.parts])
+
+    @property
+    def error_freedom(self) -> Array:
+        """The degrees of freedom of the errors that are known, by response."""
+        return np.concatenate([part.error_freedom for part in self.parts])
 
     @property
     def on_plate(self) -> bool:
@@ -110,11 +116,15 @@ class JointModel(Model):
     def weights(self, point: Array, sigma: Array, scale: Array) -> Weights:
         """Return the weights at coordinates, those of each set in its place."""
         factors = np.broadcast_to(np.eye(len(scale)), (len(sigma), len(scale), len(scale))).copy()
+        across = None
         for place, (rows, columns) in enumerate(self.problem.blocks):
             at = self.of_part(place, point[np.newaxis])[0]
             own = self.parts[place].weights(at, sigma[rows, columns], scale[columns])
             factors[rows, columns, columns] = own.factors
-        return Weights(factors)
+            if own.across is not None:
+                across = np.eye(len(sigma)) if across is None else across
+                across[rows, rows] = own.across
+        return Weights(factors, across)
 
     def regimes(self, point: Array) -> NDArray[np.int8]:
         """Return the regime of each row of all sets."""
@@ -202,8 +212,10 @@ def _part(best: Best, place: int) -> Best:
     model = cast(JointModel, best.model)
     rows, columns = model.problem.blocks[place]
     at = model.of_part(place, best.at[np.newaxis])[0]
-    weights = Weights(best.weights.factors[rows, columns, columns])
     part, sigma = model.parts[place], best.sigma[rows, columns]
+    across = None if part.problem.bounces is None else best.weights.across
+    own = None if across is None else across[rows, rows]
+    weights = Weights(best.weights.factors[rows, columns, columns], own)
     total = float(np.square(part.residuals(weights, best.loss)(at[np.newaxis])).sum())
     used = weights, best.loss, sigma, best.scale[columns], best.estimated[columns]
     alone = Best(part, at, total, *used, np.empty((0, len(at))), best.result)
@@ -248,5 +260,5 @@ def _agreement(model: JointModel, alone: Sequence[Settled], whole: Best) -> floa
     shared = descend(model.residuals(weights, whole.loss), whole.at[np.newaxis], model.bounds)
     more = len(best.at) - len(whole.at)
     rise = max(float(shared.sums[0]) - best.sum, 0.0) / best.spread / more
-    freedom = problem.count - len(best.at) if not problem.all_errors_known else 1e9
-    return float(fdtrc(more, max(freedom, 1.0), rise))
+    freedom = float(np.min([*best.freedom, MANY]))
+    return float(fdtrc(more, freedom, rise))

@@ -15,7 +15,7 @@ from carom.dimensionless.rebounds import regime_borders
 from carom.fitting import plates
 from carom.fitting.least_squares import BoxBounds, Residuals
 from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.problem import FitProblem, IncomingMotion, RobustLoss, Weights
+from carom.fitting.problem import FitProblem, IncomingMotion, RobustLoss, Weights, shared_readings
 from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # by name: of parameters (batch, 1), of restitutions (batch, rows)
@@ -261,7 +261,14 @@ class Model:
             difference = self.expected(at, up)[0] - self.expected(at, down)[0]
             reach = np.where(present, 0.5 * difference, 0.0)
             covariance += reach[:, :, np.newaxis] * reach[:, np.newaxis, :]
-        return Weights(np.linalg.inv(np.linalg.cholesky(covariance)) / scale)
+        factors = np.linalg.inv(np.linalg.cholesky(covariance)) / scale
+        bounces = self.problem.bounces
+        if bounces is None or len(scale) > 1:
+            return Weights(factors)
+        gains = self.expected(at)[0, :, 0] / self.problem.motion.normal_speed
+        rows, larger = shared_readings(self.problem, bounces, gains, float(scale[0]))
+        across = np.linalg.inv(np.linalg.cholesky(rows))
+        return Weights(factors / larger[:, np.newaxis, np.newaxis], across)
 
     def residuals(self, weights: Weights, loss: RobustLoss) -> Residuals:
         """Return the function whose sum of squares is to be least."""

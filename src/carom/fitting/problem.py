@@ -1,11 +1,12 @@
 """What was measured, and errors of it: a robust loss, weights, scatter from which errors come."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import gammaln
 
 from carom.bodies.pairs import Pair
@@ -19,6 +20,17 @@ from carom.quantities.glossary import GLOSSARY
 SAME_ANGLE = np.radians(0.1)  # of incidence
 NO_SPEED = 1e-9  # along the surface, as a part of the speed
 STEEPEST = np.radians(89.9)
+
+
+class Bounces(NamedTuple):
+    """Successive bounces: the flight after a row is that before the row with the next place.
+
+    `share` is the part of their variance that comes from readings, which two rows have in common.
+    """
+
+    places: NDArray[np.int64]
+    are_times: bool
+    share: float = 1.0
 
 
 class IncomingMotion(NamedTuple):
@@ -37,7 +49,8 @@ class FitProblem:
 
     NaN stands for what was not measured, and for errors that are not known; `doi` is that of the
     publication, if the data tell it. If nobody `knows_friction`, that of the pair is a guess.
-    `remarks` say how columns were read.
+    `remarks` say how columns were read, `bounces` which rows share readings. There were so many
+    `trials`; where rows are means of groups, `freedom` is that of their errors, by response.
     """
 
     pair: Pair
@@ -51,6 +64,9 @@ class FitProblem:
     knows_friction: bool = True
     doi: str = ""
     remarks: tuple[str, ...] = ()
+    bounces: Bounces | None = None
+    trials: int = 0
+    freedom: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def present(self) -> Mask:
@@ -61,6 +77,11 @@ class FitProblem:
     def count(self) -> int:
         """The number of measured values."""
         return int(self.present.sum())
+
+    @property
+    def error_freedom(self) -> Array:
+        """The degrees of freedom of the errors that are known, by response."""
+        return np.array([self.freedom.get(name, np.inf) for name in self.responses])
 
     @property
     def all_errors_known(self) -> bool:
@@ -191,12 +212,16 @@ class RobustLoss:
         r = np.clip(residual, -LARGEST, LARGEST)
         return np.copysign(np.sqrt((self.degrees + 1.0) * np.log1p(r**2 / self.degrees)), r)
 
+    def weight(self, residual: Array) -> Array:
+        """Return the weight of a residual in a mean."""
+        if self.is_square:
+            return np.ones_like(residual)
+        square = np.clip(residual, -LARGEST, LARGEST) ** 2
+        return np.asarray((self.degrees + 1.0) / (self.degrees + square))
+
     def influence(self, residual: Array) -> Array:
         """Return half the derivative of the loss."""
-        if self.is_square:
-            return residual
-        r = np.clip(residual, -LARGEST, LARGEST)
-        return np.asarray((self.degrees + 1.0) * r / (self.degrees + r**2))
+        return np.asarray(residual * self.weight(residual))
 
     def slope(self, residual: Array) -> Array:
         """Return the derivative of the influence."""
@@ -221,18 +246,50 @@ def normal_influence(loss: RobustLoss) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Weights:
-    """What makes residuals independent and of unit variance: inverse Cholesky factors by row."""
+    """What makes residuals independent and of unit variance: inverse Cholesky factors by row.
+
+    Where rows share readings `across` is that of the correlations of the only response.
+    """
 
     factors: Array
+    across: Array | None = None
 
     def whitened(self, problem: FitProblem, expected: Array) -> Array:
         """Return the residuals in standard deviations, 0 where nothing was measured."""
         residual = np.where(problem.present, problem.measured - expected, 0.0)
-        return np.asarray(np.einsum("rij,brj->bri", self.factors, residual))
+        whitened = np.einsum("rij,brj->bri", self.factors, residual)
+        return np.asarray(whitened if self.across is None else self.across @ whitened)
 
     def sizes(self, present: Mask) -> float:
         """Return the logarithm of the determinant of the covariances."""
-        return -2.0 * float(np.log(np.einsum("rjj->rj", self.factors)[present]).sum())
+        across = 1.0 if self.across is None else np.diag(self.across)[:, np.newaxis]
+        return -2.0 * float(np.log((across * np.einsum("rjj->rj", self.factors))[present]).sum())
+
+
+def shared_readings(
+    problem: FitProblem, bounces: Bounces, gains: Array, scale: float
+) -> tuple[Array, Array]:
+    """Return the correlations of the residuals of successive bounces, and factors of their sizes.
+
+    With errors d of the speeds in flight a residual is d - g d', d' that of the flight before and
+    g the restitution; where times of bounces are read, d is the difference of errors of two. What
+    scatters by more than given errors is that of the bounces themselves, without correlation.
+    """
+    there, rows = problem.present[:, 0], np.arange(len(gains))
+    known, share = problem.all_errors_known, bounces.share
+    after, before = np.ones(len(rows)), gains
+    if known:
+        none = np.zeros(len(rows))
+        share, after = 1.0 / scale**2, np.where(there, problem.errors[:, 0], 1.0)
+        before = gains * problem.before_errors.get("normal_speed", none)
+    slopes = np.zeros((len(rows), int(bounces.places.max()) + 2))
+    slopes[rows, bounces.places], slopes[rows, bounces.places + 1] = -before, after
+    if bounces.are_times:
+        slopes = np.diff(slopes, axis=1, prepend=0.0, append=0.0) / np.sqrt(2.0)
+    sizes = np.sqrt(np.square(slopes).sum(axis=1))
+    correlations = slopes @ slopes.T / np.outer(sizes, sizes) * np.outer(there, there)
+    larger = sizes / np.hypot(after, before) if known else np.ones(len(rows))
+    return share * correlations + np.diag(1.0 - share * there), larger
 
 
 def first_errors(problem: FitProblem) -> Array:

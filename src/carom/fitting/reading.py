@@ -23,13 +23,15 @@ from carom.fitting.bounces import (
     BOUNCES,
     INTERVAL,
     MOST_RESTITUTION,
+    PLACE,
     TIME,
     base,
     parted,
     with_speeds,
 )
+from carom.fitting.groups import GROUP
 from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.problem import NO_SPEED, FitProblem, IncomingMotion
+from carom.fitting.problem import NO_SPEED, Bounces, FitProblem, IncomingMotion
 from carom.io.heads import TableFormat
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
@@ -100,7 +102,7 @@ def read_measurements(
     """
     names = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more))
     table, later = parted(table, faults)
-    ignored = tuple(name for name in others(table, names, faults) if name != TRACK)
+    ignored = tuple(n for n in others(table, (*names, GROUP), faults) if n != TRACK)
     gaps = (*OBSERVABLES, *RECORDED, DURATION)
     may_miss = [name for name in gaps if name not in NEVER_MISSING]
     is_series = bool(later) or INTERVAL in table.names  # where an empty row parts two drops
@@ -223,6 +225,7 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
             "speed: column missing; how far a plate gives way depends on the speed, so add speed "
             "and angle, or normal_speed"
         )
+    places = rows.columns.get(PLACE)
     problem = FitProblem(
         pair=bodies,
         before=before,
@@ -234,6 +237,8 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
         ignored=(*ignored, *empty),
         knows_friction=knows_friction,
         doi=table.comments.get("doi", ""),
+        bounces=None if places is None else Bounces(places.astype(np.int64), TIME in rows.columns),
+        trials=len(rows),
     )
     problem, signs = with_signs(problem)
     faults.settle()

@@ -1,20 +1,44 @@
-"""Repeated trials: what rows with one motion before tell of the scatter, without any law."""
+"""Rows that are not independent: repeated trials of one setting, successive bounces of a drop."""
+
+from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from carom.fitting.estimation import Best
+from carom.fitting.estimation import Best, estimate, likelihood
+from carom.fitting.groups import FEWEST
+from carom.fitting.model import Model
+from carom.fitting.problem import RobustLoss
 from carom.quantities.glossary import GLOSSARY
 
-FEWEST = 4  # degrees of freedom from which a scatter is told
 ODD = 1e-3  # chance of a scatter between groups that is called too large
+SHARES = (0.0, 0.5, 1.0)  # of readings in the scatter of successive bounces
+SLIGHTLY = 0.5  # of -2 log likelihood: by which a smaller share may be less likely
 
 
-def groups_of(best: Best) -> NDArray[np.int64]:
-    """Return the number of the group of each row; rows of one have the same motion before."""
-    before = np.column_stack(list(best.model.problem.before.values()))
-    return np.unique(before, axis=0, return_inverse=True)[1].ravel().astype(np.int64)
+def with_readings(model: Model, loss: RobustLoss) -> Model:
+    """Return the model with the share of readings in the scatter of bounces, where it is unknown.
+
+    It is the smallest that is nearly as likely as any, which makes the longest intervals; by
+    restricted likelihood (Patterson & Thompson 1971).
+    """
+    problem = model.problem
+    if problem.bounces is None or problem.all_errors_known:
+        return model
+    tried: dict[float, float] = {}
+    start = estimate(model, loss).at[np.newaxis]
+    for share in SHARES:
+        shared = replace(problem, bounces=problem.bounces._replace(share=share))
+        best = estimate(replace(model, problem=shared), loss, start)
+        tried[share] = likelihood(best) + float(np.linalg.slogdet(best.information.matrix)[1])
+    share = min(each for each in SHARES if tried[each] <= min(tried.values()) + SLIGHTLY)
+    words = (
+        f"{problem.responses[0]}: {100.0 * share:.0f} % of the variance of successive bounces "
+        "counts as that of readings, which two bounces have in common"
+    )
+    bounces = problem.bounces._replace(share=share)
+    told = replace(problem, bounces=bounces, remarks=(*problem.remarks, words))
+    return replace(model, problem=told)
 
 
 def about_repeats(best: Best) -> list[str]:
@@ -23,9 +47,9 @@ def about_repeats(best: Best) -> list[str]:
     That is the analysis of variance for lack of fit: the squares of what the law leaves of the
     means of the groups, over the variance within these.
     """
-    problem, groups = best.model.problem, groups_of(best)
-    used = best.information.used
-    lines = []
+    problem, used, lines = best.model.problem, best.information.used, []
+    before = np.column_stack([*problem.before.values()])
+    groups = np.unique(before, axis=0, return_inverse=True)[1].ravel()
     for place, name in enumerate(problem.responses):
         there = problem.present[:, place]
         values, own = problem.measured[there, place], groups[there]
@@ -33,7 +57,7 @@ def about_repeats(best: Best) -> list[str]:
         counts = np.bincount(own)
         means = np.bincount(own, weights=values) / np.maximum(counts, 1)
         within, repeated = float(np.square(values - means[own]).sum()), int((counts > 1).sum())
-        freedom = len(values) - int((counts > 0).sum())
+        freedom = len(values) - np.count_nonzero(counts)
         if freedom < FEWEST or within == 0.0:
             continue
         size = GLOSSARY[name].text(float(np.sqrt(within / freedom)), 2)
@@ -41,7 +65,7 @@ def about_repeats(best: Best) -> list[str]:
             f"{name}: in {repeated} group{'s' * (repeated > 1)} of repeated trials it scatters by "
             f"{size}, with {freedom} degrees of freedom"
         )
-        more = float((counts > 0).sum() - used[place])
+        more = float(np.count_nonzero(counts) - used[place])
         ratio = (float(np.square(left).sum()) - within) / within * freedom / max(more, 1.0)
         if more >= 1.0 and ratio > 0.0 and fdtrc(more, freedom, ratio) < ODD:
             line += (

@@ -204,7 +204,7 @@ def as_text(fit: FitRecord) -> str:
     problem = fit._best.model.problem
     head = (
         f"{problem.count} value{'s' * (problem.count != 1)} of {', '.join(problem.responses)} in "
-        f"{len(problem.rows)} row{'s' * (len(problem.rows) != 1)}; "
+        f"{problem.trials} row{'s' * (problem.trials != 1)}; "
         f"in brackets {100.0 * fit.confidence:g} % intervals by profile likelihood"
     )
     lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]

@@ -131,7 +131,7 @@ def _budget(fit: ReportedFit) -> Iterator[Section]:
 def _bodies(fit: ReportedFit) -> str:
     problem, pair = fit._best.model.problem, fit.pair
     bodies = f"{named(pair.first)} on {named(pair.second)}"
-    return f"{problem.count} values in {len(problem.rows)} rows; {bodies}."
+    return f"{problem.count} values in {problem.trials} rows; {bodies}."
 
 
 def _columns(problem: FitProblem, fit: ReportedFit) -> Iterator[tuple[str, ...]]:
@@ -212,7 +212,7 @@ def _sentence(fit: ReportedFit) -> str:
     losses = fit.losses if problem.is_normal else None
     verdict = "" if losses is None else f"{losses.verdict[0].upper()}{losses.verdict[1:]}."
     return " ".join(
-        f"From {len(problem.rows)} {'drops' if problem.is_normal else 'rebounds'} of a "
+        f"From {problem.trials} {'drops' if problem.is_normal else 'rebounds'} of a "
         f"{named(pair.first)} on a {named(pair.second)}, {found} {theory} "
         f"({100.0 * fit.confidence:g} % intervals by profile likelihood in brackets; "
         f"Carom {__version__}). {verdict}".split()

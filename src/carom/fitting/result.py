@@ -213,7 +213,7 @@ class Fit(ReportedFit):
             "correlations": self.correlations,
             "confidence": self.confidence,
             "values": self._best.model.problem.count,
-            "rows": len(self._best.model.problem.rows),
+            "rows": self._best.model.problem.trials,
             "regimes": dict(self.regimes),
             "notes": list(self.notes),
             "comparison": self.comparison.to_dict(),

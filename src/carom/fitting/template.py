@@ -13,6 +13,7 @@ TEMPLATE = """\
 #   spin_out_magnitude.
 # On a plate thinner than some six radii write its thickness below as well: plate_thickness: 20 mm
 #   Then duration [us] is allowed after the impact: the contact time.
+# Drops at one setting have one name in a column group.
 # Standard deviations that you know have columns of their own: spin_out_error [rpm].
 # The bodies are in the next lines. Give the radius and not the diameter.
 # ball_radius: 10 mm

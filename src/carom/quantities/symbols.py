@@ -31,6 +31,7 @@ CALLED = {  # in order: of names that one word stands for, the first that there 
     "drop_height": "h_0 fallhöhe",
     "rebound_height": "h_1 rücksprunghöhe rückprallhöhe sprunghöhe",
     "duration": "stoßdauer kontaktzeit kontaktdauer stoßzeit",
+    "group": "gruppe messgruppe",
     "psi_in": "psi1",
     "psi_out": "psi2",
     "yield_strength": "sigma_y",

@@ -1,0 +1,137 @@
+"""Groups: rows that a column says to repeat one setting become one row, their means and errors."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.fitting import problem as errors
+from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
+from carom.io.rows import Mask
+from carom.io.user_table import ERROR, UserTable
+from carom.quantities.arrays import Array
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.refusals import Faults, InputError
+
+GROUP = "group"  # a column of texts or numbers
+FEWEST = 4  # degrees of freedom from which a scatter is told
+TURNS = 20  # times that means, and the scatter about them, are estimated
+ALIKE = 0.05  # rad, or part of what is usual, by which rows of a group may differ without errors
+
+
+def by_groups(problem: FitProblem, loss: RobustLoss) -> FitProblem:
+    """Return the problem with one row for each group, if a column says which rows are repeated.
+
+    Responses are means, with errors from the scatter within all groups. An error of the motion
+    before is common to the rows of a group, and stays as it is; if there is none, those of the
+    means come from their scatter between the groups, as those of single rows do.
+    """
+    if GROUP not in problem.rows.cells:
+        return problem
+    if problem.bounces is not None:
+        raise InputError(f"{GROUP}: it cannot be used with several bounces of a drop; leave it out")
+    labels, own = _labelled(problem.rows)
+    _refuse_unlike(problem, labels, own)
+    member = np.equal(own, np.arange(len(labels))[:, np.newaxis]).astype(np.float64)
+    counts, sizes = member @ problem.present, member.sum(axis=1)
+    if not (counts > 1.0).any():
+        words = f"{GROUP}: no two rows have the same, so that nothing is repeated"
+        return replace(problem, remarks=(*problem.remarks, words))
+    repeats = (counts - (counts > 0)).sum(axis=0)
+    values, mean_errors, far = _means(problem, own, member, loss)
+    scatter = np.nanmedian(mean_errors * np.sqrt(counts), axis=0)
+    unknown = np.isnan(problem.errors).any(axis=0, where=problem.present)
+    is_open = unknown & ((repeats < FEWEST) | (not problem.before_errors))
+    remarks = _assumed(problem)
+    for name, freedom, size in zip(problem.responses, repeats, scatter, strict=True):
+        words = f"with {freedom:.0f} degrees of freedom; means over {len(labels)} groups are fitted"
+        remarks.append(
+            f"{name}: it scatters by {GLOSSARY[name].text(size, 2)} within groups, {words}"
+        )
+    if far.any():
+        remarks.append(f"outliers within groups: {problem.rows.named(far)}")
+    notes = (*problem.rows.notes, *problem.rows.about_missing())
+    rows: Any = problem.rows.kept(
+        np.isin(np.arange(own.size), np.unique(own, return_index=True)[1])
+    )
+    return replace(
+        problem,
+        before={name: member @ each / sizes for name, each in problem.before.items()},
+        before_errors={name: member @ each / sizes for name, each in problem.before_errors.items()},
+        measured=values,
+        errors=np.where(is_open, np.nan, mean_errors),
+        rows=replace(rows, rows=np.array(labels), word=GROUP, missing={}, notes=notes),
+        remarks=(*problem.remarks, *remarks),
+        freedom=dict(zip(problem.responses, np.where(unknown, repeats, np.inf), strict=True)),
+    )
+
+
+def _labelled(rows: UserTable) -> tuple[list[str], NDArray[np.int64]]:
+    """Return the groups, and the number of that of each row; without one it is one of its own."""
+    column = rows.column(GROUP)
+    texts = [
+        rows.one(place) if gone else f"{cell:g}" if isinstance(cell, float) else str(cell).strip()
+        for place, (cell, gone) in enumerate(zip(column.cells, column.missing, strict=True))
+    ]
+    labels = list(dict.fromkeys(texts))
+    return labels, np.array([labels.index(text) for text in texts])
+
+
+def _refuse_unlike(problem: FitProblem, labels: list[str], own: NDArray[np.int64]) -> None:
+    """Raise InputError for groups in which the motion before differs by more than its errors."""
+    speed = float(np.median(np.hypot(*problem.motion[:2])))
+    sizes = {"m/s": speed, "rad/s": speed / problem.pair.first.radius, "rad": 1.0}
+    with Faults() as faults:
+        for name, values in problem.before.items():
+            usual = ALIKE * (sizes.get(GLOSSARY[name].unit) or float(np.median(np.abs(values))))
+            allowed = OUTLIER * problem.before_errors.get(name, np.full(own.size, usual / OUTLIER))
+            middle = np.array([np.median(values[own == place]) for place in range(len(labels))])
+            for place in np.unique(own[np.abs(values - middle[own]) > allowed]):
+                inside = values[own == place]
+                span = GLOSSARY[name].span(float(inside.min()), float(inside.max()), 3)
+                faults.add(
+                    f"{GROUP}: in {labels[place]} {name} goes from {span}, more than its errors "
+                    "allow; rows of a group repeat one setting, so give others another group"
+                )
+
+
+def _means(
+    problem: FitProblem, own: NDArray[np.int64], member: Array, loss: RobustLoss
+) -> tuple[Array, Array, Mask]:
+    """Return means by the loss, their errors, and which rows are far from them.
+
+    The scatter is that within all groups; errors that were given count if they are larger. `member`
+    has ones where a group, of the first axis, has a row.
+    """
+    present, counts = problem.present, member @ problem.present
+    repeated, used = present & (counts > 1.0)[own], np.sum(counts > 0.0, axis=0, dtype=np.float64)
+    measured, given = np.where(present, problem.measured, 0.0), np.nan_to_num(problem.errors)
+    shown = np.ma.masked_invalid(problem.measured)
+    middle = np.array(
+        [np.ma.median(shown[own == i], axis=0).filled(0.0) for i in range(len(member))]
+    )
+    for _ in range(TURNS):
+        left = np.where(present, measured - middle[own], 0.0)
+        sigma = np.fmax(given, errors.scattered(problem, left, middle[own], used, loss))
+        if not loss.is_square:
+            loss = errors.likeliest((left / sigma)[repeated])
+        pull = present * loss.weight(left / sigma) / sigma**2
+        middle = member @ (pull * measured) / np.where(counts > 0.0, member @ pull, 1.0)
+    residuals, single = (left / sigma)[repeated], float((counts > 1.0).sum())
+    slope = errors.mean_over(residuals, loss.slope)
+    spread = errors.mean_over(residuals, lambda r: loss.influence(r) ** 2, single)
+    there = np.where(counts > 0.0, 1.0, np.nan)
+    mean_errors = np.sqrt(spread) / slope / np.sqrt(there * (member @ (present / sigma**2)))
+    return there * middle, mean_errors, np.any(np.abs(left) > OUTLIER * sigma, axis=1)
+
+
+def _assumed(problem: FitProblem) -> list[str]:
+    """Return what is assumed of a motion before that has no errors."""
+    moving = [name for name, values in problem.before.items() if np.any(values)]
+    exact = [name for name in moving if name not in problem.before_errors]
+    missing = f"as there is no {' and '.join(f'{name}{ERROR}' for name in exact)}"
+    if not problem.before_errors:
+        words = f"errors of the means come from the scatter between the groups, {missing}"
+        return [f"{GROUP}: {words}, which a group has in common"]
+    return [f"{GROUP}: {' and '.join(exact)} taken as exact, {missing}"] if exact else []
