@@ -267,7 +267,10 @@ class Model:
             return Weights(factors)
         gains = self.expected(at)[0, :, 0] / self.problem.motion.normal_speed
         rows, larger = shared_readings(self.problem, bounces, gains, float(scale[0]))
-        across = np.linalg.inv(np.linalg.cholesky(rows))
+        across = np.zeros_like(rows)
+        for drop in np.split(np.arange(len(rows)), np.flatnonzero(np.diff(bounces.places) > 1) + 1):
+            own = slice(drop[0], drop[-1] + 1)
+            across[own, own] = np.linalg.inv(np.linalg.cholesky(rows[own, own]))
         return Weights(factors / larger[:, np.newaxis, np.newaxis], across)
 
     def residuals(self, weights: Weights, loss: RobustLoss) -> Residuals:
