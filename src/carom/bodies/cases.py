@@ -96,10 +96,7 @@ def check_case(
     *,
     losses: bool = False,
 ) -> None:
-    """Raise InputError for all keys that are not known; `place` says where a key of a table is.
-
-    Losses are refused, too, unless the caller supports them.
-    """
+    """Raise InputError for all unknown keys, and for losses unless the caller supports them."""
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
         unknown = [key for key in table if key not in allowed]
@@ -328,7 +325,6 @@ def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> import carom
     >>> with TemporaryDirectory() as folder:
     ...     stored = carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.nc")
     ...     carom.read(stored).psi_out.values.round(4)

@@ -96,7 +96,6 @@ class KelvinVoigt(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> law = carom.KelvinVoigt(restitution=0.9)
@@ -166,7 +165,6 @@ class ElasticPlastic(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
@@ -229,7 +227,6 @@ class Metal(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> for law in (carom.Metal(), carom.ElasticPlastic()):
@@ -291,7 +288,6 @@ class StandardLinearSolid(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="nylon")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="nylon"), friction=0.2)
     >>> law = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="50 us")
@@ -349,7 +345,6 @@ class ZenerPlate(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> carom.rebound([0.5, 9.0], 1.44, losses=carom.ZenerPlate(inelasticity=0.4)).round(6)
     array([0.049481, 4.637839])
     """

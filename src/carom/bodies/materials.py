@@ -72,7 +72,6 @@ class Material(Printed):
 
     Examples
     --------
-    >>> import carom
     >>> steel = carom.Material(young="210 GPa", poisson=0.3, density=7850)
     >>> round(steel.shear_modulus / 1e9, 3)
     80.769
@@ -199,7 +198,6 @@ def materials() -> Catalogue:
 
     Examples
     --------
-    >>> import carom
     >>> "soda-lime-glass" in carom.materials()
     True
     """
@@ -230,7 +228,6 @@ def material(name: str, **values: Value) -> Material:
 
     Examples
     --------
-    >>> import carom
     >>> carom.material("steel").young
     210000000000.0
     >>> carom.material("glass", flaw_size="20 um").flaw_size

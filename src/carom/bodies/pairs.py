@@ -46,18 +46,12 @@ class Scales(ContactScales):
 
 
 def _holds(value: float) -> bool:
-    """Return whether floating point holds this and products of three such numbers, with quotients.
-
-    Squares of speeds and cubes of radii are among them, which overflow without a word.
-    """
+    """Tell whether floating point holds products and quotients of three such numbers."""
     return (value >= LEAST) & (value <= MOST)
 
 
 def scales_fit(pair: "Pair", scales: Scales, contact_velocity: float = 0.0, *parts: float) -> bool:
-    """Return whether floating point holds what an impact is calculated from, and its products.
-
-    `parts` are those of the tangential velocity of the contact point, which may be tiny.
-    """
+    """Tell whether floating point holds what an impact is calculated from; `parts` may be tiny."""
     units = dict(vars(scales))
     of_friction = [pair.friction, *(units.pop(name) for name in OF_FRICTION)]
     sizes = [_holds(size) for size in (*pair.constants, *units.values())]
@@ -155,7 +149,6 @@ class Pair(Printed):
 
     Examples
     --------
-    >>> import carom
     >>> steel = carom.material("steel")
     >>> ball = carom.Sphere(radius="5 mm", material=steel)
     >>> pair = carom.Pair(ball, carom.HalfSpace(material=steel), friction=0.2)

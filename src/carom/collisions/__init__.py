@@ -145,7 +145,6 @@ def collide(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> after = carom.collide(pair, velocity1=[[1.0, 0.0, 1.732]], normal=[0.0, 0.0, 1.0])

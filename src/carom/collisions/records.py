@@ -32,7 +32,6 @@ class CollisionStatus(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.CollisionStatus(1).message
     'left alone: the bodies do not approach'
     """
@@ -78,7 +77,6 @@ class Collisions(EqualByNumbers, After):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.0)
     >>> hit = carom.collide(pair, velocity1=[[1.0, 0.0, -2.0]], normal=[0.0, 0.0, -1.0])
@@ -213,7 +211,6 @@ class Judgement(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.Judgement(1).message
     'not studied: materials, inertia, spin or contact size lie outside the study'
     """
@@ -236,7 +233,6 @@ class JudgedCollisions(EqualByNumbers, Judged):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="28.6 mm", material="steel")
     >>> pair = carom.Pair(ball, ball, friction=0.2)
     >>> after = carom.collide(

@@ -44,10 +44,7 @@ Places = ArrayLike | None
 def surface_fields(
     contact: Contact, x: Places = None, y: Places = None, points: Places = None
 ) -> "xr.Dataset":
-    """Return tractions, zones, displacements and slip on a grid or at points of the surface.
-
-    Arguments, result and errors as `InContact.fields`.
-    """
+    """Return what `InContact.fields` does, of any contact."""
     reach = GRID_REACH * (contact.radius or contact.scales.radius)
     side = np.linspace(-reach, reach, GRID_POINTS)
     dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, points)
@@ -155,10 +152,7 @@ def _in_contact(contact: Contact, r: Array) -> NDArray[np.bool_]:
 def stress_dataset(
     contact: Contact, x: Places, z: Places, points: Places, body: str
 ) -> "xr.Dataset":
-    """Return the stress in one body, on a grid in the plane y = 0 or at points.
-
-    Arguments, result and errors are those of `InContact.stress`.
-    """
+    """Return what `InContact.stress` does, of any contact."""
     friction, poisson = _of_body(contact, body)
     reach = STRESS_REACH * (contact.radius or contact.scales.radius)
     top = BELOW_EDGE * contact.radius if contact._rim else 0.0

@@ -49,7 +49,6 @@ class LoadPath(InContact, Result):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> path = carom.load_path(pair, penetration=[1e-6, 2e-6], displacement=[0.0, 1e-7])
@@ -251,7 +250,6 @@ def load_path(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> loop = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5, -1.5, 1.5])

@@ -22,11 +22,7 @@ BEYOND = "its forces are too large or small for floating point; check the units"
 
 
 class Steps(NamedTuple):
-    """Steps of a path: penetrations in m with the normal forces in N, and what moves it sideways.
-
-    Targets are displacements in m or, by force, forces in N, of shape (n,) or, in two directions,
-    (n, 2).
-    """
+    """Steps of a path: penetrations in m, normal forces in N, targets (n,) or (n, 2) in m or N."""
 
     penetration: Array
     normal_force: Array

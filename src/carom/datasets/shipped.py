@@ -25,7 +25,6 @@ def names() -> tuple[str, ...]:
 
     Examples
     --------
-    >>> import carom
     >>> carom.datasets.names()
     ('foerster1994', 'kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
     """
@@ -52,7 +51,6 @@ def path(name: str) -> Path:
 
     Examples
     --------
-    >>> import carom
     >>> carom.datasets.path("kharaz2001").name
     'kharaz2001.csv'
     """
@@ -80,7 +78,6 @@ def table(name: str) -> UserTable:
 
     Examples
     --------
-    >>> import carom
     >>> measured = carom.datasets.table("kharaz2001")
     >>> measured["spin_out"][8:10].round(1), measured["rebound_angle"][8:10]
     (array([-136.2, -265.7]), array([nan, nan]))
@@ -114,7 +111,6 @@ def load(name: str) -> "xr.Dataset":
 
     Examples
     --------
-    >>> import carom
     >>> data = carom.datasets.load("kharaz2001")
     >>> data.spin_out.units, int(data.spin_out.notnull().sum()), data.doi
     ('rad/s', 7, '10.1016/S0032-5910(01)00283-2')
@@ -169,7 +165,6 @@ def parameters() -> "xr.Dataset":
 
     Examples
     --------
-    >>> import carom
     >>> data = carom.datasets.parameters()
     >>> glass = data.isel(pair=(data.body == "soda-lime glass") & (data.other == "aluminium"))
     >>> glass.friction.item(), glass.friction_error.item(), glass.reference.item()[:16]

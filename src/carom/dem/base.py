@@ -35,7 +35,6 @@ class LawStatus(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.LawStatus(2).message
     'chi must be positive and finite'
     """

@@ -63,7 +63,6 @@ class ContactStep(NamedTuple):
 
     Examples
     --------
-    >>> import carom
     >>> def spring(contact, stretch):
     ...     stretch = stretch + contact.tangential_velocity * contact.time_step
     ...     return -contact.tangential_stiffness * stretch, stretch
@@ -96,10 +95,7 @@ class Fault(Exception):
 
 
 class Bodies(NamedTuple):
-    """Two bodies at one normal speed with the chi and kappa of an impact, in SI units.
-
-    G* and m_t follow from chi and kappa; `constants` are those of a ContactStep from `friction` on.
-    """
+    """Two bodies in SI units; chi and kappa set G* and m_t, `constants` those of a ContactStep."""
 
     constants: tuple[float, float, float, float, float, float]
     speed: float
@@ -130,11 +126,7 @@ def stepped_by(
     steps: int,
     record: Array,
 ) -> tuple[int, float]:
-    """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part.
-
-    The steps are those of DEM codes, velocity Verlet, as in `stepping`; nothing is compiled. The
-    record is in the units of Hertz's impact, its tangential force positive against V_x > 0.
-    """
+    """Return filled rows and psi_2 by Verlet, as `stepping.stepped`; -1 if bodies do not part."""
     friction, radius, modulus, _, m_n, m_t = bodies.constants
     unit, limit = friction * bodies.speed / bodies.kappa, friction * bodies.force
     whole = bodies.length / bodies.speed  # unit of time
@@ -243,7 +235,6 @@ class FunctionLaw(ByFunction, ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> def sliding(contact, state):
     ...     sign = 1.0 if contact.tangential_velocity > 0.0 else -1.0
     ...     return -sign * contact.friction * contact.normal_force, state
@@ -346,7 +337,6 @@ class FunctionRebound(ByFunction):
 
     Examples
     --------
-    >>> import carom
     >>> def hard_sphere(psi, chi):
     ...     return max(-0.4 * psi, psi - 4.0 * chi) if psi > 0.0 else -hard_sphere(-psi, chi)
     >>> carom.dem.FunctionRebound(hard_sphere).rebound([1.0, 10.0], 1.5)

@@ -52,7 +52,6 @@ class LammpsMindlin(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.dem.LammpsMindlin("mindlin_rescale").rebound(0.75, 1.4412), 3)
     0.441
     """
@@ -100,7 +99,6 @@ class LiggghtsHertz(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> elastic = carom.dem.LammpsMindlin("mindlin").rebound(0.75, 1.4412)
     >>> carom.dem.LiggghtsHertz().rebound(0.75, 1.4412) == elastic
     True
@@ -135,7 +133,6 @@ class EdemHertzMindlin(LiggghtsHertz):
 
     Examples
     --------
-    >>> import carom
     >>> laws = carom.dem.EdemHertzMindlin(restitution=0.9), carom.dem.LiggghtsHertz(restitution=0.9)
     >>> [round(law.rebound(2.0, 1.4412), 3) for law in laws]
     [-0.451, -0.416]
@@ -165,7 +162,6 @@ class YadeMindlin(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> elastic = carom.dem.LammpsMindlin("mindlin/force").rebound(0.75, 1.4412)
     >>> carom.dem.YadeMindlin().rebound(0.75, 1.4412) == elastic
     True
@@ -199,7 +195,6 @@ class LinearSpring(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.dem.LinearSpring(2 / 7).rebound(3.0, 1.4412), 3)  # the default of many codes
     -2.765
     """
@@ -235,7 +230,6 @@ class HertzLinearHistory(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.dem.HertzLinearHistory(0.8).rebound(0.75, 1.4412), 3)
     0.337
     """
@@ -286,7 +280,6 @@ class StrongeLaw(BilinearLaw):
 
     Examples
     --------
-    >>> import carom
     >>> carom.dem.StrongeLaw().rebound(1.0, 1.44) == carom.dem.LinearSpring().rebound(1.0, 1.44)
     True
     """
@@ -311,7 +304,6 @@ class ThorntonLaw(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> law = carom.dem.ThorntonLaw()
     >>> round(law.rebound(0.75, 1.4412), 3), round(carom.rebound(0.75, 1.4412), 3)
     (0.178, 0.014)
@@ -340,7 +332,6 @@ class WaltonBraunLaw(BilinearLaw):
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.dem.WaltonBraunLaw().rebound(0.75, 1.4412), 3)
     -0.078
     """

@@ -69,10 +69,7 @@ def fill(
     kept: Counts,
     psi_out: Matrix,
 ) -> None:
-    """Write psi_2 of rows of impacts, each row with its chi and e.
-
-    `sections` keeps series of leaves at the chi and e of a row, `kept` which these are.
-    """
+    """Write psi_2 of rows of impacts; `sections` holds series of the leaves `kept` for a row."""
     last = table.terms.size - 1
     terms, leaves = table.terms[last], table.series.shape[0]
     for row in range(psi.shape[0]):
@@ -99,10 +96,7 @@ def fill(
 
 
 def psi_out(table: Patches, psi: Array, chi: Array, restitution: Array) -> Array:
-    """Return psi_2 of shape (rows, impacts), from psi_1 of that shape, chi and e of shape (rows,).
-
-    The table must have a range of chi or e, and hold both. |psi_2| <= |psi_1|; psi_2 is odd.
-    """
+    """Return psi_2 (rows, impacts) from psi_1, and chi and e of rows, within the table's range."""
     leaves, size = table.series.shape
     slots = leaves if psi.shape[1] > 1 else 1
     room = np.empty(table.terms.size), np.empty((slots, size)), np.full(slots, -1, dtype=np.int64)
@@ -113,10 +107,7 @@ def psi_out(table: Patches, psi: Array, chi: Array, restitution: Array) -> Array
 
 
 def panels(table: Patches, chi: float, restitution: float) -> tuple[Array, Array]:
-    """Return the table at one chi and e: ends of panels in psi_1, and series of psi_2/psi_1.
-
-    Their shapes are (n + 1,) and (n, terms).
-    """
+    """Return panels in psi_1, (n + 1,), and series of psi_2/psi_1, (n, terms), at one chi and e."""
     places, series = sections(table, *(chi, restitution)[: table.terms.size - 1])
     if table.terms.size == 1:
         return places, series
@@ -178,10 +169,7 @@ def tabulated(
 def _rebounds(
     psi: Array, chi: Array, restitution: Array, tolerance: float, give: float
 ) -> tuple[Array, NDArray[np.int64]]:
-    """Return psi_2 and the branch of each impact: its phases, or one for all with losses.
-
-    With losses kinks are weak. Raises InputError where an impact is not solved.
-    """
+    """Return psi_2 and branches, the phases; one with losses, whose kinks are weak. May raise."""
     if give > 0.0 or np.all(restitution == 1.0):
         outgoing, status, branches = solved(psi, chi, give=give)
     else:

@@ -33,7 +33,6 @@ def influence(x: Field, y: Field) -> Influence:
     The sum of `xx` and `yy` is the integral of 1/r, the normal influence of a normal load.
 
     >>> import numpy as np
-    >>> from carom.halfspace.compliance import influence
     >>> at_centre = influence(np.array(0.0), np.array(0.0))
     >>> round(float(at_centre.xx + at_centre.yy), 6)  # 4 asinh 1
     3.525494
@@ -68,10 +67,7 @@ def _x(x: Field, y: Field) -> Field:
 
 
 class Materials(NamedTuple):
-    """What the materials of both bodies enter with.
-
-    `kappa` is G*/E*, `beta` Dundurs' second parameter, `friction` the coefficient of friction.
-    """
+    """What the materials of both bodies enter with: G*/E*, Dundurs' beta, and the friction."""
 
     kappa: float
     beta: float = 0.0

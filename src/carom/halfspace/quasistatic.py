@@ -130,10 +130,7 @@ class Patch:
         return ContactStep(reached, balanced.moved, balanced.moved - balanced.turn)
 
     def _balance(self, asked: "_Asked", pressure: Field, traction: Field) -> "_Balance":
-        """Return normal and tangential contact and the direction of slip that agree.
-
-        They are solved in turns, each with the others' results, from loads to begin with.
-        """
+        """Return normal and tangential contact and slip direction, solved in turns."""
         surface, tolerances = self.compliance, self.tolerances
         turn, rough = np.zeros_like(traction), FIRST_TOLERANCE if surface.couples else 0.0
         for count in range(MOST_EXCHANGES):
@@ -209,10 +206,7 @@ def before_touch(gap: Field, carried: Field, approach: float, aside: Field) -> F
 
 
 def aside_of_bodies(closed: Field, moved: Field, carried: Field, approach: float) -> Field:
-    """Return the motion of the surfaces over the closing of their gap, less that of the bodies.
-
-    Where nothing closes it is zero. `moved` is the motion in a step, `closed` what the gap did.
-    """
+    """Return surfaces' motion over the closing of their gap, less the bodies'; 0 if none closes."""
     tells = closed > max(CLOSING * approach, 0.0)
     if approach <= 0.0 or not tells.any():
         return np.zeros_like(moved)

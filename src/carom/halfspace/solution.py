@@ -64,11 +64,7 @@ class SlipStage(NamedTuple):
 
 
 def stages(time: Field, slipping: Field, sign: Field) -> tuple[SlipStage, ...]:
-    """Return the stages of an impact, those too short for the grid left out.
-
-    `slipping` is the share of the contact that slips in the step that ends at each time, `sign` the
-    sign of that slip.
-    """
+    """Return stages of an impact not too short for the grid, by the share that slips in steps."""
     kinds = [_kind(*step) for step in zip(slipping[1:-1], sign[1:-1], strict=True)]
     runs = [(kind, len(list(group))) for kind, group in groupby(kinds)]
     starts = np.cumsum([0, *(length for _, length in runs)])
@@ -155,10 +151,7 @@ class HalfspaceSolution:
 
     @property
     def energy_error(self) -> float:
-        """Largest change of the sum of all energies, as a share of those before the impact.
-
-        Of spin about the normal what it loses counts: all of it may be as large as one likes.
-        """
+        """Largest change of all energies over those before; of normal spin its loss counts."""
         ledger = self.ledger
         response = motion.responses(self.chi, self.materials.kappa, self.spin.lightness)
         velocities = ledger.velocity, ledger.velocity_across, ledger.turn_velocity

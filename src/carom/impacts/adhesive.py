@@ -48,7 +48,6 @@ class AdhesiveImpact(Outcome):
 
     Examples
     --------
-    >>> import carom
     >>> bead = carom.Sphere(radius="50 um", material="pmma")
     >>> pair = carom.Pair(bead, carom.HalfSpace(material="glass"), friction=0.3)
     >>> hit = carom.classical.adhesive_impact(pair, normal_speed=0.05, work_of_adhesion=0.1)
@@ -170,7 +169,6 @@ def adhesive_impact(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="10 um", material="pmma")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="glass"), friction=0.3)
     >>> hit = carom.classical.adhesive_impact(
@@ -259,8 +257,5 @@ def tabor(pair: Pair, energy: float) -> float:
 
 
 def lost_by_maugis(number: float) -> float:
-    """Return what Maugis & Dugdale's contact loses in a cycle, over `pull_off_work`.
-
-    A table against Tabor's number, made by `tests.oracles.adhesion`.
-    """
+    """Return the loss of Maugis & Dugdale's contact over `pull_off_work`, from a table."""
     return float(np.interp(np.log(max(number, 1e-9)), np.log(TABOR), LOST, left=0.0))

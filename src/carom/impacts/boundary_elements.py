@@ -61,7 +61,6 @@ class BoundaryElements:
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> coarse = carom.BoundaryElements(elements=16, steps=75)
@@ -90,7 +89,6 @@ class HalfspaceImpact(ImpactResult):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.5)
     >>> coarse = carom.BoundaryElements(elements=10, steps=30)

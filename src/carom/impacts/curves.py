@@ -98,7 +98,6 @@ def curve(
 
     Examples
     --------
-    >>> import carom
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
     array([[ 0.    , -0.0612,  0.24  ]])
     >>> carom.curve(1.44, [6.0], losses=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
@@ -199,7 +198,6 @@ def regime_map(
 
     Examples
     --------
-    >>> import carom
     >>> found = carom.regime_map([0.5, 2.0, 6.0], [1.44])
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -

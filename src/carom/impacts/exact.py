@@ -50,7 +50,6 @@ class Impact(ImpactResult, InContact):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", spin="100 rad/s")

@@ -35,11 +35,7 @@ ENOUGH_LINES = 40  # lines on which borders are found
 
 
 class Fineness(NamedTuple):
-    """How many lines an image has along psi_1 and chi at least, and the error of its borders.
-
-    Where regions meet, lines are as close as `closest`, a share of an axis. Pieces of regions with
-    fewer points than `smallest` are left out: beads of narrow strips.
-    """
+    """Lines of an image along either axis, `closest` where regions meet, `smallest` piece kept."""
 
     lines: tuple[int, int]
     closest: float
@@ -116,11 +112,7 @@ def _borders(ring: Ring) -> Iterator[tuple[int, int, Array]]:
 
 
 class Image:
-    """Labels at columns x and rows y, some of which are whole: solved wherever labels differ.
-
-    Elsewhere those points are solved that are around meetings of three regions. The others have
-    the label of the point before them.
-    """
+    """Labels at columns x and rows y, solved where they differ, else those of the point before."""
 
     def __init__(self, x: Array, y: Array, labels: Labels, tell: Tell) -> None:
         self.lines, self.labels, self.tell = [x.copy(), y.copy()], labels, tell
@@ -188,10 +180,7 @@ class Image:
 
 
 def without_specks(labels: Labels, smallest: int) -> Labels:
-    """Return labels with those of what is around them where pieces of a region have few points.
-
-    The largest piece of each region stays.
-    """
+    """Return labels without small pieces of regions, but with the largest piece of each."""
     specks = np.zeros(labels.shape, dtype=np.bool_)
     for each in np.unique(labels):
         pieces, _ = label(labels == each, np.ones((3, 3)))
@@ -202,10 +191,7 @@ def without_specks(labels: Labels, smallest: int) -> Labels:
 
 
 def bisected(image: Image, tolerance: float) -> tuple[Array, Labels]:
-    """Return a lattice with the places of borders on whole lines and all around meetings.
-
-    Also which of its places these are, for `outlines`.
-    """
+    """Return a lattice with the places of borders, and which those are, for `outlines`."""
     labels, places, (count, kept) = image.labels, lattice(*image.lines), image.kept()
     row, column = np.nonzero((kept == KEPT) & (count == 1))
     low, high = (

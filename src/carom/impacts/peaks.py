@@ -86,10 +86,7 @@ class StruckBody:
         return self._in_units(peak, self.scales.pressure)
 
     def intensity(self, flaw: float | None = None) -> Peak:
-        """Return the largest stress intensity at flaws up to `flaw_size`, z the depth of the flaw.
-
-        NaN where the depth of flaws is not known, or viscous bodies have no bound at the surface.
-        """
+        """Return the largest stress intensity at flaws; NaN if unknown, or without bound."""
         flaw, width = self.bears("flaw_size") if flaw is None else flaw, self.scales.radius
         if not (flaw > 0.0 and self.judges_flaws):
             return Peak(*(nan,) * 5)
@@ -282,10 +279,7 @@ def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
 
 
 def _yields(bodies: dict[str, StruckBody]) -> Finding:
-    """Return the finding on yield, at the yield strength of slow tests and at that of impacts.
-
-    What is brittle yields between a third of its hardness and all of it (Johnson 1985, 6.3).
-    """
+    """Return the finding on yield; brittle bodies do from a third of the hardness (Johnson 6.3)."""
     ratios, broken = _ratios("yield_ratio", bodies), []
     for which, body in bodies.items():
         if which in ratios:
@@ -304,20 +298,13 @@ def _yields(bodies: dict[str, StruckBody]) -> Finding:
 
 
 def _tears(bodies: dict[str, StruckBody]) -> Finding | None:
-    """Return the finding on tension; what is beyond its strength beside a contact may still hold.
-
-    The stress falls so fast with the depth that flaws hardly feel it (see `bearable_speeds`).
-    """
+    """Return the finding on tension, which falls so fast with depth that flaws hardly feel it."""
     ratios = _ratios("tension_ratio", bodies)
     return _finding("tension_ratio", ratios, bodies, []) if ratios else None
 
 
 def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
-    """Return the finding on flaws, of any depth where it is not known how deep they are.
-
-    It arises where a body is brittle: toughness, flaws or, without a yield strength, its hardness
-    are known.
-    """
+    """Return the finding on flaws of brittle bodies, of any depth where that is not known."""
     label = RATIOS["toughness_ratio"][0]
     brittle = {name: body for name, body in bodies.items() if body.is_brittle}
     if not brittle:

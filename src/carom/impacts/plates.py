@@ -75,18 +75,12 @@ def rim(hit: ImpactResult) -> Finding | None:
 
 
 def quiet_width(plate: HalfSpace, duration: float) -> float:
-    """Return the width in m up to which bending waves come back from the rim within the contact.
-
-    Those of the period of the contact; their group velocity is twice the phase velocity.
-    """
+    """Return up to which width in m bending waves come back in time, at their group velocity."""
     return 2.0 * sqrt(2.0) * _half_wave(plate, duration)
 
 
 def _half_wave(plate: HalfSpace, duration: float) -> float:
-    """Return half the length of a bending wave of twice the contact time.
-
-    pi (D/(rho h))^(1/4)/sqrt(omega), omega = pi/t_c.
-    """
+    """Return half a bending wave of the contact, pi (D/(rho h))^(1/4)/sqrt(pi/t_c)."""
     stuff, thickness = plate.material, cast(float, plate.thickness)
     stiffness = stuff.young * thickness**2 / (12.0 * (1.0 - stuff.poisson**2))
     return sqrt(pi * duration * sqrt(stiffness / cast(float, stuff.density)))

@@ -75,11 +75,7 @@ def _transit(pair: Pair) -> float:
 
 
 def _weight(hit: ImpactResult) -> Finding | None:
-    """Return the finding on a ball that falls on a wall so slowly that its weight counts.
-
-    Gravity along the normal adds m g t_c to the impulse, so up to 2 chi g t_c/V_1 to psi_2, but
-    takes no energy.
-    """
+    """Return the finding on gravity, which adds up to 2 chi g t_c/V_1 to psi_2, but no energy."""
     gained = GRAVITY * hit.duration / hit.normal_speed
     if isinstance(hit.pair.second, Sphere) or hit.psi_in == 0.0 or not gained > LIGHT:
         return None
@@ -89,10 +85,7 @@ def _weight(hit: ImpactResult) -> Finding | None:
 
 
 def _shell(hit: ImpactResult) -> Finding | None:
-    """Return the finding on hollow spheres: the dent of a shell under a point load, over d_max.
-
-    Its stiffness is 4 E h^2/(R sqrt(3 (1 - nu^2))) (Reissner 1946).
-    """
+    """Return the finding on hollow spheres: dent over d_max, k = 4 E h^2/(R sqrt(3 (1 - nu^2)))."""
     dents = [_dent(body, hit) for body in hit.pair.moving if not body.material.is_rigid]
     dent, name = max(dents, default=0.0), "dent of the shell/d_max"
     if isnan(sum(dents)):

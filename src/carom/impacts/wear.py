@@ -148,10 +148,7 @@ def rubbed_at(hit: ImpactResult, radii: Array) -> tuple[Array, Array]:
 
 
 def rubbed(outcome: Outcome) -> Any:
-    """Return the integral of pressure times slip rate over contact and time, in N m, by energies.
-
-    Those of viscous bodies are known to some 1e-7 of the energy before, below which it is zero.
-    """
+    """Return the integral of pressure times slip rate, N m; viscous energies are good to 1e-7."""
     if outcome.pair.friction > FRICTIONLESS:
         return np.maximum(outcome.dissipated_energy, 0.0) / outcome.pair.friction
     impulse = outcome.pair.normal_mass * outcome.normal_speed * (1.0 + outcome.normal_restitution)

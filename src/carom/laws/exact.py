@@ -81,7 +81,6 @@ class ReboundLaw(Law):
 
     Examples
     --------
-    >>> import carom
     >>> law = carom.laws.ReboundLaw(1.44)
     >>> law([0.5, 1.5, -3.5, 6.0]).round(6)
     array([ 0.047131, -0.429967,  1.477247,  0.24    ])

@@ -110,7 +110,6 @@ def checked_animation(path: str | Path) -> Path:
 
     Examples
     --------
-    >>> import carom
     >>> carom.plots.checked_animation("hit.gif").name
     'hit.gif'
     """

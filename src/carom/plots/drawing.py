@@ -32,8 +32,7 @@ AT_TEXT = """at : float or str, optional
     step of a load path, by default the last."""
 FIGURE_TEXT = """matplotlib.figure.Figure
     The figure, as wide as one column of a paper, 86 mm, or two, 178 mm."""
-IMPACT_TEXT = """>>> import carom
->>> ball = carom.Sphere(radius="5 mm", material="steel")
+IMPACT_TEXT = """>>> ball = carom.Sphere(radius="5 mm", material="steel")
 >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
 >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
 """
@@ -91,10 +90,7 @@ def draws(
 
 @contextmanager
 def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
-    """Let a function draw in the style that is wanted, or into a user's Axes as these are.
-
-    Keywords that it does not know are refused.
-    """
+    """Let a function draw in the style that is wanted, or into a user's Axes."""
     words = [*(word for word in parameters if word != "look"), *LOOK]
     refuse(*(f"{w}: no keyword of {name}; {hint(w, words)}" for w in look if w not in LOOK))
     axes = look.get("ax")

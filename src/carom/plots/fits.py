@@ -52,10 +52,6 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     that of the parameters, to first order. Regimes of the exact law are shaded. Outliers are marked
     with their rows; those that would make the others unreadable are triangles at the edge.
 
-    Examples
-    --------
-    >>> import carom
-    >>> from carom.plots.fits import plot_fit
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> angles = [10.0, 25.0, 40.0, 55.0, 70.0]
@@ -97,10 +93,6 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     Error bars are standard deviations; of the laws the one that is likeliest comes first. Outliers
     are marked with their rows.
 
-    Examples
-    --------
-    >>> import carom
-    >>> from carom.plots.fits import plot_drops
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> drops = {"drop_height": [0.1, 0.2, 0.4, 0.8], "rebound_height": [0.06, 0.1, 0.17, 0.29]}

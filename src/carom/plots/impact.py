@@ -62,10 +62,7 @@ def _limit(history: xr.Dataset) -> Array:
 
 
 def stick_line(stick: Array, contact: Array) -> Array:
-    """Return the radius of the stick zone while there is one, to where it has shrunk to nothing.
-
-    Stick that begins all over the contact is no line from zero: there is none in gross slip.
-    """
+    """Return the radius of the stick zone while there is one, to where it has shrunk to nothing."""
     before = np.concatenate([[0.0], stick[:-1]])
     return np.where((stick > 0.0) | (before > 0.0) | (contact == 0.0), stick, np.nan)
 

@@ -59,7 +59,6 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
     >>> ranking = carom.verify.rank(carom.verify.catalogue()[:2], psi_1=[0.5, 1.0, 3.0])
     >>> axis = carom.plots.plot_laws(ranking.to_dataset()).axes[1]
     >>> [text.get_text() for text in axis.get_yticklabels()]
@@ -167,7 +166,6 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
 
     Examples
     --------
-    >>> import carom
     >>> found = carom.verify.error_map(carom.dem.LinearSpring(), [0.5, 1.0, 3.0], [1.2, 1.4])
     >>> carom.plots.plot_error_map(found).axes[1].get_ylabel()
     'error in $\\\\psi_2$'

@@ -133,10 +133,7 @@ def _name_stick(axis: Axes, word: str) -> None:
 
 
 class Arrows(NamedTuple):
-    """Where the surfaces slip on each other, and how fast, in SI units: arrays of one length.
-
-    `longest` is how long the arrow of the fastest is drawn, in m.
-    """
+    """Where surfaces slip, and how fast, in SI units; `longest` m is drawn for the fastest."""
 
     x: Array
     y: Array
@@ -151,10 +148,7 @@ class Arrows(NamedTuple):
 
 
 def arrows(dataset: xr.Dataset, reach: float | None = None) -> Arrows:
-    """Return the slip velocities at some points of the grid, all in the slip zone; or the slips.
-
-    They are as many as fit on a map that goes to `reach`.
-    """
+    """Return slip velocities, or slips, at points of the slip zone that fit on a map to `reach`."""
     x, y = dataset["x"].values, dataset["y"].values
     contact, stick = (float(dataset[f"{name}_radius"]) for name in ZONES)
     room = min(MARGIN * contact / (reach or _reach(dataset)), 1.0)
@@ -175,10 +169,7 @@ def _slip(dataset: xr.Dataset) -> str:
 
 
 def _places(contact: float, stick: float, count: int) -> tuple[Array, Array, float]:
-    """Return points on a lattice, or in the middle of a slip ring too narrow for one.
-
-    Also how long an arrow may be that neither meets the next one nor leaves the ring.
-    """
+    """Return points of a lattice, or inside a ring too narrow for it, and the length of arrows."""
     spacing = 2.0 * contact / count
     if stick > 0.0 and contact - stick < NARROW_RING * spacing:
         around = count * RING_ARROWS // ARROWS_ACROSS

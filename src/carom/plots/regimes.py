@@ -41,7 +41,6 @@ def plot_curve(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
     >>> axis = carom.plots.plot_curve(carom.curve(1.44, [0.0, 0.5, 1.0, 1.5, 2.0])).axes[0]
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['stick', 'gross slip, stick']

@@ -71,10 +71,7 @@ def _lines(dataset: Any, kind: str) -> list[Array]:
 
 
 def _of_borders(dataset: Any) -> Any:
-    """Return outlines of a fine image, through the borders of a map of version 0.2.
-
-    Its pixels have the sequence on their side of the nearest border.
-    """
+    """Return outlines of an image, by the nearest border of a map of version 0.2."""
     low, high = np.transpose([limits(dataset, name) for name in ("psi_in", "chi")])
     lines = [(line - low) / (high - low) for line in _lines(dataset, "border")]
     fine = [np.asarray(Path(line).interpolated(DENSE).vertices) for line in lines]

@@ -37,7 +37,6 @@ def plot_score(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
     >>> psi = [0.5, 1.0, 2.0, 4.0]
     >>> result = carom.verify.score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
     >>> len(carom.plots.plot_score(result.to_dataset()).axes)

@@ -6,9 +6,6 @@ from carom.quantities.statuses import WordedStatus
 class Cause(WordedStatus):
     """What ends a phase, as a number for kernels; its `message` says it in words.
 
-    Examples
-    --------
-    >>> from carom.quantities.causes import Cause
     >>> Cause.RING_CLOSES.message
     'slip ring closes'
     """

@@ -15,9 +15,6 @@ Result = TypeVar("Result")
 def known_keywords(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Return a function that refuses keywords it does not know, and values without their name.
 
-    Examples
-    --------
-    >>> from carom.quantities.keywords import known_keywords
     >>> @known_keywords
     ... def slide(*, friction):
     ...     return friction

@@ -39,7 +39,6 @@ READ: Mapping[str, Mapping[int, str]] = {  # units by the power of ten that they
 def text(value: float, unit: str, digits: int = DIGITS) -> str:
     """Return an SI value with a unit, to read; angles in degrees and in radians, NaN as a dash.
 
-    >>> from carom.quantities.prefixes import text
     >>> text(0.000187666, "m"), text(2.1e11, "Pa"), text(-0.0, "N"), text(0.25, "1")
     ('187.666 µm', '210 GPa', '0 N', '0.25')
     >>> text(0.349066, "rad"), text(4e-17, "m^3"), text(4.1e-6, "kg"), text(7850.0, "kg/m^3")
@@ -51,7 +50,6 @@ def text(value: float, unit: str, digits: int = DIGITS) -> str:
 def span(low: float, high: float, unit: str, digits: int = DIGITS) -> str:
     """Return from where to where SI values go, in one unit, to read.
 
-    >>> from carom.quantities.prefixes import span
     >>> span(0.0, 845.996, "N"), span(0.0, 2e-5, "m"), span(0.5, 0.5, "1")
     ('0 to 845.996 N', '0 to 20 µm', '0.5')
     >>> span(0.0, 0.349066, "rad")
@@ -69,7 +67,6 @@ def span(low: float, high: float, unit: str, digits: int = DIGITS) -> str:
 def shared(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tuple[str, ...], str]:
     """Return SI values as numbers in one unit, which suits the largest, and that unit.
 
-    >>> from carom.quantities.prefixes import shared
     >>> shared((-6.472e-5, 0.0, 1.385e-4), "m")
     (('-64.72', '0', '138.5'), 'µm')
     """
@@ -81,7 +78,6 @@ def shared(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tu
 def column(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tuple[str, ...], str]:
     """Return the cells of a column, all with as many decimals, and the unit for its head.
 
-    >>> from carom.quantities.prefixes import column
     >>> column((0.0, 1.31886e-5, 3.096e-5), "s")
     (('0.0000', '13.1886', '30.9600'), 'µs')
     """
@@ -98,7 +94,6 @@ def column(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tu
 def prefixed(values: "ArrayLike", unit: str) -> tuple[float, str]:
     """Return by what to multiply SI values, and the unit that they are in then, for a figure.
 
-    >>> from carom.quantities.prefixes import prefixed
     >>> prefixed([0.0, 2.5e-5], "m"), prefixed([0.0, 0.9], "1")
     ((1000000.0, 'µm'), (1.0, '1'))
     """

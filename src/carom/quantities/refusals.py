@@ -36,9 +36,6 @@ def refusal(name: str, value: Any, allowed: str) -> InputError:
 def refuse(*faults: object) -> None:
     """Raise InputError with all texts and errors among these; what is false is no fault.
 
-    Examples
-    --------
-    >>> from carom.quantities.refusals import refuse
     >>> mass, speed = 1.0, -2.0
     >>> refuse(mass < 0.0 and "mass: must be positive", speed < 0.0 and "speed: must be positive")
     Traceback (most recent call last):
@@ -113,9 +110,6 @@ def _shown(value: Any) -> str:
 class Faults:
     """What is wrong with a file: collected inside its context, and told in one message after it.
 
-    Examples
-    --------
-    >>> from carom.quantities.refusals import Faults
     >>> with Faults() as faults:
     ...     faults.add("angle: column missing")
     ...     faults.add("spin: not a number in line 3")

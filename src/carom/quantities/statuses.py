@@ -7,9 +7,6 @@ from typing import Self
 class WordedStatus(IntEnum):
     """A status for arrays of int8, 0 where all is well; its `message` says in words what it is.
 
-    Examples
-    --------
-    >>> from carom.quantities.statuses import WordedStatus
     >>> class Landing(WordedStatus):
     ...     SOFT = 0, "landed softly"
     ...     HARD = 1, "landed hard"

@@ -57,10 +57,7 @@ def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHAN
 
     Raises InputError for anything else, for an unknown unit and for a unit of another kind.
 
-    Examples
-    --------
     >>> import math
-    >>> from carom.quantities.units import number
     >>> number("radius", "5 mm")
     0.005
     >>> number("angle", "90 deg") == math.pi / 2
@@ -83,10 +80,7 @@ def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHAN
 
 
 def pure_number(name: str, value: Any, allowed: str = "give one number") -> float:
-    """Return a number that has no unit, which may be NaN or infinite; texts are none.
-
-    Raises InputError for anything else.
-    """
+    """Return a number without a unit, perhaps NaN or infinite, or raise InputError."""
     plain, own_unit = without_unit(name, value, "1")
     if not is_real(plain):
         raise refusal(name, value, allowed)
@@ -123,9 +117,6 @@ def as_float(name: str, value: Any) -> float:
 def finite_or_text(text: str) -> float | str:
     """Return a number of TOML or JSON, as a text if it is not finite, which no quantity is then.
 
-    Examples
-    --------
-    >>> from carom.quantities.units import finite_or_text
     >>> finite_or_text("1e99"), finite_or_text("1e999"), finite_or_text("inf")
     (1e+99, '1e999', 'inf')
     """
@@ -183,10 +174,7 @@ def two_units(name: str, one: Any, other: Any) -> InputError:
 
 
 def factor_of(name: str, own: Any, unit: str) -> Factor:
-    """Return how numbers in a unit, a text or one of pint's, become those in another.
-
-    Raises InputError if it is none, or of another kind.
-    """
+    """Return how a unit, a text or pint's, becomes another; InputError for none or another kind."""
     try:
         if isinstance(own, str):
             return factor("" if own in PURE_UNITS else own, unit)
@@ -242,9 +230,6 @@ def counted(name: str, value: Any, least: int, most: int = MOST_COUNTED) -> int:
 def whole(name: str, text: str, least: int, most: int = MOST_COUNTED) -> int:
     """Return the whole number in a text of ASCII digits, or raise InputError.
 
-    Examples
-    --------
-    >>> from carom.quantities.units import whole
     >>> whole("points", "401", 2)
     401
     """
@@ -268,9 +253,6 @@ def threads_or_none(threads: Any) -> int | None:
 def or_none(value: float) -> float | None:
     """Return a number as JSON can hold it: None if it is not finite.
 
-    Examples
-    --------
-    >>> from carom.quantities.units import or_none
     >>> or_none(2), or_none(float("inf")), or_none(float("nan"))
     (2.0, None, None)
     """

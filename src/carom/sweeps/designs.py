@@ -34,10 +34,7 @@ USUAL_BLOCKS = 32  # that a sweep of middling size is cut into
 
 
 def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
-    """Return the shape of the blocks of a sweep, filled from its last axis on.
-
-    Blocks have fewer points where each point costs more.
-    """
+    """Return the shape of blocks, filled from the last axis on, smaller where points cost more."""
     room = min(max(prod(shape) // USUAL_BLOCKS, FEWEST // cost), MOST // cost)
     chunks = []
     for length in reversed(shape):
@@ -234,7 +231,6 @@ class Grid(Design):
 
     Examples
     --------
-    >>> import carom
     >>> angle = {"from": "0 deg", "to": "80 deg", "points": 9}
     >>> grid = carom.Grid({"angle": angle, "friction": [0.1]})
     >>> grid.dims, grid.shape
@@ -303,7 +299,6 @@ class LatinHypercube(Design):
 
     Examples
     --------
-    >>> import carom
     >>> design = carom.LatinHypercube({"friction": (0.0, 0.5)}, samples=5, seed=1)
     >>> sorted((design.inputs((slice(0, 5),))["friction"] * 10).astype(int).tolist())
     [0, 1, 2, 3, 4]

@@ -102,7 +102,6 @@ class PointStatus(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.PointStatus(3).message
     'bodies do not approach'
     """

@@ -253,10 +253,7 @@ class SweepProblem:
         return chunk_shape(self.design.shape, cost)
 
     def block(self, box: Box, threads: int | None = 1) -> Values:
-        """Return the outputs, sampled inputs and status of a box of points, in its shape.
-
-        The numbers of a point do not depend on the box. NaN where the status is not SOLVED.
-        """
+        """Return outputs, sampled inputs and status of points, whatever the box; else NaN."""
         shape = tuple(part.stop - part.start for part in box)
         size, inputs = prod(shape), self.design.inputs(box)
         status = np.full(size, PointStatus.NOT_A_NUMBER, dtype=np.int8)

@@ -158,10 +158,7 @@ def _create(path: Path, problem: SweepProblem) -> None:
 
 
 def _blank_files(problem: SweepProblem) -> dict[str, Buffer]:
-    """Return the files of a store without points.
-
-    Threads of zarr would go on writing into a folder while a signal has it removed.
-    """
+    """Return the files of an empty store; zarr's threads would write on as a signal removes it."""
     files: dict[str, Buffer] = {}
     store = MemoryStore(files)
     with warnings.catch_warnings():  # of what the format 3 does not yet have on paper

@@ -79,7 +79,6 @@ def bearable_speeds(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
     >>> found = carom.bearable_speeds(pair, angle=["0 deg", "60 deg"])

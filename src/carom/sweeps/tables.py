@@ -62,7 +62,6 @@ class Table(Design):
 
     Examples
     --------
-    >>> import carom
     >>> carom.Table({"angle [deg]": [10, 20], "friction": [0.1, 0.2]}).names
     ('angle', 'friction')
     """

@@ -44,10 +44,7 @@ STATUS = {
 
 
 class Many(NamedTuple):
-    """Impacts of one pair side by side: how they meet and how often, and what comes of each.
-
-    `rubbed` is the integral of pressure times slip rate in N m, `radii` the largest of the contact.
-    """
+    """Impacts of one pair side by side; `rubbed` in N m, `radii` the largest of the contact."""
 
     columns: dict[str, Array]
     counts: Array
@@ -209,7 +206,6 @@ def wear_of_many(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="2 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> mill = carom.wear_of_many(

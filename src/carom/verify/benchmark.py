@@ -31,11 +31,7 @@ COLUMNS = ":<32s max:7.3f at:5.2f rms:7.3f law:8.1e seconds:8.2f"
 
 
 class Measured(NamedTuple):
-    """A law, `entry`, run in a program: its errors and how many seconds it took, or its failure.
-
-    `max_error` (at psi_1 = `worst`) and `rms_error` against the exact impact; `law_error` the
-    largest difference from Carom's own law at the same steps.
-    """
+    """A law in a program: errors in psi_2, `law_error` to Carom's own, seconds, or the failure."""
 
     entry: Entry
     max_error: float
@@ -75,10 +71,7 @@ class Bench:
         return any(one.failure for one in self.measured)
 
     def results(self) -> str:
-        """Return the impacts with the best law as the scorer reads them.
-
-        Comments hold the bodies, the program and the law.
-        """
+        """Return the impacts with the best law as the scorer reads them, the case in comments."""
         law = self.measured[0].entry.label
         names = f"# code: {self.engine}\n# law: {law}\n"
         rows = results_csv(*self.outcomes[law])
@@ -158,7 +151,6 @@ def bench(
 
     Examples
     --------
-    >>> import carom
     >>> carom.verify.bench(carom.verify.Lammps("/nowhere/lmp"))
     Traceback (most recent call last):
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path

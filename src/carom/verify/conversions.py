@@ -68,7 +68,6 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> k = carom.verify.stiffnesses(pair, "1 m/s")
@@ -111,7 +110,6 @@ def poisson_from_kappa(kappa: float) -> float:
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.verify.poisson_from_kappa(1.4 / 1.7), 12)
     0.3
     """
@@ -155,7 +153,6 @@ def damping_from_restitution(restitution: float, convention: str = "critical") -
 
     Examples
     --------
-    >>> import carom
     >>> zeta = carom.verify.damping_from_restitution(0.5)
     >>> round(zeta, 4), round(carom.verify.restitution_from_damping(zeta), 12)
     (0.2155, 0.5)
@@ -187,7 +184,6 @@ def restitution_from_damping(value: float, convention: str = "critical") -> floa
 
     Examples
     --------
-    >>> import carom
     >>> alpha = carom.verify.damping_from_restitution(0.7, "lammps tsuji")
     >>> round(carom.verify.restitution_from_damping(alpha, "lammps tsuji"), 10)
     0.7
@@ -240,7 +236,6 @@ def recipes(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> print(carom.verify.recipes(pair, 1.0)["LAMMPS Hertz"])

@@ -167,7 +167,6 @@ def error_map(
 
     Examples
     --------
-    >>> import carom
     >>> errors = carom.verify.error_map(carom.dem.LinearSpring(), [1.0, 6.0], [1.4412])
     >>> errors.error.values.round(3)
     array([[0.176, 0.   ]])
@@ -235,7 +234,6 @@ def force_error(
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.verify.force_error(carom.dem.LammpsMindlin("mindlin"), 0.75, 1.4412).rms, 2)
     0.16
     """
@@ -304,7 +302,6 @@ def step_error(
 
     Examples
     --------
-    >>> import carom
     >>> carom.verify.step_error(carom.dem.LammpsMindlin("mindlin"), 100) < 1e-3
     True
     """
@@ -349,7 +346,6 @@ def advised_steps(
 
     Examples
     --------
-    >>> import carom
     >>> carom.verify.advised_steps(carom.dem.LinearSpring(), 0.01).steps
     28
     """

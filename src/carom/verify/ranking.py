@@ -81,7 +81,6 @@ class Ranking(Result):
 
     Examples
     --------
-    >>> import carom
     >>> laws = [carom.dem.LinearSpring(), carom.dem.HardSphere()]
     >>> ranking = carom.verify.rank(laws, psi_1=[1.0, 6.0])
     >>> [round(one.max_error, 2) for one in ranking.standings]
@@ -218,7 +217,6 @@ def rank(
 
     Examples
     --------
-    >>> import carom
     >>> best = carom.verify.rank(carom.verify.catalogue()[:2]).standings[0]
     >>> best.entry.label, round(best.max_error, 3)
     ('linear spring, k_t/k_n = kappa', 0.176)

@@ -86,7 +86,6 @@ class Tuning:
 
     Examples
     --------
-    >>> import carom
     >>> tuning = carom.verify.tune([carom.dem.HardSphere(), carom.dem.LinearSpring()], chi=1.4412)
     >>> [round(one.max_error, 2) for one in tuning.advice]
     [0.07, 0.3]
@@ -205,7 +204,6 @@ def tune(
 
     Examples
     --------
-    >>> import carom
     >>> best = carom.verify.tune([carom.dem.HertzLinearHistory()], chi=1.4412).advice[0]
     >>> best.parameter, round(best.value, 2), round(best.before, 2), round(best.max_error, 2)
     ('stiffness', 0.7, 0.61, 0.17)
@@ -304,10 +302,7 @@ def setting_of(
     stop: str | None,
     restitution: str | None,
 ) -> Setting:
-    """Return what a tuning is for, from a case and angles, or from chi and psi_1.
-
-    A restitution takes the place of that of the case; without either it is 1.
-    """
+    """Return what a tuning is for, a case with angles or chi with psi_1; e is 1 by default."""
     if case is None:
         return _without_bodies(chi, kappa, start, stop, restitution)
     for name, value in (("chi", chi), ("kappa", kappa)):

@@ -66,7 +66,6 @@ class Status(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.Status(0).message
     'solved'
     """

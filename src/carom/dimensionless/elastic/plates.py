@@ -31,10 +31,7 @@ from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 @kernel
 def expand(s: Series, sign: int, chi: float, give: float) -> None:
-    """Expand the state in row 0 into Taylor series where the whole contact slips.
-
-    Apart from `motion.expand`, which would lose its speed by another place that calls it.
-    """
+    """Expand as `motion.expand` in gross slip; that would be slower if it were called here, too."""
     for k in range(at.ORDER):
         s[k, at.BB] = at.product(s, at.B, at.B, k)
         s[k, at.N] = s[k, at.BB] + 1.5 * give * s[k, at.V]

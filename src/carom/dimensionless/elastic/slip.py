@@ -115,10 +115,7 @@ def slid_in_ring(steps: Steps, i: int, r: float, h_end: float) -> tuple[float, f
 def slid(
     steps: Steps, last: int, time: float, b: float, v: float, radii: Vector, out: Matrix
 ) -> None:
-    """Write the radial functions of the slip up to step `last`, where b and v are, for each radius.
-
-    Only points that are in contact then, r <= b, have a slip; the others get zero.
-    """
+    """Write the radial functions of the slip up to step `last` at radii r <= b, zero at others."""
     series, h_last = steps.series, 0.0
     if steps.give > 0.0:
         h_last = reached(steps, last, time - steps.times[last])
@@ -175,10 +172,7 @@ class SlipRate(NamedTuple):
 
 @kernel
 def near_touch(rate_at: SlipRate, r: float, side: float, inner: float, outer: float) -> float:
-    """Return the work in gross slip between two radii of the contact, far from the turning point.
-
-    u^2 = b^2 - r^2 makes the integrand smooth.
-    """
+    """Return the work in gross slip between two radii; u^2 = b^2 - r^2 makes it smooth."""
     first, last = np.sqrt(max(inner * inner - r * r, 0.0)), np.sqrt(max(outer * outer - r * r, 0.0))
     total, half = 0.0, 0.5 * (last - first)
     for k in range(AROUND.size):
@@ -266,10 +260,7 @@ def room(steps: Steps, i: int, r: float, h: float, side: float, own: float) -> f
 
 @kernel
 def work_in_ring(steps: Steps, i: int, r: float, steady: bool) -> tuple[float, float]:
-    """Return the radial functions of the work per area in a step of a slip ring.
-
-    Or, if the slip is steady, that at the rate 1 all over the contact.
-    """
+    """Return the work per area in a step of a slip ring; if slip is steady, that at the rate 1."""
     low, high = slipping(steps, i, r, steady)
     length = high - low
     if length <= 0.0:
@@ -349,10 +340,7 @@ def pressed(steps: Steps, radii: Vector, out: Vector) -> None:
 
 
 def borders(steps: Steps, widest: float) -> Array:
-    """Return radii between which the work is smooth: fronts at all steps, edges where rings begin.
-
-    Steps are short where the front is about to stop, beside which the work has a steep flank.
-    """
+    """Return radii between which the work is smooth: fronts at all steps, edges of new rings."""
     nodes, series = steps.nodes, steps.series
     rings = np.flatnonzero((nodes[:, MODE] == at.LAID) | (nodes[:, MODE] == at.FLAT))
     new = np.flatnonzero(np.diff(nodes[:, STRETCH], prepend=-1.0))

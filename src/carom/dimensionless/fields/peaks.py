@@ -130,10 +130,7 @@ def climb(
     last: float,
     best: Vector,
 ) -> None:
-    """Move the best place uphill along radius and depth until steps are smaller than the last.
-
-    No place leaves the depths between `shallow` and `deepest`.
-    """
+    """Move the best place uphill, within the depths, until steps are smaller than the last."""
     farthest = FARTHEST_CLIMB * max(1.0, shallow)
     for _ in range(MOST_STEPS):
         moved = False
@@ -207,7 +204,6 @@ def largest(
 
     Friction, Poisson's ratio and rim are as of `stresses`; depths are in contact radii.
 
-    >>> from carom.dimensionless.fields.peaks import VON_MISES, largest
     >>> from carom.dimensionless.fields.profile import flat, stacked
     >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
     >>> peak = largest(VON_MISES, hertz, friction=0.0, poisson=0.3)

@@ -118,10 +118,7 @@ def kernel(function: Callable[Parameters, Result]) -> Callable[Parameters, Resul
 def entry_point(
     *floats: str,
 ) -> Callable[[Callable[Parameters, Result]], Callable[Parameters, Result]]:
-    """Mark a kernel that Python calls; its annotations are its signature.
-
-    With several types of floating-point arrays there is a C function for each.
-    """
+    """Mark a kernel that Python calls, as annotated, for each of the types of floats."""
 
     def mark(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
         if way() == "python":

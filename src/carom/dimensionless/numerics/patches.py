@@ -82,10 +82,7 @@ def add_terms(series: Vector, place: float, size: int, terms: int, out: Vector) 
 
 
 def sections(patches: Patches, *others: float) -> tuple[Array, Array]:
-    """Return the function of the last variable at given values of the others.
-
-    The ends of its panels, shape (n + 1,), and the coefficients on each, shape (n, terms).
-    """
+    """Return panels (n + 1,) and series (n, terms) in the last variable at values of the others."""
     low, high = patches.corners[..., 0], patches.corners[..., 1]
     sides, point = high[:, :-1], np.array(others)
     beyond = (sides > point) | (sides == sides.max(axis=0))

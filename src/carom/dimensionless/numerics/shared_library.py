@@ -44,7 +44,6 @@ def get_include() -> str:
 
     Examples
     --------
-    >>> import carom
     >>> from pathlib import Path
     >>> Path(carom.get_include(), "carom.h").is_file()
     True

@@ -189,8 +189,6 @@ def intensity(contacts: Contacts, poisson: float, flaw: float = inf) -> Peak:
     `value` is K/(p_L sqrt(pi) (R* L)^(1/4)) and z the depth of the flaw, `flaw` at most, both in
     sqrt(R* L); otherwise as `peaks`.
 
-    >>> import carom
-    >>> from carom.dimensionless.strength.cracking import intensity
     >>> from carom.dimensionless.strength.peaks import Contacts
     >>> sliding = Contacts(carom.solve(9.0, 1.44), friction=0.2)
     >>> round(intensity(sliding, 0.3, 1e-8).value / 1e-4, 3)  # 1.122 times the stress at the edge
@@ -210,8 +208,6 @@ def cracking_width(contacts: Contacts, poisson: float, flaw: float, wanted: floa
     `flaw` is the depth of the deepest flaws, in any unit of length, `wanted` K_c pi R*/(2 E*
     sqrt(pi)), in that unit to the power 3/2.
 
-    >>> import carom
-    >>> from carom.dimensionless.strength.cracking import cracking_width, intensity
     >>> from carom.dimensionless.strength.peaks import Contacts
     >>> contacts = Contacts(carom.solve(0.5, 1.44), friction=0.2)
     >>> width = cracking_width(contacts, 0.23, flaw=1.0, wanted=100.0)

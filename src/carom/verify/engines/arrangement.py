@@ -110,10 +110,7 @@ def share_of_first(pair: Pair) -> float:
 
 
 def outcomes_of(experiment: Experiment, states: Array) -> Outcomes:
-    """Return how bodies leave, from x, z, vx, vz, omega_y of the first ones, then the second ones.
-
-    Raises ValueError if one is missing, or some still touch.
-    """
+    """Return how bodies leave, from x, z, vx, vz, omega_y; ValueError if one still touches."""
     count, pair = len(experiment), experiment.pair
     wanted = count * len(pair.moving), 5
     if states.shape != wanted:

@@ -24,10 +24,7 @@ AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out")
 
 
 class Outcomes(NamedTuple):
-    """How the first body leaves each impact, relative to the second: m/s, m/s, rad/s; (n,).
-
-    `normal_speed` is positive when the bodies recede.
-    """
+    """How first bodies leave, relative to the second: m/s, positive apart, m/s, rad/s; (n,)."""
 
     normal_speed: Array
     tangential_speed: Array
@@ -62,7 +59,6 @@ class Experiment:
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(

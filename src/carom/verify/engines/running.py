@@ -132,7 +132,6 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(

@@ -40,7 +40,6 @@ class Yade(Engine):
 
     Examples
     --------
-    >>> import carom
     >>> engine = carom.verify.Yade()
     >>> mindlin = carom.dem.YadeMindlin(restitution=0.9)
     >>> engine.supports(mindlin), engine.supports(carom.dem.LammpsMindlin("mindlin"))

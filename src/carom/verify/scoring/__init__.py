@@ -111,7 +111,6 @@ def score(
 
     Examples
     --------
-    >>> import carom
     >>> psi = [0.5, 1.0, 2.0, 4.0]
     >>> result = carom.verify.score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
     >>> result.passed, round(result.max_error, 3)

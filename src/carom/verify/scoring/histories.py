@@ -32,11 +32,7 @@ NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
 
 
 class Samples(NamedTuple):
-    """Forces at times since the first touch, with the instants without force at either end.
-
-    `rows` are the places in the results, -1 for an instant that was added; `touch` is the first
-    touch in the time of the results.
-    """
+    """Forces since the first `touch`, with zeros at either end, whose places in `rows` are -1."""
 
     time: Array
     normal_force: Array

@@ -48,7 +48,6 @@ class Score(Result):
 
     Examples
     --------
-    >>> import carom
     >>> psi = [0.5, 1.0, 2.0]
     >>> score = carom.verify.score({"psi_1": psi, "psi_2": carom.rebound(psi, 1.44)}, chi=1.44)
     >>> score.passed, score.max_error

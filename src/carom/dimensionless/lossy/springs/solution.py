@@ -244,10 +244,7 @@ def _phases(rows: Array, mirror: int) -> tuple[Phase, ...]:
 
 
 def _stretches(rows: Array) -> Iterator[tuple[float, int, int]]:
-    """Give the end, kind and sign of slip of every run of steps that do the same.
-
-    Stick that seems to begin while unloading is a ring too thin for springs: it goes to the next.
-    """
+    """Give end, kind and sign of runs of equal steps; stick while unloading is a ring too thin."""
     kinds = [_kind(row) for row in rows[1:-1]]
     for i in range(len(kinds) - 2, -1, -1):
         if kinds[i][0] == Kind.STICK and rows[i + 1, layout.AT_V] < 0.0:

@@ -49,10 +49,7 @@ def share(near: float, far: float) -> float:
 
 @kernel
 def lay(springs: Array, count: int, edge: float) -> None:
-    """Place a spring at the edge, beside so many.
-
-    The weights integrate what is linear in x^2 between springs and zero at the edge.
-    """
+    """Place a spring at the edge; weights integrate what is linear in x^2 and zero at the edge."""
     springs[:, count] = 0.0
     springs[X, count], springs[S, count] = edge, edge * edge
     if count > 0:
@@ -252,10 +249,7 @@ def stretch_both(
 def move(
     springs: Array, j: int, step: Step, psi: complex, moved: complex, relaxing: complex
 ) -> None:
-    """Move a spring of two components on: it sticks, slips, or stops within the step.
-
-    A complex number holds both, its imaginary part that across.
-    """
+    """Move a spring of two components, one complex number: it sticks, slips or stops on the way."""
     g, limit, limit_end = step.extra, springs[LIMIT, j], springs[NEXT, j]
     m = complex(springs[RELAXING, j], springs[RELAXING_ACROSS, j])
     u = complex(springs[U, j], springs[U_ACROSS, j])

@@ -111,10 +111,7 @@ def entry_moments(
 
 @kernel
 def gap_end(work: Arrays, i: int, ring: Ring, front: float) -> float:
-    """Return where what the front jumped ends, from the end of an entry to the next.
-
-    Where it arrives is known to rounding of levels, which is much of a thin ring.
-    """
+    """Return where what the front jumped ends; rounding of levels is much of a thin ring."""
     if i < ring.depth - 1:
         return float(work.passed[i + 1, contact.R_OUTER])
     if ring.mode == Mode.RETREATS:
