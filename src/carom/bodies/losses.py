@@ -130,7 +130,6 @@ class KelvinVoigt(LossLaw):
         return LossNumbers(Loss.VISCOUS, float(_alphas(self.restitution)))
 
     def _describe(self) -> dict[str, Any]:
-        """Return what was given."""
         return {name: value for name, value in super()._describe().items() if value is not None}
 
 

@@ -46,10 +46,8 @@ class Material(Printed):
         Poisson's ratio nu, -1 < nu <= 0.5.
     density : float or str, optional
         Density; only a body that moves needs it.
-    yield_strength : float or str, optional
-        Von Mises stress at which the material yields.
-    tensile_strength : float or str, optional
-        Tensile stress at which the material breaks.
+    yield_strength, tensile_strength : float or str, optional
+        Von Mises stress at which the material yields, tensile stress at which it breaks.
     fracture_toughness : float or str, optional
         Stress intensity at which cracks grow, in Pa m^0.5, e.g. `"0.75 MPa m^0.5"`.
     flaw_size : float or str, optional
@@ -187,14 +185,9 @@ def _catalogue() -> dict[str, dict[str, Any]]:
 
 
 def materials() -> Catalogue:
-    """Return the catalogue of materials by name, without "rigid"; printed, a table.
+    """Return each `Material` of the catalogue by its name, without "rigid"; printed, a table.
 
     The values are typical of room temperature; `sources` of each names where they are from.
-
-    Returns
-    -------
-    dict
-        Each `Material` by its name, with E in Pa and density in kg/m^3.
 
     Examples
     --------

@@ -13,15 +13,7 @@ from carom.collisions import records
 from carom.collisions.compiled import Motions, collide_all
 from carom.collisions.plates import PlateRule, plate_rule
 from carom.collisions.portable import collide_arrays
-from carom.collisions.records import (
-    Collisions,
-    CollisionStatus,
-    Incidence,
-    Inertia,
-    JudgedCollisions,
-    Judgement,
-    vectors,
-)
+from carom.collisions.records import Collisions, JudgedCollisions
 from carom.laws.exact import ReboundLaw, law_of
 from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
@@ -29,15 +21,6 @@ from carom.quantities.arrays import along_the_same
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import threads_or_none
-
-__all__ = [
-    "CollisionLaw",
-    "CollisionStatus",
-    "Collisions",
-    "JudgedCollisions",
-    "Judgement",
-    "collide",
-]
 
 OF_NUMPY = (
     "a plate takes NumPy arrays; convert yours, leave it out, or pass a law for one lambda, "
@@ -175,7 +158,7 @@ def collide(
     return after if before is None else records.judged(pair, before, after)
 
 
-def _incidence(pair: Pair, inputs: tuple[Any, ...], law: CollisionLaw | None) -> Incidence:
+def _incidence(pair: Pair, inputs: tuple[Any, ...], law: CollisionLaw | None) -> records.Incidence:
     """Return how bodies meet, before they may be written over."""
     if law is not None:
         raise refusal("law", law, "judge=True judges the exact law; leave law or judge out")
@@ -188,7 +171,9 @@ def _incidence(pair: Pair, inputs: tuple[Any, ...], law: CollisionLaw | None) ->
 
 def _vectors(inputs: tuple[Any, ...], kind: np.dtype[Any]) -> list[NDArray[np.floating]]:
     """Return vectors of one shape and type, zeros for those left out; copies only where needed."""
-    arrays = [vectors(name, values) for name, values in zip(records.NAMES, inputs, strict=True)]
+    arrays = [
+        records.vectors(name, values) for name, values in zip(records.NAMES, inputs, strict=True)
+    ]
     shape = records.common_shape(arrays)
     return [np.zeros(shape, kind) if each is None else _whole(each, shape, kind) for each in arrays]
 
@@ -208,7 +193,7 @@ def _rule(law: CollisionLaw | None, pair: Pair) -> Rule | PlateRule:
 
 def _collide_numpy(
     inputs: tuple[Any, ...],
-    inertia: Inertia,
+    inertia: records.Inertia,
     rule: Rule | PlateRule,
     inplace: bool,
     threads: int | None,

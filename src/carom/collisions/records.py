@@ -87,7 +87,6 @@ class Collisions(EqualByNumbers, After):
     __slots__ = ()
 
     def __repr__(self) -> str:
-        """Return in a few lines how many pairs there are, and what became of them."""
         counts = status_counts(self.status)
         if counts is None:  # what jax traces, or no arrays at all
             return tuple.__repr__(self)
@@ -95,7 +94,6 @@ class Collisions(EqualByNumbers, After):
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        """Return a table for a notebook."""
         counts = status_counts(self.status) or {}
         return card(_title(self), {status.message: f"{n:,}" for status, n in counts.items()})
 
@@ -246,12 +244,10 @@ class JudgedCollisions(EqualByNumbers, Judged):
     __slots__ = ()
 
     def __repr__(self) -> str:
-        """Return in a few lines how many pairs there are, what became of them, what is known."""
         lines = [repr(Collisions._make(self[:5])), *map(": ".join, self._counted())]
         return "\n  ".join(lines)
 
     def _repr_html_(self) -> str:
-        """Return a table for a notebook."""
         return card("Judged collisions", dict(self._counted()))
 
     def _counted(self) -> list[tuple[str, str]]:

@@ -86,11 +86,9 @@ class LoadPath(InContact, Result):
 
         Parameters
         ----------
-        normal_force, penetration, tangential_force, displacement : array_like, float or str
+        normal_force, penetration, tangential_force, displacement, progress
             As in `load_path`, from the end of this path. If one part has two directions, values
             of one direction are taken along x.
-        progress : bool or callable, optional
-            As in `load_path`.
 
         Returns
         -------
@@ -148,7 +146,6 @@ class LoadPath(InContact, Result):
         return "\n".join([f"Load path of {len(self)} steps", *aligned(self._rows())])
 
     def _repr_html_(self) -> str:
-        """Return a table and a picture for a notebook."""
         figure = self.plot() if len(self) > 1 else None
         return card(f"Load path of {len(self)} steps", self._rows(), figure)
 
@@ -156,14 +153,10 @@ class LoadPath(InContact, Result):
         return plots.plot_cone(dataset, **look)
 
     def to_dataset(self) -> xr.Dataset:
-        """Return the path as a dataset along `step`, which `carom.save` can store.
+        """Return the path as a dataset along `step`, and `direction` if there are two.
 
-        Returns
-        -------
-        xarray.Dataset
-            Along `step`, and `direction` if there are two: penetration, displacement,
-            contact_radius and stick_radius in m, normal_force and tangential_force in N,
-            frictional_work and tangential_elastic_energy in J; and friction as a number.
+        It has penetration, displacement, contact_radius and stick_radius in m, normal_force and
+        tangential_force in N, frictional_work and tangential_elastic_energy in J, and friction.
         """
         count = {"units": "1", "long_name": "step of the load path"}
         columns = {name: getattr(self, name) for name in PATH_COLUMNS}

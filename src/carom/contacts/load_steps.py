@@ -30,7 +30,6 @@ class Steps(NamedTuple):
     by_force: NDArray[np.bool_]
 
     def followed_by(self, more: "Steps") -> "Steps":
-        """Return these steps and then more of them."""
         targets = [self.target, more.target]
         if self.target.ndim != more.target.ndim:  # what had one direction goes along x
             targets = [t if t.ndim == 2 else t[:, None] * [1.0, 0.0] for t in targets]
@@ -39,7 +38,6 @@ class Steps(NamedTuple):
         return Steps(*columns)
 
     def first(self, n: int) -> "Steps":
-        """Return the first n steps."""
         columns: list[Any] = [column[:n] for column in self]
         return Steps(*columns)
 

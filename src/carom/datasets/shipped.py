@@ -16,12 +16,7 @@ if TYPE_CHECKING:
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of the measured datasets.
-
-    Returns
-    -------
-    tuple of str
-        Names that `path`, `table` and `load` accept.
+    """Return the names of the measured datasets, which `path`, `table` and `load` accept.
 
     Examples
     --------
@@ -154,14 +149,10 @@ def parameters() -> "xr.Dataset":
 
     These are the three parameters of Walton's law. The exact law has the same mu, but there beta_0,
     which is -V_x'/V_x of a contact point that sticks, follows from the elastic constants. All
-    values depend on surfaces, size and speed, so use them as first estimates.
-
-    Returns
-    -------
-    xarray.Dataset
-        Along `pair`: `normal_restitution`, `friction` and `beta_0`, each also with `_error` as the
-        authors state it; `diameter` in m and `density` in kg/m^3 of the sphere, NaN if not stated;
-        and the texts `body`, `other`, `shape` (sphere or plane) and `reference`.
+    values depend on surfaces, size and speed, so use them as first estimates. Along `pair` the
+    dataset has `normal_restitution`, `friction` and `beta_0`, each also with `_error` as the
+    authors state it; `diameter` in m and `density` in kg/m^3 of the sphere, NaN if not stated; and
+    the texts `body`, `other`, `shape` (sphere or plane) and `reference`.
 
     Examples
     --------

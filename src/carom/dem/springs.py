@@ -260,7 +260,6 @@ class BilinearLaw(ContactLaw):
     restitution: float = 1.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         return linear(chi, kappa, self.stiffness_ratio, unloading=self.restitution**-2)
 
 

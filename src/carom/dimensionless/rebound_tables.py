@@ -17,18 +17,11 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
 from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
+from carom.dimensionless.numerics import patches
 from carom.dimensionless.numerics.arrays import Array, Counts, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.dimensionless.numerics.patches import (
-    NARROWEST,
-    Patches,
-    Samples,
-    contract,
-    fitted,
-    leaf_at,
-    sections,
-)
+from carom.dimensionless.numerics.patches import Patches, Samples, sections
 from carom.dimensionless.rebounds import lossy_rebounds, regime_borders, solved
 from carom.quantities.refusals import refusal
 
@@ -84,10 +77,10 @@ def fill(
             place = place_of(size, chi[row], restitution[row])
             if place < 3.0:
                 point[last] = place
-                leaf = leaf_at(table, point)
+                leaf = patches.leaf_at(table, point)
                 slot, key = leaf % kept.size, row * leaves + leaf
                 if kept[slot] != key:
-                    contract(table, leaf, point, sections[slot])
+                    patches.contract(table, leaf, point, sections[slot])
                     kept[slot] = key
                 low, high = table.corners[leaf, last, 0], table.corners[leaf, last, 1]
                 ratio = evaluate(sections[slot, :terms], low, high, max(place, low))
@@ -155,14 +148,14 @@ def tabulated(
         advance(psi.size)
         return Samples(outgoing / psi, psi * weight(each_chi), branches)
 
-    return fitted(
+    return patches.fitted(
         ratio,
         [*(ranges[i] for i in wide), places],
         [*(degrees[i] for i in wide), degrees[-1]],
         tolerance,
         cuts=cuts,
         singular=1.0,
-        narrowest=NARROWEST if elastic else NARROW,
+        narrowest=patches.NARROWEST if elastic else NARROW,
     )
 
 

@@ -177,10 +177,8 @@ class Solution(Trajectory):
 
         Parameters
         ----------
-        at : float
-            Time in units of d_max/V_1, from 0 to `duration`.
-        radii : array_like, shape (n,)
-            Distances from the centre in units of sqrt(R* d_max).
+        at, radii
+            As in `traction`.
 
         Returns
         -------

@@ -120,11 +120,9 @@ class Compliance:
         return self.materials.beta != 0.0
 
     def normal(self, pressure: Field) -> Field:
-        """Return the normal displacement under a pressure alone."""
         return self.padded.backward(self._normal * self.padded.forward(pressure))
 
     def tangential(self, traction: Field) -> Field:
-        """Return the tangential displacement, along (x, y), under a traction alone."""
         return self._tangential.applied(self.padded, traction)
 
     def normal_of_traction(self, traction: Field) -> Field:
@@ -182,7 +180,6 @@ class _Tensor(NamedTuple):
         return _Tensor(along, across, -self.to_even / determinant, -self.to_odd / determinant)
 
     def applied(self, transform: Transform, field: Field) -> Field:
-        """Return a field of two components, convolved."""
         even, odd = transform.forward(field[0]), transform.forward(field[1], odd=True)
         along, across = self.along * even, self.across * odd
         along[transform.even] += self.to_even * odd[transform.odd]

@@ -50,7 +50,6 @@ class ContactState(NamedTuple):
 
     @property
     def loads(self) -> tuple[Field, Field]:
-        """Pressure and traction."""
         return self.pressure, self.traction
 
 

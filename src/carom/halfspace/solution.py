@@ -183,7 +183,6 @@ class HalfspaceSolution:
         return float(ledger.slip_angle_max[within].max()), float(mean)
 
     def history(self, n: int) -> GridHistory:
-        """Return the impact at n evenly spaced times."""
         return self.at(np.linspace(0.0, self.duration, n))
 
     def at(self, time: Field) -> GridHistory:

@@ -125,7 +125,6 @@ class Pushing:
         return Face(lambda vectors: np.where(touching, vectors, 0.0), 0.0)
 
     def largest(self, load: Field) -> float:
-        """Return the largest pressure."""
         return float(load.max())
 
 

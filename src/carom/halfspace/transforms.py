@@ -45,7 +45,6 @@ class Transform:
         self.odd = tuple(slice(None, -1) if one else slice(None) for one in mirrors)
 
     def forward(self, field: Field, odd: bool = False) -> Spectrum:
-        """Return the spectrum of a field."""
         self.count += 1
         spectrum: Spectrum = field
         for axis in self.mirrored:

@@ -104,13 +104,7 @@ class AdhesiveImpact(Outcome):
         return super().inputs() | {NAME: self.work_of_adhesion}
 
     def cite(self) -> str:
-        """Return what to cite for this result, as BibTeX.
-
-        Returns
-        -------
-        str
-            Entries of BibTeX, one after the other.
-        """
+        """Return what to cite for this result, as BibTeX."""
         return bibtex(*ADHESION)
 
     @cached_property

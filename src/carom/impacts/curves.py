@@ -174,8 +174,7 @@ def regime_map(
     losses : KelvinVoigt, optional
         What the impacts lose energy to: a restitution is given.
     progress : bool or callable, optional
-        Whether a progress bar is shown after two seconds, by default in a notebook and on a
-        terminal; or a function that is called with the number of rows of chi done and their total.
+        As for `carom.sweep`; rows of chi are counted.
 
     Returns
     -------

@@ -210,11 +210,6 @@ class Impact(ImpactResult, InContact):
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.
 
-        Returns
-        -------
-        str
-            Entries of BibTeX, one after the other.
-
         Examples
         --------
         >>> [line for line in hit.cite().splitlines() if line.startswith("@")]

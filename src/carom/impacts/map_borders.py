@@ -13,17 +13,8 @@ from scipy.ndimage import distance_transform_edt, label
 
 from carom.impacts.sequences import Sequences
 from carom.io.progress import Progress, advancing
-from carom.plots.outlines import (
-    JUNCTION,
-    KEPT,
-    MEETING,
-    RIM,
-    Labels,
-    Ring,
-    changes,
-    lattice,
-    outlines,
-)
+from carom.plots import outlines
+from carom.plots.outlines import KEPT, MEETING, RIM, Labels, Ring
 from carom.quantities.arrays import Array
 
 Tell: TypeAlias = Callable[[Array, Array], Labels]
@@ -70,7 +61,7 @@ def border_variables(
                 image.refine(fineness)
                 places, kept = bisected(image, fineness.tolerance)
                 places[:, [0, -1], 0], places[[0, -1], :, 1] = x[[0, -1]], y[[0, -1], np.newaxis]
-                rings += outlines(image.labels, places, kept)
+                rings += outlines.outlines(image.labels, places, kept)
     names = np.array(sequences.names, dtype=np.str_)
     borders = [border for ring in rings for border in _borders(ring)]
     sides = np.array([border[:2] for border in borders], dtype=np.int64).reshape(-1, 2)
@@ -99,15 +90,15 @@ def _points(kind: str, lines: list[Array]) -> dict[str, Any]:
 
 def _borders(ring: Ring) -> Iterator[tuple[int, int, Array]]:
     """Yield the parts of an outline along one other region, each from one of its two sides only."""
-    cuts = np.flatnonzero(np.isin(ring.beyond, (RIM, JUNCTION)))
+    cuts = np.flatnonzero(np.isin(ring.beyond, (RIM, outlines.JUNCTION)))
     turned = np.roll(np.arange(len(ring.points)), -cuts[0] if cuts.size else 0)
     turned = np.append(turned, turned[0])
     for beyond, run in groupby(range(len(turned)), lambda k: int(ring.beyond[turned[k]])):
         places = list(run)
         if beyond > ring.label:
             first, last = places[0], places[-1]
-            first -= first > 0 and ring.beyond[turned[first - 1]] == JUNCTION
-            last += last + 1 < len(turned) and ring.beyond[turned[last + 1]] == JUNCTION
+            first -= first > 0 and ring.beyond[turned[first - 1]] == outlines.JUNCTION
+            last += last + 1 < len(turned) and ring.beyond[turned[last + 1]] == outlines.JUNCTION
             yield ring.label, beyond, ring.points[turned[first : last + 1]]
 
 
@@ -131,7 +122,10 @@ class Image:
         """Insert lines everywhere until there are enough, then more where three regions meet."""
         least = [fineness.closest * np.ptp(line) for line in self.lines]
         while True:
-            gaps, meeting = [np.diff(line) for line in self.lines], changes(self.labels) > 2
+            gaps, meeting = (
+                [np.diff(line) for line in self.lines],
+                outlines.changes(self.labels) > 2,
+            )
             few = [self.lines[k].size < fineness.lines[k] for k in (0, 1)]
             fill = [np.full(gaps[k].size, few[k]) for k in (0, 1)]
             if not any(few):
@@ -156,7 +150,7 @@ class Image:
 
     def kept(self) -> tuple[Labels, Labels]:
         """Return on how many edges labels change, and which of it outlines keep."""
-        count = changes(self.labels)
+        count = outlines.changes(self.labels)
         kept = np.zeros_like(count)
         for i, j in np.ndindex(3, 3):
             kept[i : i - 2 or None : 2, j : j - 2 or None : 2][count[1::2, 1::2] > 2] = KEPT
@@ -192,7 +186,7 @@ def without_specks(labels: Labels, smallest: int) -> Labels:
 
 def bisected(image: Image, tolerance: float) -> tuple[Array, Labels]:
     """Return a lattice with the places of borders, and which those are, for `outlines`."""
-    labels, places, (count, kept) = image.labels, lattice(*image.lines), image.kept()
+    labels, places, (count, kept) = image.labels, outlines.lattice(*image.lines), image.kept()
     row, column = np.nonzero((kept == KEPT) & (count == 1))
     low, high = (
         places[row - row % 2, column - column % 2],

@@ -112,15 +112,12 @@ class StruckBody:
         return self.contacts.depth * self.scales.radius
 
     def yield_ratio(self) -> float:
-        """Return the largest von Mises stress over the yield strength."""
         return self._share("peak_von_mises", self.bears("yield_strength"))
 
     def tension_ratio(self) -> float:
-        """Return the largest tensile stress over the tensile strength."""
         return self._share("peak_tension", self.bears("tensile_strength"))
 
     def toughness_ratio(self) -> float:
-        """Return the largest stress intensity over the fracture toughness."""
         toughness = self.bears("fracture_toughness")
         return self.intensity().value / toughness if toughness > 0.0 else nan
 

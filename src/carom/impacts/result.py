@@ -205,7 +205,6 @@ class ImpactResult(Outcome, Result):
         return _impact_text(self)
 
     def _repr_html_(self) -> str:
-        """Return a table and a picture for a notebook."""
         numbers = self.scalars()
         rows = {GLOSSARY[name].meaning: GLOSSARY[name].text(numbers[name]) for name in SHOWN}
         times, unit = _phase_times(self.phases)
@@ -219,11 +218,8 @@ class ImpactResult(Outcome, Result):
     def to_dataset(self) -> xr.Dataset:
         """Return all of the result as one dataset, with a history of 400 times.
 
-        Returns
-        -------
-        xarray.Dataset
-            Along `time` in s the course of the impact, as `history` has it; along `phase` kind,
-            sign, start and end in s; the numbers of the result without a dimension.
+        Along `time` in s the course of the impact, as `history` has it; along `phase` kind, sign,
+        start and end in s; the numbers of the result without a dimension.
         """
         angles = self._phase_columns()
         return labelled(self._columns(400), self.scalars(), self.phases, self.inputs(), angles)
@@ -234,11 +230,8 @@ class ImpactResult(Outcome, Result):
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, texts and lists, for JSON; NaN becomes None.
 
-        Returns
-        -------
-        dict
-            inputs, result (all numbers by name, SI units), phases, verdict (holds, fails or not
-            judged) and validity, the findings behind it.
+        It has inputs, result (all numbers by name, SI units), phases, verdict (holds, fails or not
+        judged) and validity, the findings behind it.
         """
         validity = self.validity
         return {
@@ -274,8 +267,7 @@ class ImpactResult(Outcome, Result):
         frames : int
             Number of instants, evenly spaced, up to 10,000; 12 are shown per second.
         progress : bool or callable, optional
-            Whether a progress bar is shown after two seconds, by default in a notebook and on a
-            terminal; or a function that is called after every frame.
+            As for `carom.sweep`; a function is called after every frame.
 
         Returns
         -------
@@ -309,7 +301,6 @@ class ImpactResult(Outcome, Result):
 
 
 def _impact_text(hit: ImpactResult) -> str:
-    """Return the result as text to read."""
     scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
     note = NOTES["lossy" if hit.losses is not None else method]
     coupled = method != "exact" and hit.pair.dundurs_beta != 0.0

@@ -31,7 +31,6 @@ class Sequences:
 
     @property
     def names(self) -> list[str]:
-        """Sequences in words."""
         return list(self.numbers)
 
     def of(self, psi: Array, chi: Array) -> NDArray[np.int64]:

@@ -10,15 +10,9 @@ from math import isfinite, isnan, nan, sqrt
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
 from carom.bodies.shapes import Sphere
+from carom.dimensionless import neglected
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.neglected import (
-    NO_BETA,
-    SMALL_CONTACT,
-    SPIN,
-    not_studied,
-    rebound_error,
-    spin_error,
-)
+from carom.dimensionless.neglected import SMALL_CONTACT
 from carom.impacts.dissipation import adhesion, damping, together, waves
 from carom.impacts.findings import bounded, judged
 from carom.impacts.plates import bending, deflection, rim, small_on_plate
@@ -182,16 +176,16 @@ def _spin(hit: ImpactResult) -> Finding | None:
     if pair.friction == 0.0 or not isfinite(hit.psi_in):
         return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction this spin does not matter")
     spin = abs(hit.normal_spin) * hit.scales.radius / (pair.friction * hit.normal_speed)
-    outside = not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
-    if spin > SPIN.most:
-        outside = f"spin of {spin:.3g} mu V_1/a_max is above {SPIN.most:g}"
+    outside = neglected.not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
+    if spin > neglected.SPIN.most:
+        outside = f"spin of {spin:.3g} mu V_1/a_max is above {neglected.SPIN.most:g}"
     if hit.losses is not None:
         return _unknown(name, "with losses; the theory neglects this spin")
     if outside:
         return _unknown(name, f"{outside}; {cure}")
     good = "the spin about the normal, which the theory neglects, hardly matters"
     bad = f"the theory neglects the spin about the normal; {cure}"
-    error = float(spin_error(pair.chi, hit.psi_in, spin))
+    error = float(neglected.spin_error(pair.chi, hit.psi_in, spin))
     return bounded(name, error, CLOSE_REBOUND, good, bad)
 
 
@@ -199,15 +193,15 @@ def _rebound(hit: ImpactResult) -> Finding:
     """Return the finding on what slip off the motion and coupling may do to psi_2."""
     pair, name = hit.pair, "error of psi_2"
     numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
-    unlike = abs(pair.dundurs_beta) > NO_BETA
+    unlike = abs(pair.dundurs_beta) > neglected.NO_BETA
     if pair.friction == 0.0 or not isfinite(hit.psi_in):
         nothing = "without friction the theory neglects nothing"
         return Finding(name, 0.0, CLOSE_REBOUND, True, nothing)
     if hit.psi_in == 0.0 and not unlike:
         return Finding(name, 0.0, CLOSE_REBOUND, True, "like bodies that meet head-on do not slip")
-    if outside := not_studied(*numbers):
+    if outside := neglected.not_studied(*numbers):
         return _unknown(name, f"{outside}; method='halfspace' solves the full contact")
-    error = float(rebound_error(*numbers, hit.psi_in))
+    error = float(neglected.rebound_error(*numbers, hit.psi_in))
     if hit.losses is not None:
         return _unknown(name, f"with losses; for elastic bodies it is at most {error:.2g}")
     but = "apart from the spin about the normal, " if hit.normal_spin else ""

@@ -313,10 +313,7 @@ class ReboundLaw(Law):
     def to_dict(self) -> dict[str, Any]:
         """Return the table as plain numbers and lists, for JSON; `from_dict` reads it.
 
-        Returns
-        -------
-        dict
-            The values `chi`, `restitution`, `edges` and `coefficients`, of a plate `inelasticity`.
+        It has `chi`, `restitution`, `edges` and `coefficients`, of a plate also `inelasticity`.
 
         Raises
         ------

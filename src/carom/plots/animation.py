@@ -55,8 +55,7 @@ def animate(
     path : str or Path
         A name that ends in .gif, or in .mp4 where ffmpeg is installed.
     progress : bool or callable, optional
-        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
-        what is called after every frame.
+        As for `carom.sweep`; a function is called after every frame.
 
     Returns
     -------
@@ -147,7 +146,6 @@ class _Film:
         self.still: Any = None
 
     def picture(self, fields: xr.Dataset) -> Image.Image:
-        """Return one frame."""
         style.check_grid(fields, "traction_x", "y", "x")
         self._draw_patch(fields)
         self._move_marker(fields)

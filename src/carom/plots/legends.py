@@ -108,7 +108,6 @@ def _outline(text: str, size: float, fonts: tuple[str, ...]) -> Bbox:
 
 
 def _fonts() -> tuple[str, ...]:
-    """Return all that is set of fonts."""
     return tuple(str(RC[name]) for name in FONTS)
 
 

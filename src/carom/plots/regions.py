@@ -21,7 +21,6 @@ class Region(NamedTuple):
     rings: list[Array]
 
     def path(self) -> Path:
-        """Return the region as a path to fill."""
         rings = (np.concatenate([ring, ring[:1]]) for ring in self.rings)
         return Path.make_compound_path(*(Path(ring, closed=True) for ring in rings))
 

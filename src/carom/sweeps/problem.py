@@ -242,7 +242,6 @@ class SweepProblem:
 
     @property
     def loses(self) -> bool:
-        """Whether energy is lost but to friction."""
         plate = "second.thickness" in {*self.design.names, *self._common.fixed}
         return self._common.loss is not None or plate
 

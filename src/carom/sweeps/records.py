@@ -45,7 +45,6 @@ class MemoryRecord:
         self.todo = list(boxes(shape, problem.chunks()))
 
     def write(self, box: Box, values: Values) -> None:
-        """Keep a block."""
         for name, part in values.items():
             self._arrays[name][box] = part
 
@@ -54,7 +53,6 @@ class MemoryRecord:
         return "nothing is stored; with --store DIR.zarr (store=) you could continue it"
 
     def dataset(self) -> "xr.Dataset":
-        """Return the sweep."""
         return blank_dataset(self._problem, self._arrays)
 
 
@@ -103,7 +101,6 @@ class Summary(NamedTuple):
 
     @property
     def points(self) -> int:
-        """The number of points."""
         return sum(self.statuses.values())
 
 

@@ -57,9 +57,7 @@ def bearable_speeds(
         Angles of incidence from the normal, in rad or as text; by default 18 up to 85 degrees.
     friction : array_like, optional
         Coefficients of friction; by default that of the pair.
-    workers : int, optional
-        Number of threads, by default one for each core.
-    progress : bool or callable, optional
+    workers, progress
         As for `sweep`.
 
     Returns

@@ -42,7 +42,6 @@ class Measured(NamedTuple):
     failure: str | None
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the numbers, or the failure, as what JSON can hold."""
         if self.failure:
             return {"law": self.entry.label, "failure": self.failure}
         return {"law": self.entry.label, **dict(zip(self._fields[1:-1], self[1:-1], strict=True))}
@@ -133,8 +132,7 @@ def bench(
     time_limit : float
         Seconds for each run of the program.
     progress : bool or callable, optional
-        Whether a progress bar is shown after two seconds, by default in a notebook and on a
-        terminal; or a function that is called with the number of laws done and their total.
+        As for `carom.sweep`; laws are counted.
 
     Returns
     -------

@@ -69,11 +69,6 @@ CATALOGUE = (
 def catalogue() -> tuple[Entry, ...]:
     """Return the contact laws that programs have, each with its parameters and its programs.
 
-    Returns
-    -------
-    tuple of Entry
-        In the order of the tables.
-
     Examples
     --------
     >>> carom.verify.catalogue()[0].label

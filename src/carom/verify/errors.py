@@ -217,10 +217,8 @@ def force_error(
         A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     psi_1 : float
         Incidence psi_1.
-    chi : float
-        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
-    kappa : float, optional
-        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
+    chi, kappa : float
+        As for `rank`.
 
     Returns
     -------

@@ -58,7 +58,6 @@ class Standing(NamedTuple):
     restitution: float = 1.0
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the standing as what JSON can hold."""
         numbers = ("max_error", "worst", "rms_error", "force_error", "energy_gain")
         return {
             "law": self.entry.label,
@@ -96,19 +95,12 @@ class Ranking(Result):
         return _table(self)
 
     def _repr_html_(self) -> str:
-        """Return a table and a picture for a notebook."""
         rows = {s.entry.label: f"{s.max_error:.3f} at psi_1 = {s.worst:g}" for s in self.standings}
         title = f"Largest |error in psi_2| at chi = {self.chi:g}"
         return card(title, rows, self.plot())
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the ranking as what JSON can hold.
-
-        Returns
-        -------
-        dict
-            chi, kappa, psi_in and laws, a record each.
-        """
+        """Return chi, kappa, psi_in and laws, a record each, as what JSON can hold."""
         laws = [standing.to_dict() for standing in self.standings]
         return {"chi": self.chi, "kappa": self.kappa, "psi_in": list(self.psi_in), "laws": laws}
 
@@ -122,12 +114,9 @@ class Ranking(Result):
     def to_dataset(self) -> "xr.Dataset":
         """Return psi_2 of each law and of the exact impact, and all errors, as one dataset.
 
-        Returns
-        -------
-        xarray.Dataset
-            psi_out (law, psi_in), psi_out_exact (psi_in; also of the law if their restitutions
-            differ), max_error, rms_error, force_error, energy_gain and restitution (law), steps
-            (law, step_kind), -1 where none suffice; chi and kappa.
+        psi_out (law, psi_in), psi_out_exact (psi_in; also of the law if their restitutions
+        differ), max_error, rms_error, force_error, energy_gain and restitution (law), steps (law,
+        step_kind), -1 where none suffice; chi and kappa.
         """
         impacts = Impacts(np.array(self.psi_in), self.chi, self.kappa)
         psi_out = [impacts.rebound(standing.entry.law) for standing in self.standings]
@@ -199,8 +188,7 @@ def rank(
         Normal coefficient of restitution e for which all laws are damped; laws of the catalogue
         that have no damping are left out.
     progress : bool or callable, optional
-        Whether a progress bar is shown after two seconds, by default in a notebook and on a
-        terminal; or a function that is called with the number of laws done and their total.
+        As for `carom.sweep`; laws are counted.
 
     Returns
     -------

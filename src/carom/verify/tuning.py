@@ -65,7 +65,6 @@ class TunedLaw(NamedTuple):
     step: TimeSteps | None
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the law and its errors as what JSON can hold."""
         return {
             "law": called(self.law),
             "parameter": self.parameter,
@@ -118,18 +117,11 @@ class Tuning:
         return next((one.law for one in self.advice if isinstance(one.law, kind)), None)
 
     def _repr_html_(self) -> str:
-        """Return a table for a notebook."""
         rows = {called(one.law): _summary(one) for one in self.advice}
         return card(f"Closest to the exact psi_2 at chi = {self.chi:g}", rows)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the advice as what JSON can hold.
-
-        Returns
-        -------
-        dict
-            chi, kappa, psi_in (first and last) and laws, a record each.
-        """
+        """Return chi, kappa, psi_in (first, last) and laws, a record each, as JSON can hold it."""
         return {
             "chi": self.chi,
             "kappa": self.kappa,
@@ -178,17 +170,14 @@ def tune(
     laws : Law, callable, or sequence of them
         Contact laws, or functions as of `carom.dem.FunctionLaw`; only the tuned parameter is
         changed.
-    chi : float
-        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
-    kappa : float, optional
-        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
+    chi, kappa : float
+        As for `rank`.
     psi_1 : array_like, optional
         Incidences psi_1, by default 60 of them up to 4 chi, beyond which all impacts slide.
     measure : str
         Error to minimise: "max", the largest, or "rms", the root mean square.
     progress : bool or callable, optional
-        Whether a progress bar is shown after two seconds, by default in a notebook and on a
-        terminal; or a function that is called with the number of laws done and their total.
+        As for `carom.sweep`; laws are counted.
 
     Returns
     -------

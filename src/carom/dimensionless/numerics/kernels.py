@@ -70,7 +70,6 @@ class Kernel(Generic[Parameters, Result]):
         update_wrapper(self, function)
 
     def __call__(self, *args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
-        """Run the machine code."""
         return self.compiled(*args, **kwargs)
 
     @cached_property
@@ -88,7 +87,6 @@ class Kernel(Generic[Parameters, Result]):
 
     @cached_property
     def dispatcher(self) -> Any:
-        """The kernel as numba has it."""
         from carom.dimensionless.numerics.jit import dispatcher
 
         return dispatcher(self.py_func)

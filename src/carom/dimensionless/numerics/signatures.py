@@ -38,12 +38,10 @@ class Signature(NamedTuple):
         return f"{' '.join(map(_label, self.leaves()))} -> {' '.join(map(_label, self.results))}"
 
     def leaves(self) -> Iterator[Any]:
-        """Give the numbers and arrays in their order."""
         for kind in self.parameters.values():
             yield from _leaves(kind)
 
     def arrays(self) -> Iterator[ArrayType]:
-        """Give the arrays in their order."""
         return (kind for kind in self.leaves() if isinstance(kind, ArrayType))
 
 
@@ -121,7 +119,6 @@ class _Writer:
         self.names: dict[str, Any] = {}
 
     def read(self, name: str, kind: Any) -> None:
-        """Add an argument, or an item of one."""
         if isinstance(kind, Group):
             parts = [f"{name}_{i}" for i in range(len(kind.kinds))]
             self.lines.append(f"{', '.join(parts)}, = {name}")

@@ -80,7 +80,6 @@ class _Panels(NamedTuple):
         )
 
     def chosen(self, which: NDArray[np.bool_]) -> "_Panels":
-        """Return some of the panels."""
         return _Panels(*(column[which] for column in self))
 
 

@@ -61,7 +61,6 @@ class Contacts:
         return self._kept[time]
 
     def size(self, time: float) -> float:
-        """Return the radius of the contact at a time."""
         return float(self.at(time)[0].edges[-1])
 
     def shallow(self, time: float) -> float:

@@ -86,10 +86,8 @@ def score(
     columns : mapping or str, optional
         Quantities by the heads of columns that have other names, e.g. {"omega": "spin_out"} or
         {"w": "spin_out [rpm]"}; or a TOML file with them in a table [columns].
-    sheet : str, optional
-        The sheet of a spreadsheet, if several could be meant.
-    decimal : str, optional
-        "," or ".", the decimal sign of a file where numbers such as 1,234 leave it open.
+    sheet, decimal : str, optional
+        As in `carom.Table`.
     code, law : str, optional
         What the program and its contact law are called in reports and figures; by default the
         columns of these names, up to eight different ones, else the comments "# code:" and "# law:"

@@ -58,7 +58,6 @@ class Frames:
         return np.asarray((1.0 - part) * values[i] + part * values[i + 1])
 
     def edge(self, time: float) -> float:
-        """Return the radius of the contact."""
         return float(np.sqrt(self._mixed(self.edges**2, time)))
 
     def profile(self, time: float, scale: float = 1.0) -> Profile:
@@ -84,7 +83,6 @@ class Frames:
 
     @cached_property
     def _laid(self) -> int:
-        """How many springs there are."""
         return int(np.argmax(self.places))
 
     def _behind(self, i: int, radii: Array) -> Array:
