@@ -165,9 +165,7 @@ def move(memory: Array, springs: int, now: Now, moved: tuple[float, float]) -> N
 def pull(memory: Array, springs: int, now: Now, drag: tuple[float, float]) -> tuple[float, float]:
     """Return the integrals of what springs and dashpots bear, up to the edge.
 
-    They are sums over springs. Beyond the last one q is linear in s, and there the sum is
-    corrected by -h^2/12 dq/dx (Euler & Maclaurin), with the slope from the spring before to the
-    edge.
+    Sums over springs; beyond the last q is linear in s: -h^2/12 dq/dx (Euler & Maclaurin).
     """
     if now.edge <= 0.0:
         return 0.0, 0.0

@@ -261,9 +261,8 @@ def answered(
 ) -> Any:
     """Return psi_2 of impacts whose arguments broadcast, and the status of each if asked for.
 
-    `solve` takes flat arrays and returns psi_2, a status, zero where an impact is solved, and the
-    reason of the first that is not, "" if its status of this `kind` says it. Of such impacts there
-    is one warning, unless the status is asked for.
+    `solve` takes flat arrays and returns psi_2, a status, zero where solved, and the first reason,
+    "" if its status of this `kind` says it; of that there is one warning, unless status is asked.
     """
     along_the_same(**arguments)
     numbers = {name: pure_numbers(name, values) for name, values in arguments.items()}

@@ -31,11 +31,6 @@ def influence(x: Field, y: Field) -> Influence:
     """Return the influence of the unit element at points none of which lies on a line of corners.
 
     The sum of `xx` and `yy` is the integral of 1/r, the normal influence of a normal load.
-
-    >>> import numpy as np
-    >>> at_centre = influence(np.array(0.0), np.array(0.0))
-    >>> round(float(at_centre.xx + at_centre.yy), 6)  # 4 asinh 1
-    3.525494
     """
     return Influence(
         _over_corners(_xx, x, y),
@@ -196,10 +191,7 @@ def _used(kernel: Field) -> Field:
 
 
 def _periodic(kernel: Field) -> Field:
-    """Return the nearest kernel of half the period (T. Chan 1988, SIAM J. Sci. Stat.
-
-    Comput. 9:766), whose spectrum is positive wherever the convolution itself is.
-    """
+    """Return the kernel of half the period that is nearest, and positive (T. Chan 1988)."""
     size = len(kernel) // 2
     fade = np.maximum(1.0 - np.abs(np.fft.fftfreq(2 * size, 1.0 / (2 * size))) / size, 0.0)
     faded = kernel * fade[:, None] * fade

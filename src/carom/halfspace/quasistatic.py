@@ -106,10 +106,9 @@ class Patch:
     def advance(
         self, state: ContactState, depth: float, displacement: Field, length: float = 1.0
     ) -> ContactStep:
-        """Return the contact after the bodies have moved in a straight line.
+        """Return the contact after the bodies have moved in a straight line, to second order.
 
-        Second order in the step: elements stick from their own touch on, and traction is along the
-        slip at the end of the step. `length` is that of the step, in any unit.
+        Elements stick from their own touch on; traction is along the slip at the end of the step.
         """
         carried = self.grid.carried(displacement - state.displacement)
         followed, approach = carried + state.yielded, depth - state.depth
@@ -215,8 +214,7 @@ def aside_of_bodies(closed: Field, moved: Field, carried: Field, approach: float
 def turn_to_end(moved: Field, slips: Mask, last: Field, share: float) -> Field:
     """Return what of the slip in a step is not along its direction at the end of the step.
 
-    The slip of this step and of the `last` tell the direction in the middle of each; the end is
-    ahead of this middle by `share` of the time between them.
+    The slip of this step and the `last` tell directions in the middle; the end is `share` ahead.
     """
     middle, before = _unit(moved), _unit(last)
     end = _unit(middle + share * (middle - before))

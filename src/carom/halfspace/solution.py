@@ -42,11 +42,10 @@ STANDARD = Resolution()
 
 
 def refinement_error(quarter: float, half: float, whole: float) -> float:
-    """Return about the error of a number that was found on a whole grid, half and a quarter of it.
+    """Return about the error of a number, from grids that are whole, half and a quarter as fine.
 
-    The last change, as for an error of first order in the grid; more where changes fall by less
-    than that, less than half, by their geometric series; and at least three tenths of the change
-    before.
+    The last change, more where changes fall slowly, by their geometric series, and at least three
+    tenths of the change before.
     """
     before, last = abs(half - quarter), abs(whole - half)
     to_come = min(last / (before - last), MOST_TO_COME) if before > last else MOST_TO_COME

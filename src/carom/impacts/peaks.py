@@ -66,8 +66,7 @@ UNCOUPLED = (
 class StruckBody:
     """One body of an impact; stress grows as V^(2/5) where all velocities grow alike.
 
-    `side` is 1 for the second body, -1 for the first, in which friction acts the other way: its
-    stresses are those of the second, mirrored.
+    `side` is 1 for the second body, -1 for the first, whose stresses are mirrored.
     """
 
     contacts: Contacts = field(repr=False)
@@ -368,11 +367,7 @@ def _hardened(body: StruckBody) -> float:
 
 
 def judge_pressure(pair: Pair, pressure: float, *, yields: bool) -> Finding:
-    """Return the finding on yield where stresses are not known: by the pressure, without friction.
-
-    First yield of a sphere under a pressure of Hertz's (Johnson 1985, section 6.1). What yields by
-    its law of losses need not stay elastic.
-    """
+    """Return the finding on yield by the pressure alone, without friction (Johnson 1985, 6.1)."""
     stuffs = {"first": pair.first.material, "second": pair.second.material}
     without = {w: m for w, m in stuffs.items() if not (m.yield_strength or m.is_rigid)}
     ratio = pressure / min(

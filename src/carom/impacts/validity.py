@@ -157,8 +157,8 @@ def _judge_metal(losses: LossNumbers) -> Finding:
 def _others(loss: int, restitution: float, chi: float) -> str:
     """Return by how much psi_2 of other solids of the same e may differ, in words.
 
-    (1 - e) max(1.2, 2.4 chi - 1.7) from Kelvin & Voigt's, an envelope of standard linear solids and
-    yielding spheres, psi_1 up to 4 chi + 1; from a standard linear one twice that.
+    (1 - e) max(1.2, 2.4 chi - 1.7) from Kelvin & Voigt's, psi_1 up to 4 chi + 1, an envelope; from
+    a standard linear solid twice that.
     """
     if not (STUDIED[0] <= chi <= STUDIED[1] and restitution >= LEAST_STUDIED):
         return "how far other solids of this e differ was not studied here"

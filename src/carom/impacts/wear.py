@@ -35,8 +35,7 @@ ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(16)
 class Rubbing(NamedTuple):
     """The integral of pressure times slip rate over an impact, mean - lateral cos 2 theta, in Pa m.
 
-    At rising radii in m, and over the contact in N m: as the energies tell it, and as the radii do.
-    `inner` are those radii that are well apart from each other.
+    At rising radii, and over the contact in N m by energies and by radii; `inner` are well apart.
     """
 
     radii: Array

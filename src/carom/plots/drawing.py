@@ -49,10 +49,9 @@ def draws(
 ) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Let a function of a dataset take a result, too, in any size and style; refuse all else.
 
-    `what` says what it draws and what makes such a dataset; all of `needed` must be in it, and the
-    first of them must go along these dimensions, if any are named, and have values. A result gives
-    its dataset by a method that `take` names, or by a function of the result and the argument
-    `at`. With `several`, a list or dictionary of them becomes a dictionary of datasets.
+    `what` says what it draws and what makes it; all of `needed` must be in it, the first of them
+    along these dimensions. A result gives its dataset by a method, `take`, or by a function of it
+    and `at`. With `several`, a list or dictionary of them becomes a dictionary of datasets.
     """
     dims = (along,) if isinstance(along, str) else along
 
@@ -105,10 +104,9 @@ def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
 
 
 def documented(draw: Callable[P, T], drawn: str = "") -> Callable[P, T]:
-    """Add to the docstring of a function that draws what all of them take, return and refuse.
+    """Add to a docstring what all functions that draw take, return and refuse.
 
-    `drawn` describes the first parameter, if the docstring does not. Examples that draw an impact,
-    `hit`, begin with one.
+    `drawn` describes the first parameter, if the docstring does not; `hit` is an impact.
     """
     text, _, examples = cleandoc(draw.__doc__ or "").partition("\nExamples\n--------\n")
     text, _, raises = text.partition("\nRaises\n------\n")
@@ -174,10 +172,9 @@ def _lacking(dataset: Any, needed: tuple[str, ...], along: tuple[str, ...]) -> s
 
 
 def at_instant(*methods: str) -> Take:
-    """Return what takes fields of a result: at an instant of an impact, a step of a load path.
+    """Return what takes fields of a result by the first of the methods that it has.
 
-    The first of the methods that the result has makes them; by default at the instant at which the
-    normal force is largest, or after the last step.
+    By default at the instant of the largest normal force, or after the last step.
     """
 
     def take(result: Any, at: Any) -> Any:

@@ -80,11 +80,7 @@ def patch_panel(
     word: str = "stick",
     **colours: Any,
 ) -> Any:
-    """Draw the patch on axes and return its shading.
-
-    The map goes to `reach` in m, by default to a little beyond the contact. The shading is the
-    variable times `scale` in these colours. The word stands in the middle where that sticks.
-    """
+    """Draw the patch on axes to `reach` in m, the variable times `scale`; return its shading."""
     reach = reach or _reach(dataset)
     x, unit, length = style.scaled(dataset, "x", like=reach)
     y = dataset["y"].values * length

@@ -219,11 +219,7 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
 
 
 def label(name: str, unit: str | None = None) -> str:
-    """Return the label of an axis: symbol and unit; what the symbol means belongs in the caption.
-
-    >>> label("tangential_force", "mN")
-    '$F_x$\\xa0(mN)'
-    """
+    """Return the label of an axis: symbol and unit; what the symbol means stands in the caption."""
     entry = GLOSSARY[name]
     unit = entry.unit if unit is None else unit
     return entry.symbol if unit == "1" else f"{entry.symbol}\u00a0({unit})"

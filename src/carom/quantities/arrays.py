@@ -55,12 +55,7 @@ def numbers(
 
 
 def pure_numbers(name: str, values: Any, allowed: str = REALS) -> Array:
-    """Return real numbers without a unit as an array, NaN where they are masked, or raise.
-
-    >>> import numpy as np
-    >>> pure_numbers("psi", np.ma.masked_greater([0.5, 9.0], 1.0))
-    array([0.5, nan])
-    """
+    """Return real numbers without a unit as an array, NaN where they are masked, or raise."""
     return _read(values, _Reading(name, "1", allowed, texts=False, gaps=True))
 
 
@@ -133,12 +128,7 @@ def _bare(values: Any, reading: _Reading) -> Any:
 
 
 def together(arrays: Mapping[str, Array], most: int = MOST_POINTS) -> tuple[int, ...]:
-    """Return the shape to which arrays broadcast, or raise InputError; also if it is too large.
-
-    >>> import numpy as np
-    >>> together({"psi": np.zeros((7, 1)), "chi": np.zeros(3)})
-    (7, 3)
-    """
+    """Return the shape to which arrays broadcast, or raise InputError; also if it is too large."""
     names, shapes = ", ".join(arrays), [values.shape for values in arrays.values()]
     try:
         shape = np.broadcast_shapes(*shapes)
@@ -155,14 +145,7 @@ def together(arrays: Mapping[str, Array], most: int = MOST_POINTS) -> tuple[int,
 
 
 def along_the_same(**arrays: Any) -> None:
-    """Raise InputError for arrays of xarray's or pandas' whose dimensions or labels differ.
-
-    >>> import xarray as xr
-    >>> psi, chi = (xr.DataArray([1.0, 2.0], dims=name) for name in "ab")
-    >>> along_the_same(psi=psi, chi=chi)
-    Traceback (most recent call last):
-    carom.InputError: psi, chi: their dimensions are a and b; give arrays along the same ones
-    """
+    """Raise InputError for arrays of xarray's or pandas' whose dimensions or labels differ."""
     named = {name: getattr(value, "dims", ()) for name, value in arrays.items()}
     along = {name: tuple(map(str, dims)) for name, dims in named.items() if dims}
     longest = max(along.values(), key=len, default=())
@@ -191,11 +174,7 @@ def _labels(value: Any) -> Iterable[tuple[Any, Any]]:
 
 
 def plain_numbers(texts: Sequence[str]) -> Array | None:
-    """Return texts that are all numbers without a unit as an array, quickly; else None.
-
-    >>> plain_numbers(["1.5", " -2e3"]), plain_numbers(["1.5", "1_000"])
-    (array([ 1.5e+00, -2.0e+03]), None)
-    """
+    """Return texts that are all numbers without a unit as an array, quickly; else None."""
     if not texts or ASCII_NUMBERS.fullmatch("".join(texts)) is None:
         return None
     try:

@@ -121,13 +121,7 @@ def as_factor(ratio: float) -> Factor:
 
 
 def read_text(text: str, unit: str, bare: Factor = UNCHANGED) -> float:
-    """Return the quantity in a text, in a unit; `bare` is how a bare number comes to be in it.
-
-    Raises Unreadable.
-
-    >>> read_text("\N{MINUS SIGN}3e3 mm/s", "m/s"), read_text("20 %", "1"), read_text("7", "Pa")
-    (-3.0, 0.2, 7.0)
-    """
+    """Return the quantity in a text, in a unit; `bare` is how a bare number comes to be in it."""
     value, expression = split(text)
     return (factor(expression, unit) if expression else bare).apply(value)
 
@@ -161,11 +155,7 @@ def factor(expression: str, unit: str) -> Factor:
 
 
 def is_unit(expression: str) -> bool:
-    """Tell whether a text is a unit, of whatever quantity.
-
-    >>> is_unit("m/s"), is_unit("%"), is_unit("fast")
-    (True, True, False)
-    """
+    """Tell whether a text is a unit, of whatever quantity."""
     try:
         _root(_terms(expression))
     except (Unreadable, ArithmeticError):

@@ -51,17 +51,9 @@ EXAMPLES = {
 
 
 def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHANGED) -> float:
-    """Return a value in SI units: a number, or text with a unit such as "5 mm".
+    """Return a value in SI units, a number or text with a unit ("5 mm"), or raise InputError.
 
     `bare` is how a number without a unit comes to be in SI units.
-
-    Raises InputError for anything else, for an unknown unit and for a unit of another kind.
-
-    >>> import math
-    >>> number("radius", "5 mm")
-    0.005
-    >>> number("angle", "90 deg") == math.pi / 2
-    True
     """
     unit = unit or GLOSSARY[name].unit
     plain, own_unit = without_unit(name, value, unit)
@@ -115,18 +107,13 @@ def as_float(name: str, value: Any) -> float:
 
 
 def finite_or_text(text: str) -> float | str:
-    """Return a number of TOML or JSON, as a text if it is not finite, which no quantity is then.
-
-    >>> finite_or_text("1e99"), finite_or_text("1e999"), finite_or_text("inf")
-    (1e+99, '1e999', 'inf')
-    """
+    """Return a number of TOML or JSON, as a text if it is not finite, which no quantity is then."""
     return float(text) if math.isfinite(float(text)) else text
 
 
 def without_unit(name: str, value: Any, unit: str = "") -> tuple[Any, Any]:
-    """Return a value without its unit, and that unit, None if it has none.
+    """Return a value without its unit, and that unit, an object of pint's or a text, or None.
 
-    Quantities of pint's and arrays of xarray's have one, an object of pint's or a text.
     Raises InputError for quantities of other libraries; `unit` is the one that is wanted.
     """
     if hasattr(value, "to_root_units"):
@@ -228,11 +215,7 @@ def counted(name: str, value: Any, least: int, most: int = MOST_COUNTED) -> int:
 
 
 def whole(name: str, text: str, least: int, most: int = MOST_COUNTED) -> int:
-    """Return the whole number in a text of ASCII digits, or raise InputError.
-
-    >>> whole("points", "401", 2)
-    401
-    """
+    """Return the whole number in a text of ASCII digits, or raise InputError."""
     plain = text.strip()
     return _within(name, text, int(plain) if WHOLE_NUMBER.fullmatch(plain) else None, least, most)
 
@@ -251,11 +234,7 @@ def threads_or_none(threads: Any) -> int | None:
 
 
 def or_none(value: float) -> float | None:
-    """Return a number as JSON can hold it: None if it is not finite.
-
-    >>> or_none(2), or_none(float("inf")), or_none(float("nan"))
-    (2.0, None, None)
-    """
+    """Return a number as JSON can hold it: None if it is not finite."""
     return float(value) if math.isfinite(value) else None
 
 

@@ -154,8 +154,7 @@ MOST_SEED = 2**128 - 1
 class Design(ABC):
     """What a sweep needs to know of its points: the names of their inputs, and how these vary.
 
-    `_choices` are what the codes of an input that has names stand for. Points are `_sampled` if
-    their inputs are variables along `point`, rather than coordinates.
+    `_choices` are what codes of names stand for; `_sampled` inputs are variables along `point`.
     """
 
     names: tuple[str, ...]

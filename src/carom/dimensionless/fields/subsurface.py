@@ -213,12 +213,6 @@ def stresses(
     Points have x, y and depth z >= 0 in sqrt(R* L), the last edge of the profile is the radius of
     the contact; `friction` is mu for the body that positive friction drags along +x (the second),
     -mu for the other; `rim` is the density of pressure at the edge, where stresses are infinite.
-
-    >>> from carom.dimensionless.fields.profile import flat, stacked
-    >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
-    >>> axis = stresses([[0, 0, 0.48]], hertz, friction=0.0, poisson=0.3)[0]
-    >>> round(float(axis[0] - axis[2]) / 2, 4)
-    0.31
     """
     b = profile.edges[-1]
     where = np.asarray(points, dtype=np.float64)

@@ -139,11 +139,10 @@ def fitted(
 ) -> Patches:
     """Return a function of some variables on a box, cut first at some places, then where needed.
 
-    The last terms of a series, times the weight of an error, tell the error of it. Where it is too
-    large, a box is cut across the side along which its series ends worst, in the middle, or close
-    to its lower end if that is the `singular` value of the last variable. A function of one
-    variable is cut where its branch changes, and looked at between the outer nodes, where a weak
-    kink could hide.
+    The last terms of a series, times the `weight` of an error, tell its error. A box is cut across
+    the side along which its series ends worst, in the middle, or close to its lower end if that is
+    the `singular` value of the last variable. A function of one variable is cut where its branch
+    changes, and looked at between the outer nodes, where a weak kink could hide.
     """
     tree, last = _Tree(box), len(box) - 1
     asked = function if last else _remembering(function)

@@ -84,11 +84,10 @@ def _label(kind: Any) -> str:
 
 
 def caller(pointer: Any, signature: Signature) -> Callable[..., Any]:
-    """Return a function of Python's that calls a C function.
+    """Return a function of Python's that calls a C function, its text written for the signature.
 
-    Its text is written for the signature, as a loop over the arguments would take longer than an
-    impact. It raises TypeError for arrays of another type, or that are not contiguous, and
-    ValueError for another number of dimensions: the C function could not tell.
+    A loop over the arguments would take longer than an impact. Arrays of another type, or not
+    contiguous, raise TypeError, another number of dimensions ValueError: C could not tell.
     """
     pointer.argtypes, pointer.restype = (ctypes.c_char_p,), ctypes.c_int
     arguments = [f"x{i}" for i in range(len(signature.parameters))]

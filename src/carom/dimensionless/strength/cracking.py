@@ -180,11 +180,6 @@ def intensity(contacts: Contacts, poisson: float, flaw: float = inf) -> Peak:
 
     `value` is K/(p_L sqrt(pi) (R* L)^(1/4)) and z the depth of the flaw, `flaw` at most, both in
     sqrt(R* L); otherwise as `peaks`.
-
-    >>> from carom.dimensionless.strength.peaks import Contacts
-    >>> sliding = Contacts(carom.solve(9.0, 1.44), friction=0.2)
-    >>> round(intensity(sliding, 0.3, 1e-8).value / 1e-4, 3)  # 1.122 times the stress at the edge
-    0.528
     """
     peak = _FlawSearch(contacts, poisson, flaw).peak()
     return peak if peak.value > LEAST_PULL else peak._replace(value=0.0)
@@ -199,12 +194,6 @@ def cracking_width(contacts: Contacts, poisson: float, flaw: float, wanted: floa
 
     `flaw` is the depth of the deepest flaws, in any unit of length, `wanted` K_c pi R*/(2 E*
     sqrt(pi)), in that unit to the power 3/2.
-
-    >>> from carom.dimensionless.strength.peaks import Contacts
-    >>> contacts = Contacts(carom.solve(0.5, 1.44), friction=0.2)
-    >>> width = cracking_width(contacts, 0.23, flaw=1.0, wanted=100.0)
-    >>> round(width**1.5 * intensity(contacts, 0.23, 1.0 / width).value, 2)
-    100.0
     """
     peak = intensity(contacts, poisson)
     if peak.value <= 0.0:

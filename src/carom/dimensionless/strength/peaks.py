@@ -199,10 +199,6 @@ def peaks(
 
     `poisson` is that of the body, `measures` some of VON_MISES, SHEAR, TENSION. For each the result
     has `value` in p_L, x, y, z in sqrt(R* L), time in d_max/V_1.
-
-    >>> mises, shear, tension = peaks(Contacts(carom.solve(0.5, 1.44), friction=0.2), 0.3)
-    >>> round(mises.value, 4), round(mises.z, 2)
-    (0.6214, 0.48)
     """
     peaks = contacts.peaks
     for each in measures:

@@ -85,10 +85,7 @@ class Placed(NamedTuple):
 
 
 def placed(experiment: Experiment) -> list[Placed]:
-    """Return first bodies that touch z = 0 from above, then second spheres that do from below.
-
-    All but touch, by a hair. The centre of mass of two spheres rests; a half-space does.
-    """
+    """Return first bodies above z = 0, then second spheres below, which all but touch, by a hair."""
     pair, speed = experiment.pair, experiment.normal_speed
     share = share_of_first(pair)
     spheres = []

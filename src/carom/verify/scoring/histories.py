@@ -42,13 +42,10 @@ class Samples(NamedTuple):
 
 
 def contact_samples(results: UserTable, hit: Impact) -> Samples:
-    """Return the forces while the bodies touch.
+    """Return the forces while the bodies touch, or raise InputError if the record is not whole.
 
     The first touch lies between the last row without force and the first with one, as long before
     as the exact impact takes to that force; so does the last.
-
-    Raises InputError if the record has no such part, starts late, ends early, has too few rows in
-    it, or is in another unit.
     """
     time, force = results["time"], results["normal_force"]
     falls = np.concatenate([[False], np.diff(time) <= 0.0])

@@ -351,13 +351,7 @@ def fill(
 
 
 def march_rebound(psi_1: float, inertia: Inertia, solid: Solid) -> tuple[float, float]:
-    """Return psi_2 by the march, and an estimate of its error; NaN if it is not solved.
-
-    >>> from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
-    >>> psi_2, error = march_rebound(0.3, Inertia(chi=4.0), ELASTIC)
-    >>> round(psi_2, 6), error < 1e-5
-    (-0.3, True)
-    """
+    """Return psi_2 by the march, and an estimate of its error; NaN if it is not solved."""
     numbers = np.empty(NUMBERS)
     _, error = run(psi_1, inertia, solid, new_work(), numbers)
     return float(numbers[layout.PSI_OUT]), error

@@ -117,11 +117,7 @@ def faded(time: float, relaxation: float) -> tuple[float, float, float]:
 
 @kernel
 def lowest(start: float, slope: float, end: float) -> float:
-    """Return the least value, its start apart, of a parabola on [0, 1].
-
-    Slip that stops within a step leaves the springs at the limit of that moment; without it the
-    error would depend on where in the step slip stops.
-    """
+    """Return the least value, its start apart, of a parabola on [0, 1]; there slip stops in a step."""
     curvature = end - start - slope
     if slope < 0.0 and -slope < 2.0 * curvature:
         return start - slope * slope / (4.0 * curvature)

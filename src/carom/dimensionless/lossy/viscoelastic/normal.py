@@ -199,11 +199,7 @@ def restitution(alpha: float, work: Arrays) -> float:
 
 @lru_cache(256)
 def viscous_loss(wanted: float) -> float:
-    """Return alpha, the loss time in d_max/V_1 that gives a restitution 0 < e <= 1, to some 1e-12.
-
-    >>> round(viscous_loss(0.9), 10)
-    0.0576035799
-    """
+    """Return alpha, the loss time in d_max/V_1 that gives a restitution 0 < e <= 1, to 1e-12."""
     from scipy.optimize import brentq
 
     work = at.new_work()
