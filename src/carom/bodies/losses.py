@@ -200,10 +200,9 @@ class Metal(LossLaw):
     of the body that yields. Unloading is elastic. The restitution falls more slowly than that of
     `ElasticPlastic`, whose pressure does not rise: at V_1 = 277 V_y it is 0.51 instead of 0.29.
 
-    The pressure is taken as Hertz's for the radius a, cut off at the level that gives the load P,
-    and unloads as that of an elastic body which keeps its dent. The springs of the contact bear
-    Abel's transform of it. Springs in shear are elastic, and each bears at most mu times the load
-    of the spring in compression. psi_2 is within 0.07 of a solution by rings of traction up to
+    The pressure is Hertz's for the radius a, cut off at the level that gives the load P, and
+    unloads as that of an elastic body with a dent; springs bear Abel's transform of it. Springs in
+    shear are elastic, and bear at most mu times the load in compression. psi_2 is within 0.07 of a solution by rings of traction up to
     V_1 = 300 V_y, and within 3e-5 max(1, psi_1) of what springs converge to up to V_1 = 1000 V_y
     for chi from 0.3 to 8. Hardening and strain rates are not modelled.
 

@@ -221,8 +221,6 @@ def material(name: str, **values: Value) -> Material:
 
     Examples
     --------
-    >>> carom.material("steel").young
-    210000000000.0
     >>> carom.material("glass", flaw_size="20 um").flaw_size
     2e-05
     """

@@ -248,10 +248,6 @@ def load_path(
     >>> loop = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5, -1.5, 1.5])
     >>> (loop.stick_radius / loop.contact_radius).round(4)
     array([1.  , 0.63, 0.63, 0.63])
-    >>> bend = carom.load_path(pair, normal_force="10 N", tangential_force=[[1.5, 0], [0, 1.5]])
-    >>> bend.displacement.round(9)
-    array([[1.72e-07, 0.00e+00],
-           [4.00e-08, 1.43e-07]])
     """
     with_friction(pair, "a load path needs friction, or there is no tangential force")
     steps = read_steps(pair, normal_force, penetration, tangential_force, displacement)

@@ -38,24 +38,16 @@ class ContactStep(NamedTuple):
 
     Parameters
     ----------
-    overlap : float
-        d in m.
-    normal_velocity : float
-        In m/s, positive while the bodies approach.
+    overlap, normal_velocity : float
+        d in m; in m/s, positive while the bodies approach.
     normal_force : float
         F_n in N, damping included; negative where it pulls.
-    tangential_velocity : float
-        V_x in m/s.
-    time_step : float
-        In s.
-    contact_radius : float
-        a = sqrt(R* d) in m.
+    tangential_velocity, time_step, contact_radius : float
+        V_x in m/s; in s; a = sqrt(R* d) in m.
     normal_stiffness, tangential_stiffness : float
         k_n and k_t in N/m.
-    friction : float
-        Coefficient mu.
-    effective_radius : float
-        R* in m.
+    friction, effective_radius : float
+        Coefficient mu; R* in m.
     effective_modulus, effective_shear_modulus : float
         E* and G* in Pa.
     normal_mass, tangential_mass : float

@@ -215,8 +215,6 @@ def rebound(
 
     Examples
     --------
-    >>> round(carom.rebound(0.5, 1.44), 10)
-    0.0471310838
     >>> carom.rebound([0.5, 1.5, 3.5, 6.0], 1.44).round(6)
     array([ 0.047131, -0.429967, -1.477247,  0.24    ])
     >>> carom.rebound([0.5, 6.0], 1.44, losses=carom.KelvinVoigt(restitution=0.9)).round(6)

@@ -48,8 +48,6 @@ class Solution(Trajectory):
     >>> s = carom.solve(0.5, 1.44)
     >>> round(s.psi_out, 10)
     0.0471310838
-    >>> [(phase.kind, phase.sign) for phase in s.phases]
-    [('stick', 0), ('slip', -1), ('gross slip', -1)]
     >>> s.history(5).psi.round(4)
     array([ 0.5   ,  0.2069, -0.3927, -0.2166,  0.0471])
     """

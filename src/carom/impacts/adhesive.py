@@ -131,9 +131,8 @@ def adhesive_impact(
     where the spheres touch, and out where the fixed approach becomes unstable. W_s is what this
     takes, and up to the sticking speed V_s the bodies stick (Thornton & Ning 1998). No contact
     loses more; where `tabor` is below 5, e is larger. In shear the contact is taken to stick
-    wherever it is closed, and to have the radius that it has without shear: psi_2/psi_1 is that of
-    small psi_1, and `shear_release` says how small. How adhering surfaces slip is not settled, so
-    slip is not treated.
+    wherever it is closed, with the radius that it has without shear: psi_2/psi_1 is that of small
+    psi_1, and `shear_release` says how small. Slip of adhering surfaces is not treated.
 
     Parameters
     ----------

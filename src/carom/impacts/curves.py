@@ -100,8 +100,6 @@ def curve(
     --------
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
     array([[ 0.    , -0.0612,  0.24  ]])
-    >>> carom.curve(1.44, [6.0], losses=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
-    array([[0.528]])
     """
     chis, incoming = _axes(chi, psi_1)
     rows = chis[:, np.newaxis]
@@ -161,11 +159,10 @@ def regime_map(
 
     Phases are those of the exact impact (Maw, Barber & Fawcett 1976). Beyond psi_1 =
     2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are outlines of
-    an image of sequences, finer than the given values, through points that are found by bisection
-    along its lines. It is finest, to a thousandth of an axis, where three regimes meet, so that
-    strips between two others are followed to their ends. A regime between the given values that
-    is nowhere wider than a thirtieth of an axis, a twentieth with losses, may be missed; what was
-    met and is too narrow for an outline is among sequence_met.
+    an image of sequences, finer than the given values, to a thousandth of an axis where three
+    regimes meet, through points found by bisection. A regime between the given values that is
+    nowhere wider than a thirtieth of an axis, a twentieth with losses, may be missed; what was met
+    and is too narrow for an outline is among sequence_met.
 
     Parameters
     ----------

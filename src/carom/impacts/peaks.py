@@ -208,7 +208,7 @@ def _places(name: str, peak: Peak) -> Iterator[tuple[str, float]]:
 
 def _missing(body: StruckBody) -> str:
     """Return what is not known of a body, in words."""
-    names = _lacking(body, STRENGTHS)
+    names = [name for name in STRENGTHS if isnan(body.bears(name))]
     lost = [] if body.judges_flaws else ["stress_intensity (not bounded with losses)"]
     return ", ".join(names + lost) or "nothing"
 
@@ -313,7 +313,8 @@ def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
     deep = {n: b for n, b in brittle.items() if n not in ratios}
     ratios |= _ratios("deep_toughness_ratio", deep)
     for key in ("fracture_toughness", "flaw_size"):
-        unsure = _without(key, {n: b for n, b in deep.items() if not ratios.get(n, inf) <= 1.0})
+        open_ = {n: b for n, b in deep.items() if not ratios.get(n, inf) <= 1.0}
+        unsure = {n: b.material for n, b in open_.items() if isnan(b.bears(key))}
         if unsure and not broken:
             return lacking(label, 1.0, key, unsure, max(ratios.values(), default=nan))
     return _finding("toughness_ratio", ratios, brittle, broken)
@@ -323,16 +324,6 @@ def _ratios(name: str, bodies: dict[str, StruckBody]) -> dict[str, float]:
     """Return the shares of a strength, of the bodies of which it is known."""
     ratios = {which: getattr(body, name)() for which, body in bodies.items()}
     return {which: ratio for which, ratio in ratios.items() if isfinite(ratio)}
-
-
-def _without(key: str, bodies: dict[str, StruckBody]) -> dict[str, Material]:
-    """Return the materials that lack a value, by body."""
-    return {name: body.material for name, body in bodies.items() if isnan(body.bears(key))}
-
-
-def _lacking(body: StruckBody, needed: tuple[str, ...]) -> list[str]:
-    """Return the strengths that are not known of those that are needed."""
-    return [name for name in needed if isnan(body.bears(name))]
 
 
 def _finding(

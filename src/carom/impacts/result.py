@@ -140,12 +140,10 @@ class ImpactResult(Outcome, Result):
         """Return the spectra of the forces, int F(t) exp(-2 pi i f t) dt, and their corners.
 
         They describe the impact as a source of acoustic emission and of the signals of impact
-        sensors (McLaskey & Glaser 2010). The time t counts from the first touch. At f = 0 the
-        spectra are the impulses. The moment is that of the tangential force about the centre of the
-        first body, R F_x, against its spin. A corner is the frequency at which the amplitude has
-        first fallen by 3 dB, to 1/sqrt(2) of its largest value, or by 6 dB, to 1/2. The largest
-        value of the normal force is that at f = 0; that of the tangential force, which may change
-        its sign, is at `tangential_peak_frequency`.
+        sensors (McLaskey & Glaser 2010). At f = 0 the spectra are the impulses. The moment is R F_x
+        about the centre of the first body, against its spin. At a corner the amplitude has first
+        fallen by 3 dB, to 1/sqrt(2) of its largest value, or by 6 dB, to 1/2. That of the normal
+        force is at f = 0, of the tangential force at `tangential_peak_frequency`.
 
         Parameters
         ----------

@@ -84,16 +84,11 @@ class ReboundLaw(Law):
     >>> law = carom.laws.ReboundLaw(1.44)
     >>> law([0.5, 1.5, -3.5, 6.0]).round(6)
     array([ 0.047131, -0.429967,  1.477247,  0.24    ])
-    >>> law.nbytes < 4000
-    True
     >>> carom.laws.ReboundLaw((1.2, 1.5))([0.5, 1.5, -3.5], [1.25, 1.44, 1.5]).round(6)
     array([-0.079793, -0.429967,  1.471999])
     >>> lossy = carom.laws.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
     (array([0.00384, 0.528  ]), 2.9186)
-    >>> plate = carom.laws.ReboundLaw(1.44, losses=carom.ZenerPlate(inelasticity=0.4))
-    >>> plate([0.5, 9.0]).round(6), round(plate.restitution, 4)
-    (array([0.049481, 4.637839]), 0.5146)
     """
 
     name: ClassVar[str] = "exact rebound"

@@ -19,14 +19,8 @@ from carom.quantities.glossary import GLOSSARY
 ONE_INCIDENCE = 1e-9  # rad, between incidences that are drawn as one
 ACROSS = 2  # responses side by side
 UPPER, LOWER = 48.0, 20.0  # heights of curves and residuals, in mm
-OUTLIERS: Any = {
-    "marker": "o",
-    "ls": "none",
-    "ms": 4.0,
-    "color": style.VERMILION,
-    "mfc": "white",
-    "zorder": 6,
-}
+OUTLIERS: Any = {"marker": "o", "ls": "none", "ms": 4.0, "zorder": 6}
+OUTLIERS |= {"color": style.VERMILION, "mfc": "white"}
 LAW_STYLES: dict[str, Any] = {
     "exact": {"color": style.BLACK, "lw": 1.3, "zorder": 4},
     "rigid Coulomb": {"color": style.VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},

@@ -122,10 +122,8 @@ def _draw_bars(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any], mo
         sample.set_in_layout(False)
         axis.add_line(sample)
     names = [str(name).replace("$", r"\$") for name in dataset["law"].values[rows]]
-    axis.set_yticks(
-        places,
-        [style.with_formulas(textwrap.fill(n, LABEL_WIDTH, break_long_words=False)) for n in names],
-    )
+    lines = (textwrap.fill(name, LABEL_WIDTH, break_long_words=False) for name in names)
+    axis.set_yticks(places, map(style.with_formulas, lines))
     axis.tick_params(axis="y", length=0.0, pad=15.0)
     axis.set_ylim(most - 0.5, -0.5)
     for side in ("top", "right"):

@@ -59,9 +59,8 @@ def plot_patch(
     one_of("variable", variable, MAPPED)
     style.check_grid(dataset, "pressure", "y", "x")
     title = patch_title(dataset)
-    figure, axis = style.single_axis(
-        height=64.0 + 4.0 * len(title.splitlines())
-    )  # the map is square
+    height = 64.0 + 4.0 * len(title.splitlines())  # the map is square
+    figure, axis = style.single_axis(height=height)
     scale, unit = style.prefixed(dataset[variable].values, style.unit_of(dataset, variable))
     colours = style.colours(variable, dataset[variable].values * scale)
     shading = patch_panel(axis, dataset, variable, scale, **colours)
@@ -91,7 +90,7 @@ def patch_panel(
     ink = "0.5" if colours["cmap"] == style.SIGNED_MAP else "white"
     _draw_zones(axis, contact, stick, slip_band(dataset).hatch, ink)
     if stick > ROOM * contact:
-        _name_stick(axis, word)
+        style.stroke_white(axis.text(0.0, 0.0, word, ha="center", va="center"))
     _draw_arrows(axis, arrows(dataset, reach), length)
     axis.set_aspect("equal")
     ends = (-reach * length, reach * length)
@@ -122,10 +121,6 @@ def _draw_zones(axis: Axes, contact: float, stick: float, hatch: str, ink: str) 
         for color, width, dash in (("white", 1.6, "-"), ("black", 0.9, (0, (4, 2)))):
             axis.add_patch(Circle((0, 0), stick, fill=False, ec=color, lw=width, ls=dash))
     axis.add_patch(Circle((0, 0), contact, fill=False, ec="black", lw=1.0))
-
-
-def _name_stick(axis: Axes, word: str) -> None:
-    style.stroke_white(axis.text(0.0, 0.0, word, ha="center", va="center"))
 
 
 class Arrows(NamedTuple):

@@ -1,6 +1,6 @@
 """Rebound curves with their regimes, and the borders of regimes over a map of psi_1 and chi."""
 
-from typing import TypeAlias, Unpack
+from typing import Any, TypeAlias, Unpack
 
 import numpy as np
 import xarray as xr
@@ -71,13 +71,10 @@ def _draw_line(axis: Axes, one: xr.Dataset, row: int, dots: bool) -> None:
         ends = np.concatenate([-one["border"].values[::-1], one["border"].values])
         ends = ends[(ends > psi[0]) & (ends < psi[-1])]
         axis.plot(ends, np.interp(ends, psi, out), marker, color=color)
-    axis.plot(psi, out, color=color, ls=style.DASHES[row % len(style.DASHES)])
-    handle = {
-        "color": color,
-        "ls": style.DASHES[row % len(style.DASHES)],
-        "marker": marker if dots else "",
-    }
-    axis.plot([], [], **handle, label=rf"$\chi$ = {float(one['chi']):g}")
+    stroke: Any = {"color": color, "ls": style.DASHES[row % len(style.DASHES)]}
+    axis.plot(psi, out, **stroke)
+    label = rf"$\chi$ = {float(one['chi']):g}"
+    axis.plot([], [], **stroke, marker=marker if dots else "", label=label)
 
 
 def shade_regimes(axis: Axes, borders: Array | None, low: float, high: float) -> list[Patch]:

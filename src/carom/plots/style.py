@@ -45,14 +45,8 @@ MAP = "cividis"
 SIGNED_MAP = "RdBu_r"  # white at zero
 SIGNED = ("traction_", "sigma_", "principal_")  # how quantities begin that have a sign
 
-POINTS: Any = {
-    "fmt": "o",
-    "ms": 2.6,
-    "color": BLACK,
-    "mfc": "white",
-    "lw": 0.0,
-    "elinewidth": 0.7,
-}  # of measured values, with error bars
+# Of measured values, with error bars.
+POINTS: Any = {"fmt": "o", "ms": 2.6, "color": BLACK, "mfc": "white", "lw": 0.0, "elinewidth": 0.7}
 
 
 def check_grid(dataset: Any, name: str, *dims: str) -> None:

@@ -86,13 +86,10 @@ def read_values(name: str, axis: ArrayLike) -> Array:
     refuse(not line and refusal(name, axis, f"{allowed}, at least one"))
     fits = np.isfinite(values) | ((key == "young") & (values == np.inf))
     refuse_where(name, values, ~fits, allowed)
-    bare = key == "angle" and np.abs(values).max() > pi and not _has_text(axis)
+    texts = isinstance(axis, str) or any(isinstance(each, str) for each in np.atleast_1d(axis))
+    bare = key == "angle" and np.abs(values).max() > pi and not texts
     refuse(bare and refusal(name, axis, "bare angles are in radians; write '30 deg'"))
     return values
-
-
-def _has_text(values: Any) -> bool:
-    return isinstance(values, str) or any(isinstance(value, str) for value in np.atleast_1d(values))
 
 
 def read_axis(name: str, axis: Any) -> Array:

@@ -116,11 +116,8 @@ def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summar
         for name in shown:
             values = dataset[name][box].values
             if (finite := values[np.isfinite(values)]).size:
-                least, most = ranges[name]
-                ranges[name] = (
-                    float(np.fmin(least, finite.min())),
-                    float(np.fmax(most, finite.max())),
-                )
+                least, most = np.fmin(ranges[name][0], finite.min()), finite.max()
+                ranges[name] = float(least), float(np.fmax(ranges[name][1], most))
     statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
     solved = sum(counts[status] for status in WITH_RESULTS)
     return Summary({str(n): size for n, size in dataset.sizes.items()}, statuses, ranges, solved)

@@ -182,13 +182,11 @@ def wear_of_many(
     xarray.Dataset
         Along `impact`: the given motion, counts, status (`PointStatus`) and dissipated_energy, the
         work of friction in J of one such impact. As numbers: total_friction_work, and
-        unsolved_impacts, the number of impacts that it does not contain; with a coefficient also
-        total_worn_volume. Both totals are NaN if no impact is solved. With an area also
-        spread_friction_work and spread_wear_depth. Without an area mean_friction_work and
-        mean_wear_depth along `distance`, means around the centre, and max_friction_work and
-        max_wear_depth at the deepest place, at the distance max_wear_radius. On one spot an elastic
-        impact takes some 2 ms, one with losses 0.2 s and more. The work of each viscous impact is
-        known to some 1e-7 of its energy.
+        unsolved_impacts, which it does not contain; with a coefficient also total_worn_volume; NaN
+        if no impact is solved. With an area also spread_friction_work and spread_wear_depth, else
+        mean_friction_work and mean_wear_depth along `distance`, means around the centre, and
+        max_friction_work and max_wear_depth at the distance max_wear_radius. On one spot an elastic
+        impact takes some 2 ms, one with losses 0.2 s and more.
 
     Raises
     ------

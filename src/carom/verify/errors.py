@@ -182,6 +182,7 @@ def error_map(
     if not np.any(np.isfinite(psi_out)):
         met.refuse_failure(rule, psi_out)
     error = psi_out - exact
+    rms = np.sqrt(np.mean(error**2, axis=1))
     names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
     return labelled_dataset(
         {
@@ -189,11 +190,7 @@ def error_map(
             "psi_out_exact": (wide, exact, pure("psi_2 of the exact impact")),
             "error": (wide, error, pure("error in psi_2")),
             "max_error": ("chi", np.abs(error).max(axis=1), pure("largest |error in psi_2|")),
-            "rms_error": (
-                "chi",
-                np.sqrt(np.mean(error**2, axis=1)),
-                pure("root mean square of the error in psi_2"),
-            ),
+            "rms_error": ("chi", rms, pure("root mean square of the error in psi_2")),
         },
         {"chi": chis, "psi_in": psis},
         {"title": "error of a contact law", **names},

@@ -125,6 +125,7 @@ class Ranking(Result):
         steps = [
             [step.steps if step else -1 for step in (s.step, s.fine_step)] for s in self.standings
         ]
+        kinds = ["below the error of the law", f"below {FINE_ERROR:g}"]
         numbers = {
             name: ("law", [getattr(s, name) for s in self.standings], pure(meaning))
             for name, meaning in MEANINGS.items()
@@ -142,11 +143,7 @@ class Ranking(Result):
             {
                 "law": ("law", [s.entry.label for s in self.standings], {}),
                 "psi_in": np.array(self.psi_in),
-                "step_kind": (
-                    "step_kind",
-                    ["below the error of the law", f"below {FINE_ERROR:g}"],
-                    {},
-                ),
+                "step_kind": ("step_kind", kinds, {}),
             },
             {"title": "contact laws against the exact impact"},
         )
@@ -208,10 +205,6 @@ def rank(
     >>> best = carom.verify.rank(carom.verify.catalogue()[:2]).standings[0]
     >>> best.entry.label, round(best.max_error, 3)
     ('linear spring, k_t/k_n = kappa', 0.176)
-    >>> law = carom.dem.LammpsMindlin("mindlin")
-    >>> damped = carom.verify.rank(law, psi_1=[0.5, 2.0], restitution=0.7)
-    >>> round(damped.standings[0].max_error, 2)
-    0.27
     """
     impacts = Impacts.of(psi_1, chi, kappa)
     ranked = [as_entry(each) for each in listed("entries", entries)]

@@ -93,10 +93,8 @@ class Experiment:
                 "give one of each per impact"
             )
         speed = positive("normal_speed", self.normal_speed)
-        scales, steps = (
-            checked_scales(self.pair, speed),
-            counted("steps", self.steps, 10, MOST_STEPS),
-        )
+        scales = checked_scales(self.pair, speed)
+        steps = counted("steps", self.steps, 10, MOST_STEPS)
         set_fields(self, normal_speed=speed, tangential_speed=speeds, spin=spins)
         set_fields(self, scales=scales, steps=steps)
 
@@ -150,14 +148,12 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
 def _refuse_bodies(pair: Pair) -> None:
     with_friction(pair, "without friction there is nothing to test")
     if not isinstance(pair.second, Sphere | HalfSpace):
-        raise refusal(
-            "second body", pair.second, "must be a Sphere or HalfSpace; DEM codes have no cups"
-        )
+        allowed = "must be a Sphere or HalfSpace; DEM codes have no cups"
+        raise refusal("second body", pair.second, allowed)
     for body in pair.moving:
         if not isclose(body.gyration_ratio, SOLID_GYRATION_RATIO):
-            raise refusal(
-                "sphere", body, "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
-            )
+            allowed = "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
+            raise refusal("sphere", body, allowed)
 
 
 def _column(name: str, values: Any) -> tuple[float, ...]:

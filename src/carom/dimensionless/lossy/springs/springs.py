@@ -117,7 +117,7 @@ def faded(time: float, relaxation: float) -> tuple[float, float, float]:
 
 @kernel
 def lowest(start: float, slope: float, end: float) -> float:
-    """Return the least value, its start apart, of a parabola on [0, 1]; there slip stops in a step."""
+    """Return the least value of a parabola on [0, 1], its start apart: there slip stops."""
     curvature = end - start - slope
     if slope < 0.0 and -slope < 2.0 * curvature:
         return start - slope * slope / (4.0 * curvature)
