@@ -114,9 +114,8 @@ def check_case(
         check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES), "")
         for name, allowed in TABLES.items():
             table = case.get(name, {})
-            checked_type(
-                name, table, Mapping, f"must be a table, [{name}], with {', '.join(allowed)}"
-            )
+            words = f"must be a table, [{name}], with {', '.join(allowed)}"
+            checked_type(name, table, Mapping, words)
             check(table, allowed, name)
             if isinstance(table.get("material"), Mapping):
                 check(table["material"], MATERIAL, name)
@@ -287,9 +286,8 @@ def _as_table(value: Any) -> Any:
     if isinstance(value, Mapping):
         for key in value:
             if key not in MATERIAL:
-                raise InputError(
-                    f"{heading(str(key))}: unknown in a material; {hint(key, MATERIAL)}"
-                )
+                where = heading(str(key))
+                raise InputError(f"{where}: unknown in a material; {hint(key, MATERIAL)}")
     return value
 
 

@@ -7,7 +7,7 @@ from math import inf, pi
 from operator import and_
 from typing import Any
 
-from carom.bodies.materials import Material
+from carom.bodies.materials import Material, set_fields
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, named
 from carom.quantities.elementwise import quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
@@ -172,9 +172,8 @@ class Pair(Printed):
             )
         if first.material.is_rigid and second.material.is_rigid:
             raise InputError("material: both bodies are rigid; one of them must deform")
-        object.__setattr__(self, "first", first)
-        object.__setattr__(self, "second", second)
-        object.__setattr__(self, "friction", not_negative("friction", friction))
+        mu = not_negative("friction", friction)
+        set_fields(self, first=first, second=second, friction=mu)
         if not pair_fits(self):
             raise InputError(
                 "pair: sizes, densities and stiffnesses of the bodies give numbers that floating "

@@ -95,9 +95,8 @@ def _directions_last(control: Control, first: bool = False) -> Control:
 def _one_of(most: int, **controls: Control) -> tuple[str, Array]:
     chosen = {name: value for name, value in controls.items() if value is not None}
     if len(chosen) != 1:
-        raise InputError(
-            f"load path: give {' or '.join(controls)}, {'not both' if chosen else 'one of them'}"
-        )
+        which = "not both" if chosen else "one of them"
+        raise InputError(f"load path: give {' or '.join(controls)}, {which}")
     name, value = next(iter(chosen.items()))
     return name, _values(name, value, most)
 
@@ -135,9 +134,8 @@ def followed(
         if refused != paths.INSIDE:
             raise _refused(steps, refused, pair.friction)
         energy = scales.tangential_force * scales.tangential_length
-        moved, force = steps.as_given(
-            moved * scales.tangential_length, force * scales.tangential_force
-        )
+        units = scales.tangential_length, scales.tangential_force
+        moved, force = steps.as_given(moved * units[0], force * units[1])
         columns = {
             "displacement": moved,
             "normal_force": steps.normal_force,

@@ -192,3 +192,20 @@ def stored() -> Patches:
     with files("carom").joinpath(STORED).open("rb") as stream, np.load(stream) as arrays:
         parts = (arrays[name] for name in Patches._fields)
         return Patches(*(part.astype(f"{part.dtype.kind}8") for part in parts))
+
+
+def is_whole(
+    chi: float, restitution: float, edges: Array, rows: Array, terms: int, plate: bool
+) -> bool:
+    """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
+    first = SMALLEST if restitution == 1.0 or plate else SMALLEST_LOSSY
+    last, sliding = regime_borders(chi, restitution)[-1], 2.0 * chi * (1.0 + restitution)
+    if rows.shape != (edges.size - 1, terms) or edges.ndim != 1:
+        return False
+    if not np.all(np.isfinite(edges)) or [edges[0], edges[-1]] != [first, last]:
+        return False
+    places = edges[1:]
+    starts = rows @ (-1.0) ** np.arange(rows.shape[1])
+    after = np.append(starts[1:], 1.0 - sliding / places[-1])
+    gaps = np.abs(rows.sum(axis=1) - after) * places
+    return bool(np.all(np.diff(edges) > 0.0) and np.all(gaps < 1e-8))

@@ -146,10 +146,8 @@ class HalfspaceImpact(ImpactResult):
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:
-        return tuple(
-            SlipAngle(*self.solution.slip_angles(phase.start, phase.end))
-            for phase in self.solution.phases
-        )
+        spans = ((phase.start, phase.end) for phase in self.solution.phases)
+        return tuple(SlipAngle(*self.solution.slip_angles(*span)) for span in spans)
 
     @property
     def validity(self) -> Validity:
@@ -308,15 +306,8 @@ def solve_by_elements(
         *coarse, solution = (
             solve(psi, pair.chi, materials, grid, spin=spin, progress=advance) for grid in grids
         )
-    return HalfspaceImpact(
-        pair,
-        scales.speed,
-        *motion,
-        solution,
-        scales=scales,
-        _coarser=(coarse[0].psi_out, coarse[1].psi_out),
-        normal_spin=normal_spin,
-    )
+    more: Any = {"_coarser": (coarse[0].psi_out, coarse[1].psi_out), "normal_spin": normal_spin}
+    return HalfspaceImpact(pair, scales.speed, *motion, solution, scales=scales, **more)
 
 
 def spin_about_normal(pair: Pair, scales: Scales, normal_spin: float) -> NormalSpin:

@@ -13,7 +13,7 @@ from carom.dimensionless.lossy.law import Loss, ScaleFreeLaw, scale_free
 from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
 from carom.impacts.map_borders import border_variables
 from carom.impacts.sequences import Sequences
-from carom.io.labels import labelled_dataset
+from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, finite_line, positive_line
 from carom.quantities.keywords import known_keywords
@@ -34,6 +34,8 @@ REGIMES = (
 TOLERANCE = 1e-6  # of points of a border
 COARSE = 1e-3  # the same with losses, as such an impact takes a hundred times as long
 MORE, COARSE_MORE = 20.0, 0.5  # impacts to refine borders, to those that find them on the grid
+PLACE = "sequence of phases, its place in sequence_name"
+MET = "sequence of phases of one impact of the map or more"
 BORDER = {"units": "1", "long_name": "psi_in at which the regime changes"}
 
 
@@ -106,24 +108,18 @@ def curve(
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     outgoing = rebound(nonzero, rows, losses=losses)
     contact = outgoing / nonzero
+    centre = 1.0 - SOLID_SPHERE * (1.0 - contact)
     wide, border = ("chi", "psi_in"), regime_borders(chis, *_ends(losses))
+    regimes: Any = ("regime_border", list(REGIMES[1:]), {})
     attributes: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
     return labelled_dataset(
         {
             "psi_out": (wide, np.where(incoming == 0.0, 0.0, outgoing)),
             "contact_restitution": (wide, contact),
-            "tangential_restitution": (
-                wide,
-                1.0 - SOLID_SPHERE * (1.0 - contact),
-                {"note": "solid sphere without spin"},
-            ),
+            "tangential_restitution": (wide, centre, {"note": "solid sphere without spin"}),
             "border": (("chi", "regime_border"), border, BORDER),
         },
-        {
-            "chi": chis,
-            "psi_in": incoming,
-            "regime_border": ("regime_border", list(REGIMES[1:]), {}),
-        },
+        {"chi": chis, "psi_in": incoming, "regime_border": regimes},
         {"title": "rebound curve"} | attributes,
     )
 
@@ -209,22 +205,15 @@ def regime_map(
     counts = Counter(met.ravel().tolist())
     names = [sequences.names[number] for number, _ in counts.most_common()]
     names = [name for name in names if name]
+    met_names = np.array([name for name in sequences.names if name], dtype=np.str_)
     places = {name: place for place, name in enumerate(names)} | {"": -1}
     codes = np.array([places.get(name, -1) for name in sequences.names], dtype=np.int16)[met]
     return labelled_dataset(
         {
-            "sequence": (
-                ("chi", "psi_in"),
-                codes,
-                {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
-            ),
+            "sequence": (("chi", "psi_in"), codes, pure(PLACE)),
             "restitution": e,
             **border_variables(incoming, chis, met, sequences, progress),
-            "sequence_met": (
-                "met",
-                np.array([name for name in sequences.names if name], dtype=np.str_),
-                {"long_name": "sequence of phases of one impact of the map or more"},
-            ),
+            "sequence_met": ("met", met_names, {"long_name": MET}),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},

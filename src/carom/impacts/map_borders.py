@@ -47,9 +47,8 @@ def border_variables(
     shown = False if callable(progress) else progress  # which counts the rows of the map
     rings: list[Ring] = []
     if min(x.size, y.size) > 1:
-        with advancing(
-            "finding the borders of the regimes", None, shown, unit="impacts"
-        ) as advance:
+        what = "finding the borders of the regimes"
+        with advancing(what, None, shown, unit="impacts") as advance:
 
             def tell(psis: Array, chis: Array) -> Labels:
                 advance(psis.size)
@@ -65,6 +64,7 @@ def border_variables(
     names = np.array(sequences.names, dtype=np.str_)
     borders = [border for ring in rings for border in _borders(ring)]
     sides = np.array([border[:2] for border in borders], dtype=np.int64).reshape(-1, 2)
+    inside = {"long_name": "sequence of phases in the region of an outline"}
     side = "sequence of phases on the {} of a border, in the direction of its points"
     return {
         **_points("border", [points for _, _, points in borders]),
@@ -73,11 +73,7 @@ def border_variables(
         "border_tolerance": fineness.tolerance,
         **_points("outline", [ring.points for ring in rings]),
         "outline_region": ("outline", np.array([r.region for r in rings], dtype=np.int32)),
-        "outline_sequence": (
-            "outline",
-            names[[ring.label for ring in rings]],
-            {"long_name": "sequence of phases in the region of an outline"},
-        ),
+        "outline_sequence": ("outline", names[[ring.label for ring in rings]], inside),
     }
 
 
@@ -122,10 +118,8 @@ class Image:
         """Insert lines everywhere until there are enough, then more where three regions meet."""
         least = [fineness.closest * np.ptp(line) for line in self.lines]
         while True:
-            gaps, meeting = (
-                [np.diff(line) for line in self.lines],
-                outlines.changes(self.labels) > 2,
-            )
+            gaps = [np.diff(line) for line in self.lines]
+            meeting = outlines.changes(self.labels) > 2
             few = [self.lines[k].size < fineness.lines[k] for k in (0, 1)]
             fill = [np.full(gaps[k].size, few[k]) for k in (0, 1)]
             if not any(few):
@@ -188,10 +182,8 @@ def bisected(image: Image, tolerance: float) -> tuple[Array, Labels]:
     """Return a lattice with the places of borders, and which those are, for `outlines`."""
     labels, places, (count, kept) = image.labels, outlines.lattice(*image.lines), image.kept()
     row, column = np.nonzero((kept == KEPT) & (count == 1))
-    low, high = (
-        places[row - row % 2, column - column % 2],
-        places[row + row % 2, column + column % 2],
-    )
+    low = places[row - row % 2, column - column % 2]
+    high = places[row + row % 2, column + column % 2]
     before, after = labels[row // 2, column // 2], labels[(row + 1) // 2, (column + 1) // 2]
     sides, least = [before, after], tolerance / FINER
     while True:
@@ -202,10 +194,8 @@ def bisected(image: Image, tolerance: float) -> tuple[Array, Labels]:
         met = image.tell(*middle.T)
         same = met == sides[0][wide]
         third = ~same & (met != sides[1][wide])  # which may hide others, so as to meet them too
-        low, high = (
-            np.concatenate([low, middle[third]]),
-            np.concatenate([high, high[wide][third]]),
-        )
+        low = np.concatenate([low, middle[third]])
+        high = np.concatenate([high, high[wide][third]])
         sides = [
             np.concatenate([sides[0], met[third]]),
             np.concatenate([sides[1], sides[1][wide][third]]),

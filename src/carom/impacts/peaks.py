@@ -361,9 +361,8 @@ def judge_pressure(pair: Pair, pressure: float, *, yields: bool) -> Finding:
     """Return the finding on yield by the pressure alone, without friction (Johnson 1985, 6.1)."""
     stuffs = {"first": pair.first.material, "second": pair.second.material}
     without = {w: m for w, m in stuffs.items() if not (m.yield_strength or m.is_rigid)}
-    ratio = pressure / min(
-        [m.yield_strength for m in stuffs.values() if m.yield_strength], default=nan
-    )
+    strengths = [m.yield_strength for m in stuffs.values() if m.yield_strength]
+    ratio = pressure / min(strengths, default=nan)
     name = "p_0/Y"
     if yields:
         return Finding(name, ratio, YIELD_PRESSURE, True, "what yields is in the law of losses")

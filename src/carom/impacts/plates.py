@@ -33,9 +33,8 @@ def bending(hit: ImpactResult) -> Finding | None:
     if ratio < LONG_WAVE:
         between = "not judged: the plate is neither thin nor a thick wall; 1 - e is an estimate"
         return Finding(name, ratio, LONG_WAVE, None, between)
-    more = (
-        f"1 - e is larger by some {100.0 * SHEARING / ratio**2:.0f} % of itself, as it also shears"
-    )
+    percent = 100.0 * SHEARING / ratio**2
+    more = f"1 - e is larger by some {percent:.0f} % of itself, as it also shears"
     return Finding(name, ratio, LONG_WAVE, True, f"the plate is thin enough to bend; {more}")
 
 

@@ -231,18 +231,15 @@ class ImpactResult(Outcome, Result):
         It has inputs, result (all numbers by name, SI units), phases, verdict (holds, fails or not
         judged) and validity, the findings behind it.
         """
-        validity = self.validity
+        names, validity = ("slip_angle_max", "slip_angle_mean"), self.validity
+        phases = [
+            phase._asdict() | dict(zip(names, map(or_none, angle), strict=True))
+            for phase, angle in zip(self.phases, self.slip_angles, strict=True)
+        ]
         return {
             "inputs": self.inputs(),
             "result": {name: or_none(value) for name, value in self.scalars().items()},
-            "phases": [
-                {
-                    **phase._asdict(),
-                    "slip_angle_max": or_none(angle.largest),
-                    "slip_angle_mean": or_none(angle.mean),
-                }
-                for phase, angle in zip(self.phases, self.slip_angles, strict=True)
-            ],
+            "phases": phases,
             "verdict": validity.verdict,
             "validity": [
                 {**finding._asdict(), "value": or_none(finding.value)}

@@ -42,24 +42,18 @@ def judge(hit: ImpactResult, assumptions: Sequence[Assumption]) -> Validity:
 
 
 def _small_contact(hit: ImpactResult) -> Finding:
-    return judged(
-        "a_max/R*",
-        hit.max_radius / hit.pair.effective_radius,
-        SMALL_CONTACT,
-        "the contact is small compared with the bodies",
-        f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most",
-    )
+    ratio, good = hit.max_radius / hit.pair.effective_radius, "the contact is small compared with"
+    bad = f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most"
+    return judged("a_max/R*", ratio, SMALL_CONTACT, f"{good} the bodies", bad)
 
 
 def _slow_contact(hit: ImpactResult) -> Finding:
     transits = hit.duration / max(_transit(hit.pair), 1e-300)
     slow = transits >= SLOW_CONTACT
-    verdict = (
-        "the contact lasts long enough to be quasi-static"
-        if slow
-        else f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
-    )
-    return Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
+    good = "the contact lasts long enough to be quasi-static"
+    bad = f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
+    name = "contact time/wave transit"
+    return Finding(name, transits, SLOW_CONTACT, slow, good if slow else bad)
 
 
 def _transit(pair: Pair) -> float:
@@ -226,17 +220,7 @@ def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
 
 
 OF_BODIES: tuple[Assumption, ...] = (
-    _slow_contact,
-    _weight,
-    _shell,
-    waves,
-    bending,
-    small_on_plate,
-    deflection,
-    rim,
-    adhesion,
-    damping,
-    together,
-    _solid,
+    *(_slow_contact, _weight, _shell, waves, bending, small_on_plate, deflection, rim),
+    *(adhesion, damping, together, _solid),
 )
 OF_THEORY: tuple[Assumption, ...] = (*OF_BODIES, _spin, _rebound)

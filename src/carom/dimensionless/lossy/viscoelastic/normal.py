@@ -197,7 +197,7 @@ def restitution(alpha: float, work: Arrays) -> float:
     return np.nan
 
 
-@lru_cache(256)
+@lru_cache(4096)
 def viscous_loss(wanted: float) -> float:
     """Return alpha, the loss time in d_max/V_1 that gives a restitution 0 < e <= 1, to 1e-12."""
     from scipy.optimize import brentq
