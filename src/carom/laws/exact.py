@@ -57,10 +57,9 @@ class ReboundLaw(Law):
         3. The table takes 20 to 70 ms up to 3, and seconds beyond 30. Or a range within 0.5 to 5:
         0.1 s for (1.2, 1.5), a second for (0.9, 1.8), and several seconds for chi beyond 2.
     losses : KelvinVoigt or ZenerPlate, optional
-        Loss of energy that is the same at all speeds, which means a restitution, or a plate at one
-        lambda. The table of a viscous solid takes 0.1 to 0.3 s for chi up to 3, and some seconds
-        above; over a range some ten times as long. That of a plate is for one chi, and takes 0.02
-        to 0.2 s up to 3.
+        Loss that is the same at all speeds: a restitution, or a plate at one lambda and one chi.
+        The table of a viscous solid takes 0.1 to 0.3 s for chi up to 3, and some seconds above;
+        over a range some ten times as long. That of a plate takes 0.02 to 0.2 s up to 3.
 
     Attributes
     ----------
@@ -393,8 +392,7 @@ def _restitution_of(losses: OneLoss | None) -> float:
     if isinstance(losses, ZenerPlate):
         return float(_head_on(losses).restitution[0])
     solids = "KelvinVoigt(restitution=...), ZenerPlate(inelasticity=...)"
-    allowed = f"a table needs {solids} or no losses"
-    raise refusal("losses", losses, allowed)
+    raise refusal("losses", losses, f"a table needs {solids} or no losses")
 
 
 def _head_on(losses: OneLoss) -> LossyRebounds:
