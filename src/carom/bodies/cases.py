@@ -14,17 +14,8 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_dataset, read_text
 from carom.io.paths import checked_path
-from carom.quantities.refusals import (
-    MOST_LISTED,
-    Faults,
-    InputError,
-    checked_type,
-    heading,
-    hint,
-    one_of,
-    refusal,
-    refuse,
-)
+from carom.quantities import refusals
+from carom.quantities.refusals import InputError, checked_type, hint, one_of, refusal, refuse
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
@@ -100,13 +91,15 @@ def check_case(
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
         unknown = [key for key in table if key not in allowed]
-        for key in unknown[:MOST_LISTED]:
-            faults.add(f"{heading(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}")
-        for key in unknown[MOST_LISTED:]:  # which are counted, not told
+        for key in unknown[: refusals.MOST_LISTED]:
+            faults.add(
+                f"{refusals.heading(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}"
+            )
+        for key in unknown[refusals.MOST_LISTED :]:  # which are counted, not told
             faults.add(f"{key}: unknown key")
 
     checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")
-    with Faults() as faults:
+    with refusals.Faults() as faults:
         for key in () if losses else (*LOSSES, RATIO):
             if key in case:
                 where = place(key, "")
@@ -286,7 +279,7 @@ def _as_table(value: Any) -> Any:
     if isinstance(value, Mapping):
         for key in value:
             if key not in MATERIAL:
-                where = heading(str(key))
+                where = refusals.heading(str(key))
                 raise InputError(f"{where}: unknown in a material; {hint(key, MATERIAL)}")
     return value
 

@@ -9,15 +9,9 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import ClassVar
 
+from carom.dem import damping as damped
 from carom.dem.base import ContactLaw
 from carom.dem.coefficients import MINDLIN, SPRING, Coefficients, Shear, hertzian, linear
-from carom.dem.damping import (
-    COEFF_RESTITUTION,
-    RULES,
-    damping_ratio,
-    hertz_damping,
-    thornton_damping,
-)
 from carom.quantities.refusals import one_of
 
 KEPT = {  # powers n, while the contact grows and while it shrinks
@@ -62,17 +56,17 @@ class LammpsMindlin(ContactLaw):
     variant: str = "mindlin"
     stiffness: float = 1.0
     restitution: float = 1.0
-    damping: str = COEFF_RESTITUTION
+    damping: str = damped.COEFF_RESTITUTION
     tangential_damping: float = 0.0
 
     def __post_init__(self) -> None:
         one_of("variant", self.variant, KEPT)
-        one_of("damping", self.damping, RULES)
+        one_of("damping", self.damping, damped.RULES)
         super().__post_init__()
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         loading, unloading = KEPT[self.variant]
-        damping = hertz_damping(self.restitution, self.damping)
+        damping = damped.hertz_damping(self.restitution, self.damping)
         return hertzian(
             chi,
             damping,
@@ -110,7 +104,7 @@ class LiggghtsHertz(ContactLaw):
     restitution: float = 1.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        damping = hertz_damping(self.restitution)
+        damping = damped.hertz_damping(self.restitution)
         return hertzian(
             chi,
             damping,
@@ -173,7 +167,7 @@ class YadeMindlin(ContactLaw):
     restitution: float = 1.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        damping = 2.0 * sqrt(SPRING * MINDLIN) * thornton_damping(self.restitution)
+        damping = 2.0 * sqrt(SPRING * MINDLIN) * damped.thornton_damping(self.restitution)
         return hertzian(
             chi, damping, pulls=False, shear_damping=damping * kappa**-0.5, limits_damping=False
         )
@@ -207,7 +201,7 @@ class LinearSpring(ContactLaw):
     tangential_damping: float = 0.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        damping = 2.0 * SPRING * damping_ratio(self.restitution)
+        damping = 2.0 * SPRING * damped.damping_ratio(self.restitution)
         shear_damping = self.tangential_damping * damping / kappa
         return linear(
             chi, kappa, self.stiffness_ratio, normal_damping=damping, shear_damping=shear_damping
@@ -242,7 +236,7 @@ class HertzLinearHistory(ContactLaw):
     tangential_damping: float = 0.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        damping = hertz_damping(self.restitution)
+        damping = damped.hertz_damping(self.restitution)
         return hertzian(
             chi,
             damping,

@@ -15,16 +15,7 @@ from carom.dimensionless.numerics.permutation import fractions, secrets
 from carom.quantities.arrays import Array, numbers, refuse_where
 from carom.quantities.refusals import checked_type, one_of, refusal, refuse
 from carom.quantities.units import counted, number, without_unit
-from carom.sweeps.inputs import (
-    CHOSEN,
-    CODE,
-    Choices,
-    checked_names,
-    input_attributes,
-    leaf,
-    read_choices,
-    variable,
-)
+from carom.sweeps import inputs as known
 
 Box = tuple[slice, ...]
 Values = dict[str, NDArray[Any]]
@@ -80,7 +71,7 @@ class Range(NamedTuple):
 
 def read_values(name: str, axis: ArrayLike) -> Array:
     """Return the values of an axis in SI units, or raise InputError."""
-    key, allowed = leaf(name), "must be a list of finite numbers or texts with units"
+    key, allowed = known.leaf(name), "must be a list of finite numbers or texts with units"
     values = np.atleast_1d(numbers(key, axis, allowed))
     line = values.ndim == 1 and values.size > 0
     refuse(not line and refusal(name, axis, f"{allowed}, at least one"))
@@ -135,8 +126,8 @@ def _as_table(name: str, reach: Any) -> Mapping[str, Any]:
 
 def _end(name: str, which: str, value: Any) -> float:
     refuse(value is None and f"{name}.{which}: missing; a range needs from and to")
-    result = number(leaf(name), value)
-    bare = leaf(name) == "angle" and abs(result) > pi and not isinstance(value, str)
+    result = number(known.leaf(name), value)
+    bare = known.leaf(name) == "angle" and abs(result) > pi and not isinstance(value, str)
     allowed = bare and f"a bare angle is in radians; write '{value} deg'"
     allowed = allowed if isfinite(result) else "must be finite"
     refuse(allowed and refusal(f"{name}.{which}", value, allowed))
@@ -155,11 +146,11 @@ class Design(ABC):
     """
 
     names: tuple[str, ...]
-    _choices: Choices = field(repr=False)
+    _choices: known.Choices = field(repr=False)
     _by_input: Mapping[str, Any] = field(repr=False)
     _sampled: ClassVar[bool] = True
 
-    def __init__(self, choices: Choices, by_input: Mapping[str, Any], **more: Any) -> None:
+    def __init__(self, choices: known.Choices, by_input: Mapping[str, Any], **more: Any) -> None:
         fields = {"names": tuple(by_input), "_choices": choices, "_by_input": by_input, **more}
         for name, value in fields.items():
             object.__setattr__(self, name, value)
@@ -189,7 +180,7 @@ class Design(ABC):
     def _doubts(self) -> tuple[str, ...]:
         """Return what is hardly meant among the inputs, in words."""
         numbers = [
-            (leaf(name), values[:2] if isinstance(values, Range) else values)
+            (known.leaf(name), values[:2] if isinstance(values, Range) else values)
             for name, values in self._by_input.items()
             if name not in self._choices
         ]
@@ -238,7 +229,7 @@ class Grid(Design):
     def __init__(self, axes: Mapping[str, Any]) -> None:
         choices = _choices("axes", axes)
         values = {
-            name: np.arange(len(choices[name]), dtype=CODE)
+            name: np.arange(len(choices[name]), dtype=known.CODE)
             if name in choices
             else read_axis(name, axis)
             for name, axis in axes.items()
@@ -247,7 +238,7 @@ class Grid(Design):
 
     @property
     def dims(self) -> tuple[str, ...]:
-        return tuple(variable(name) for name in self.names)
+        return tuple(known.variable(name) for name in self.names)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -256,7 +247,7 @@ class Grid(Design):
     def _coords(self) -> dict[str, Any]:
         labels = {name: [one.label for one in self._choices[name]] for name in self._choices}
         return {
-            dim: (dim, labels.get(name, values), input_attributes(name, self._choices))
+            dim: (dim, labels.get(name, values), known.input_attributes(name, self._choices))
             for dim, (name, values) in zip(self.dims, self._by_input.items(), strict=True)
         }
 
@@ -325,7 +316,7 @@ class LatinHypercube(Design):
         inputs: dict[str, NDArray[Any]] = {}
         for (name, reach), secret in zip(self._by_input.items(), words, strict=True):
             values = reach.at(fractions(index, self.samples, secret))
-            inputs[name] = values.astype(CODE) if name in self._choices else values
+            inputs[name] = values.astype(known.CODE) if name in self._choices else values
         return inputs
 
     def _description(self) -> dict[str, Any]:
@@ -333,8 +324,8 @@ class LatinHypercube(Design):
         return {"kind": "latin hypercube", **whole, "ranges": self._described(Range._asdict)}
 
 
-def _choices(what: str, values: Any) -> Choices:
+def _choices(what: str, values: Any) -> known.Choices:
     """Return the choices of the inputs that have names; InputError for what is not an input."""
     inputs = checked_type(what, values, Mapping, "must be a mapping from names of inputs to values")
-    named = (name for name in checked_names(inputs) if name in CHOSEN)
-    return {name: read_choices(name, inputs[name]) for name in named}
+    named = (name for name in known.checked_names(inputs) if name in known.CHOSEN)
+    return {name: known.read_choices(name, inputs[name]) for name in named}
