@@ -22,7 +22,6 @@ from carom.quantities.refusals import InputError, checked_type, clipped, one_of,
 from carom.quantities.units import bears_unit, number, positive
 
 DEFAULT_STEPS = 2000
-Force = Callable[[Any, Any], tuple[float, Any]]
 FORCE, REBOUND = "def law(contact, state)", "def rebound(psi, chi)"
 NORMAL = ("hertz", "linear")  # how the elastic part of the normal force grows
 

@@ -120,9 +120,8 @@ def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
 def _status(columns: Mapping[str, Array], counts: Array, outcome: Outcome) -> points.Codes:
     """Return what is known before solving; of two faults the one that is marked later."""
     status = np.full(counts.size, PointStatus.SOLVED, dtype=np.int8)
-    status[~np.broadcast_to(outcome_fits(outcome), status.shape)] = (
-        PointStatus.BEYOND_FLOATING_POINT
-    )
+    fits = np.broadcast_to(outcome_fits(outcome), status.shape)
+    status[~fits] = PointStatus.BEYOND_FLOATING_POINT
     status[~(counts >= 0.0)] = PointStatus.OUT_OF_RANGE
     status[~points.approaches(columns)] = PointStatus.NOT_APPROACHING
     for values in (*columns.values(), counts):

@@ -79,19 +79,16 @@ class Experiment:
 
     def __post_init__(self) -> None:
         _refuse_bodies(self.pair)
-        checked_type(
-            "law", self.law, ContactLaw, "must be a contact law, e.g. carom.dem.LammpsMindlin()"
-        )
+        allowed = "must be a contact law, e.g. carom.dem.LammpsMindlin()"
+        checked_type("law", self.law, ContactLaw, allowed)
         along_the_same(tangential_speed=self.tangential_speed, spin=self.spin)
         speeds = _column("tangential_speed", self.tangential_speed)
         spins = _column("spin", self.spin) or (0.0,) * len(speeds)
         if not speeds:
             raise refusal("tangential_speed", self.tangential_speed, "give one value per impact")
         if len(spins) != len(speeds):
-            raise InputError(
-                f"spin: {len(spins)} values for {len(speeds)} of tangential_speed; "
-                "give one of each per impact"
-            )
+            counts = f"{len(spins)} values for {len(speeds)} of tangential_speed"
+            raise InputError(f"spin: {counts}; give one of each per impact")
         speed = positive("normal_speed", self.normal_speed)
         scales = checked_scales(self.pair, speed)
         steps = counted("steps", self.steps, 10, MOST_STEPS)

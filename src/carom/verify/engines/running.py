@@ -218,9 +218,8 @@ def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
 def _crash(engine: Engine, folder: Path, code: int) -> EngineError:
     missing = re.search(MISSING_LIBRARY, _printed(folder))
     if missing:
-        return EngineError(
-            f"{engine.name} does not start: {missing[1]} is missing; {engine.advice}"
-        )
+        cure = f"{missing[1]} is missing; {engine.advice}"
+        return EngineError(f"{engine.name} does not start: {cure}")
     reason = f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
     return _failure(engine, folder, f"has crashed ({reason})")
 
