@@ -86,7 +86,7 @@ class LoadPath(InContact, Result):
 
         Parameters
         ----------
-        normal_force, penetration, tangential_force, displacement, progress
+        normal_force, penetration, tangential_force, displacement, progress : optional
             As in `load_path`, from the end of this path. If one part has two directions, values
             of one direction are taken along x.
 

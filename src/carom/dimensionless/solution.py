@@ -175,7 +175,7 @@ class Solution(Trajectory):
 
         Parameters
         ----------
-        at, radii
+        at, radii : float, array_like
             As in `traction`.
 
         Returns

@@ -56,7 +56,7 @@ def bearable_speeds(
         Angles of incidence from the normal, in rad or as text; by default 18 up to 85 degrees.
     friction : array_like, optional
         Coefficients of friction; by default that of the pair.
-    workers, progress
+    workers, progress : optional
         As for `sweep`.
 
     Returns
