@@ -22,7 +22,7 @@ KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross sl
 
 
 class Phase(NamedTuple):
-    """A phase: kind, sign of slip (0 in stick), times in d_max/V_1 or s, and what ends it."""
+    """A phase: kind, sign of slip (0 in stick), start and end in d_max/V_1 or s, cause of end."""
 
     kind: str
     sign: int

@@ -31,7 +31,11 @@ COLUMNS = ":<32s max:7.3f at:5.2f rms:7.3f law:8.1e seconds:8.2f"
 
 
 class Measured(NamedTuple):
-    """A law in a program: errors in psi_2, `law_error` to Carom's own, seconds, or the failure."""
+    """A law, `entry`, run in a program: its errors and how many seconds it took, or its failure.
+
+    `max_error` (at psi_1 = `worst`) and `rms_error` against the exact impact; `law_error` the
+    largest difference from Carom's own law at the same steps.
+    """
 
     entry: Entry
     max_error: float
@@ -42,6 +46,7 @@ class Measured(NamedTuple):
     failure: str | None
 
     def to_dict(self) -> dict[str, Any]:
+        """Return the numbers, or the failure, as what JSON can hold."""
         if self.failure:
             return {"law": self.entry.label, "failure": self.failure}
         return {"law": self.entry.label, **dict(zip(self._fields[1:-1], self[1:-1], strict=True))}

@@ -58,6 +58,7 @@ class Standing(NamedTuple):
     restitution: float = 1.0
 
     def to_dict(self) -> dict[str, Any]:
+        """Return the standing as what JSON can hold."""
         numbers = ("max_error", "worst", "rms_error", "force_error", "energy_gain")
         return {
             "law": self.entry.label,

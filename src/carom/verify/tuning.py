@@ -65,6 +65,7 @@ class TunedLaw(NamedTuple):
     step: TimeSteps | None
 
     def to_dict(self) -> dict[str, Any]:
+        """Return the law and its errors as what JSON can hold."""
         return {
             "law": called(self.law),
             "parameter": self.parameter,

@@ -165,6 +165,7 @@ class Forces(NamedTuple):
     peak_error: float
 
     def rms(self, values: Array) -> float:
+        """Return the root of the mean square over time."""
         squares = np.diff(self.time) @ _middles(values**2)
         return float(np.sqrt(squares / self.time[-1]))
 
