@@ -204,14 +204,15 @@ def regime_map(
     counts = Counter(met.ravel().tolist())
     names = [sequences.names[number] for number, _ in counts.most_common()]
     names = [name for name in names if name]
-    met_names = np.array([name for name in sequences.names if name], dtype=np.str_)
     places = {name: place for place, name in enumerate(names)} | {"": -1}
     codes = np.array([places.get(name, -1) for name in sequences.names], dtype=np.int16)[met]
+    borders = border_variables(incoming, chis, met, sequences, progress)  # which meets more
+    met_names = np.array([name for name in sequences.names if name], dtype=np.str_)
     return labelled_dataset(
         {
             "sequence": (("chi", "psi_in"), codes, pure(PLACE)),
             "restitution": e,
-            **border_variables(incoming, chis, met, sequences, progress),
+            **borders,
             "sequence_met": ("met", met_names, {"long_name": MET}),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
