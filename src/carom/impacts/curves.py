@@ -206,13 +206,13 @@ def regime_map(
     names = [name for name in names if name]
     places = {name: place for place, name in enumerate(names)} | {"": -1}
     codes = np.array([places.get(name, -1) for name in sequences.names], dtype=np.int16)[met]
-    borders = border_variables(incoming, chis, met, sequences, progress)  # which meets more
+    found = border_variables(incoming, chis, met, sequences, progress)  # which meets more
     met_names = np.array([name for name in sequences.names if name], dtype=np.str_)
     return labelled_dataset(
         {
             "sequence": (("chi", "psi_in"), codes, pure(PLACE)),
             "restitution": e,
-            **borders,
+            **found,
             "sequence_met": ("met", met_names, {"long_name": MET}),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
