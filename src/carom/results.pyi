@@ -1,4 +1,4 @@
-from .collisions import Collisions as Collisions, JudgedCollisions as JudgedCollisions
+from .collisions.records import Collisions as Collisions, JudgedCollisions as JudgedCollisions
 from .contacts.contact import Contact as Contact
 from .contacts.load_paths import LoadPath as LoadPath
 from .dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution as ViscoelasticSolution

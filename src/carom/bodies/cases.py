@@ -14,17 +14,8 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_dataset, read_text
 from carom.io.paths import checked_path
-from carom.quantities.refusals import (
-    MOST_LISTED,
-    Faults,
-    InputError,
-    checked_type,
-    heading,
-    hint,
-    one_of,
-    refusal,
-    refuse,
-)
+from carom.quantities import refusals
+from carom.quantities.refusals import InputError, checked_type, hint, one_of, refusal, refuse
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
@@ -96,20 +87,19 @@ def check_case(
     *,
     losses: bool = False,
 ) -> None:
-    """Raise InputError for all keys that are not known; `place` says where a key of a table is.
-
-    Losses are refused, too, unless the caller supports them.
-    """
+    """Raise InputError for all unknown keys, and for losses unless the caller supports them."""
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
         unknown = [key for key in table if key not in allowed]
-        for key in unknown[:MOST_LISTED]:
-            faults.add(f"{heading(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}")
-        for key in unknown[MOST_LISTED:]:  # which are counted, not told
+        for key in unknown[: refusals.MOST_LISTED]:
+            faults.add(
+                f"{refusals.heading(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}"
+            )
+        for key in unknown[refusals.MOST_LISTED :]:  # which are counted, not told
             faults.add(f"{key}: unknown key")
 
     checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")
-    with Faults() as faults:
+    with refusals.Faults() as faults:
         for key in () if losses else (*LOSSES, RATIO):
             if key in case:
                 where = place(key, "")
@@ -117,9 +107,8 @@ def check_case(
         check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES), "")
         for name, allowed in TABLES.items():
             table = case.get(name, {})
-            checked_type(
-                name, table, Mapping, f"must be a table, [{name}], with {', '.join(allowed)}"
-            )
+            words = f"must be a table, [{name}], with {', '.join(allowed)}"
+            checked_type(name, table, Mapping, words)
             check(table, allowed, name)
             if isinstance(table.get("material"), Mapping):
                 check(table["material"], MATERIAL, name)
@@ -290,9 +279,8 @@ def _as_table(value: Any) -> Any:
     if isinstance(value, Mapping):
         for key in value:
             if key not in MATERIAL:
-                raise InputError(
-                    f"{heading(str(key))}: unknown in a material; {hint(key, MATERIAL)}"
-                )
+                where = refusals.heading(str(key))
+                raise InputError(f"{where}: unknown in a material; {hint(key, MATERIAL)}")
     return value
 
 
@@ -328,7 +316,6 @@ def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> import carom
     >>> with TemporaryDirectory() as folder:
     ...     stored = carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.nc")
     ...     carom.read(stored).psi_out.values.round(4)

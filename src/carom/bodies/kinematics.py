@@ -57,10 +57,7 @@ def slope(angle: Value) -> float:
 
 
 class Tangential(NamedTuple):
-    """Tangential motion: speed of the first centre relative to the second, and the spins.
-
-    Each is a number, or an array: along time, or of many impacts.
-    """
+    """Speed of the first centre relative to the second, and the spins: numbers, or arrays."""
 
     tangential_speed: float
     spin: float

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
@@ -33,8 +33,6 @@ READERS: dict[str, Callable[[str, Any], float]] = {
 }
 LARGEST_STRAIN = 0.05  # Y/E' of a metal, twice that of the strongest glasses
 
-_viscous_loss: Callable[[float], float] = lru_cache(maxsize=4096)(viscous_loss)
-
 
 @dataclass(frozen=True)
 class LossLaw:
@@ -57,9 +55,8 @@ class LossLaw:
     def _keep(self, **values: Any) -> None:
         """Keep each value as one number that is checked, or an array, checked point by point."""
         for name, value in values.items():
-            array = numbers(
-                name, value, "must be a number or text with a unit, or an array of them"
-            )
+            allowed = "must be a number or text with a unit, or an array of them"
+            array = numbers(name, value, allowed)
             set_fields(self, **{name: array if array.ndim else READERS[name](name, value)})
 
 
@@ -96,7 +93,6 @@ class KelvinVoigt(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> law = carom.KelvinVoigt(restitution=0.9)
@@ -113,9 +109,8 @@ class KelvinVoigt(LossLaw):
     def __init__(self, restitution: Any = None, loss_time: Value | None = None) -> None:
         alone = (restitution is None) != (loss_time is None)
         refuse(not alone and "restitution: give either restitution or loss_time")
-        self._keep(
-            **{"loss_time": loss_time} if restitution is None else {"restitution": restitution}
-        )
+        given = {"restitution": restitution, "loss_time": loss_time}
+        self._keep(**{name: value for name, value in given.items() if value is not None})
 
     def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss and alpha = tau V_1/d_max."""
@@ -131,7 +126,6 @@ class KelvinVoigt(LossLaw):
         return LossNumbers(Loss.VISCOUS, float(_alphas(self.restitution)))
 
     def _describe(self) -> dict[str, Any]:
-        """Return what was given."""
         return {name: value for name, value in super()._describe().items() if value is not None}
 
 
@@ -166,7 +160,6 @@ class ElasticPlastic(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
@@ -203,12 +196,12 @@ class Metal(LossLaw):
     of the body that yields. Unloading is elastic. The restitution falls more slowly than that of
     `ElasticPlastic`, whose pressure does not rise: at V_1 = 277 V_y it is 0.51 instead of 0.29.
 
-    The pressure is taken as Hertz's for the radius a, cut off at the level that gives the load P,
-    and unloads as that of an elastic body which keeps its dent. The springs of the contact bear
-    Abel's transform of it. Springs in shear are elastic, and each bears at most mu times the load
-    of the spring in compression. psi_2 is within 0.07 of a solution by rings of traction up to
-    V_1 = 300 V_y, and within 3e-5 max(1, psi_1) of what springs converge to up to V_1 = 1000 V_y
-    for chi from 0.3 to 8. Hardening and strain rates are not modelled.
+    The pressure is Hertz's for the radius a, cut off at the level that gives the load P, and
+    unloads as that of an elastic body with a dent; springs bear Abel's transform of it. Springs in
+    shear are elastic, and bear at most mu times the load in compression. psi_2 is within 0.07 of a
+    solution by rings of traction up to V_1 = 300 V_y, and within 3e-5 max(1, psi_1) of what springs
+    converge to up to V_1 = 1000 V_y for chi from 0.3 to 8. Hardening and strain rates are not
+    modelled.
 
     Parameters
     ----------
@@ -229,7 +222,6 @@ class Metal(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> for law in (carom.Metal(), carom.ElasticPlastic()):
@@ -291,7 +283,6 @@ class StandardLinearSolid(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="nylon")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="nylon"), friction=0.2)
     >>> law = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="50 us")
@@ -349,7 +340,6 @@ class ZenerPlate(LossLaw):
 
     Examples
     --------
-    >>> import carom
     >>> carom.rebound([0.5, 9.0], 1.44, losses=carom.ZenerPlate(inelasticity=0.4)).round(6)
     array([0.049481, 4.637839])
     """
@@ -374,8 +364,8 @@ class ZenerPlate(LossLaw):
 
 def _alphas(restitution: Any) -> Any:
     if np.ndim(restitution) == 0:
-        return _viscous_loss(float(restitution))
+        return viscous_loss(float(restitution))
     unique, places = np.unique(restitution, return_inverse=True)
     good = (unique >= SMALLEST_RESTITUTION) & (unique <= 1.0)
-    alphas = [_viscous_loss(float(e)) if ok else np.nan for e, ok in zip(unique, good, strict=True)]
+    alphas = [viscous_loss(float(e)) if ok else np.nan for e, ok in zip(unique, good, strict=True)]
     return np.array(alphas)[places].reshape(np.shape(restitution))

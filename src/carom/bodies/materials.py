@@ -46,10 +46,8 @@ class Material(Printed):
         Poisson's ratio nu, -1 < nu <= 0.5.
     density : float or str, optional
         Density; only a body that moves needs it.
-    yield_strength : float or str, optional
-        Von Mises stress at which the material yields.
-    tensile_strength : float or str, optional
-        Tensile stress at which the material breaks.
+    yield_strength, tensile_strength : float or str, optional
+        Von Mises stress at which the material yields, tensile stress at which it breaks.
     fracture_toughness : float or str, optional
         Stress intensity at which cracks grow, in Pa m^0.5, e.g. `"0.75 MPa m^0.5"`.
     flaw_size : float or str, optional
@@ -72,7 +70,6 @@ class Material(Printed):
 
     Examples
     --------
-    >>> import carom
     >>> steel = carom.Material(young="210 GPa", poisson=0.3, density=7850)
     >>> round(steel.shear_modulus / 1e9, 3)
     80.769
@@ -188,18 +185,12 @@ def _catalogue() -> dict[str, dict[str, Any]]:
 
 
 def materials() -> Catalogue:
-    """Return the catalogue of materials by name, without "rigid"; printed, a table.
+    """Return each `Material` of the catalogue by its name, without "rigid"; printed, a table.
 
     The values are typical of room temperature; `sources` of each names where they are from.
 
-    Returns
-    -------
-    dict
-        Each `Material` by its name, with E in Pa and density in kg/m^3.
-
     Examples
     --------
-    >>> import carom
     >>> "soda-lime-glass" in carom.materials()
     True
     """
@@ -230,9 +221,6 @@ def material(name: str, **values: Value) -> Material:
 
     Examples
     --------
-    >>> import carom
-    >>> carom.material("steel").young
-    210000000000.0
     >>> carom.material("glass", flaw_size="20 um").flaw_size
     2e-05
     """

@@ -7,7 +7,7 @@ from math import inf, pi
 from operator import and_
 from typing import Any
 
-from carom.bodies.materials import Material
+from carom.bodies.materials import Material, set_fields
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, named
 from carom.quantities.elementwise import quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
@@ -46,18 +46,12 @@ class Scales(ContactScales):
 
 
 def _holds(value: float) -> bool:
-    """Return whether floating point holds this and products of three such numbers, with quotients.
-
-    Squares of speeds and cubes of radii are among them, which overflow without a word.
-    """
+    """Tell whether floating point holds products and quotients of three such numbers."""
     return (value >= LEAST) & (value <= MOST)
 
 
 def scales_fit(pair: "Pair", scales: Scales, contact_velocity: float = 0.0, *parts: float) -> bool:
-    """Return whether floating point holds what an impact is calculated from, and its products.
-
-    `parts` are those of the tangential velocity of the contact point, which may be tiny.
-    """
+    """Tell whether floating point holds what an impact is calculated from; `parts` may be tiny."""
     units = dict(vars(scales))
     of_friction = [pair.friction, *(units.pop(name) for name in OF_FRICTION)]
     sizes = [_holds(size) for size in (*pair.constants, *units.values())]
@@ -155,7 +149,6 @@ class Pair(Printed):
 
     Examples
     --------
-    >>> import carom
     >>> steel = carom.material("steel")
     >>> ball = carom.Sphere(radius="5 mm", material=steel)
     >>> pair = carom.Pair(ball, carom.HalfSpace(material=steel), friction=0.2)
@@ -179,9 +172,8 @@ class Pair(Printed):
             )
         if first.material.is_rigid and second.material.is_rigid:
             raise InputError("material: both bodies are rigid; one of them must deform")
-        object.__setattr__(self, "first", first)
-        object.__setattr__(self, "second", second)
-        object.__setattr__(self, "friction", not_negative("friction", friction))
+        mu = not_negative("friction", friction)
+        set_fields(self, first=first, second=second, friction=mu)
         if not pair_fits(self):
             raise InputError(
                 "pair: sizes, densities and stiffnesses of the bodies give numbers that floating "

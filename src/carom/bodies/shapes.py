@@ -49,7 +49,6 @@ class Sphere(Body):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> round(ball.mass * 1e3, 4)
     4.1103
@@ -130,7 +129,6 @@ class HalfSpace(Body):
 
     Examples
     --------
-    >>> import carom
     >>> carom.HalfSpace("rigid").material.is_rigid
     True
     >>> print(carom.HalfSpace("steel", thickness="3 mm"))
@@ -192,7 +190,6 @@ class Cup(Body):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.Cup(radius="10 mm", material="steel"), friction=0.2)
     >>> round(pair.effective_radius * 1e3, 9)

@@ -22,10 +22,7 @@ _heard: list[int] = []  # signals that are to end this process
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a command; return 0, or after one line on stderr 2 for bad input, 1 or 130.
-
-    It is 1 for a failure, and 130 if somebody has interrupted the command.
-    """
+    """Run a command; return 0, 1 for a failure, 2 after a line for bad input, 130 if stopped."""
     try:
         from carom.cli.commands import answer
 
@@ -95,10 +92,7 @@ def __getattr__(name: str) -> Any:
 
 
 def _open_all() -> None:
-    """Let no file that is written take the place of a standard stream that is closed.
-
-    What is printed to stdout then fails, as that to a full disk does.
-    """
+    """Open closed standard streams, whose place no file may take: what is printed then fails."""
     for descriptor in range(3):
         try:
             os.fstat(descriptor)

@@ -95,10 +95,7 @@ def outputs(case: "Case") -> Output:
 
 
 def check_outputs(outputs: Mapping[str, str | None], **inputs: str | Path | None) -> None:
-    """Raise InputError if a file cannot be written, has another ending, or is another one, too.
-
-    Outputs are by what they are for, which says what endings they may have.
-    """
+    """Raise InputError if a file cannot be written, has another ending, or serves two purposes."""
     from carom.io.files import DOCUMENTS, FIGURES, TABLES
     from carom.io.paths import checked_output
 

@@ -54,11 +54,8 @@ def explore_command(
     page = explorer(host=host, port=whole("port", port, 0, 65535))
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
     with suppress(KeyboardInterrupt):
-        typer.echo(
-            json.dumps({"url": page.url})
-            if as_json
-            else f"{page.url}  (press Ctrl-C to stop the page)"
-        )
+        words = f"{page.url}  (press Ctrl-C to stop the page)"
+        typer.echo(json.dumps({"url": page.url}) if as_json else words)
         if open_browser:
             webbrowser.open(page.url)
         page.serve()
@@ -70,6 +67,5 @@ def _export(folder: str, as_json: bool) -> None:
 
     copy = export(folder)
     size = f"{copy.bytes / 1e6:.1f} MB in {copy.files} files"
-    typer.echo(
-        json.dumps(copy._asdict()) if as_json else f"{copy.folder}/index.html  ({size}, no server)"
-    )
+    words = f"{copy.folder}/index.html  ({size}, no server)"
+    typer.echo(json.dumps(copy._asdict()) if as_json else words)

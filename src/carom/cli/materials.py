@@ -20,6 +20,11 @@ OPTIONS = {
 }
 
 
+MEASURED = ("normal_restitution", "friction", "beta_0")
+LEGEND = (
+    "e: normal restitution, mu: friction, beta_0: tangential restitution of a contact that sticks;"
+    " in brackets their errors, as published"
+)
 BELOW = """There is also the material rigid, which does not deform.
 carom materials NAME shows the sources of the values, carom materials --pairs measured restitution \
 and friction."""
@@ -72,26 +77,13 @@ def _table_of_pairs(pairs: list[dict[str, Any]]) -> str:
     lines = []
     for each in pairs:
         other = each["other"] + " plane" * (each["shape"] == "plane")
-        numbers = " ".join(
-            f"{_with_error(each, key):>14s}" for key in ("normal_restitution", "friction", "beta_0")
-        )
+        values = (f"{each[key]:.3g} ({each[f'{key}_error']:.2g})" for key in MEASURED)
+        numbers = " ".join(f"{value:>14s}" for value in values)
         mark = references.index(each["reference"]) + 1
         size = 1e3 * each["diameter"]
         lines.append(f"{each['body']:19s}{other:19s}{size:8.3g} {numbers} [{mark}]")
     sources = [f"[{place}] {text}" for place, text in enumerate(references, start=1)]
-    return "\n".join(
-        [
-            head,
-            *lines,
-            "e: normal restitution, mu: friction, beta_0: tangential restitution of a contact that"
-            " sticks; in brackets their errors, as published",
-            *sources,
-        ]
-    )
-
-
-def _with_error(pair: dict[str, Any], key: str) -> str:
-    return f"{pair[key]:.3g} ({pair[f'{key}_error']:.2g})"
+    return "\n".join([head, *lines, LEGEND, *sources])
 
 
 def _record(name: str) -> dict[str, Any]:

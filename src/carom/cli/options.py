@@ -71,10 +71,7 @@ class Commands(typer.Typer):
 
 
 def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
-    """Return a decorator that gives parameters of a command their help, or their option of typer.
-
-    The signature then has names, types and defaults alone. Some options are the same everywhere.
-    """
+    """Return a decorator that gives the parameters of a command their help, or option of typer."""
 
     def decorate(command: Command) -> Command:
         of_typer = {**COMMON, **options}

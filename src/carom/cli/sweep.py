@@ -124,14 +124,8 @@ def _record(result: "Summary", store: str | None, output: str | None) -> dict[st
         name: {"min": or_none(low), "max": or_none(high), "units": GLOSSARY[name].unit}
         for name, (low, high) in result.ranges.items()
     }
-    return {
-        "points": result.points,
-        "sizes": result.sizes,
-        "status": result.statuses,
-        "ranges": ranges,
-        "store": store,
-        "output": output,
-    }
+    numbers = {"points": result.points, "sizes": result.sizes, "status": result.statuses}
+    return {**numbers, "ranges": ranges, "store": store, "output": output}
 
 
 def _table(result: "Summary") -> str:

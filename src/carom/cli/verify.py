@@ -49,6 +49,7 @@ LAWS_OPTIONS = {
 }
 
 
+@app.command("laws")
 @described(LAWS_OPTIONS)
 def laws_command(
     case: str | None = None,
@@ -192,12 +193,17 @@ def engine_command(
         raise typer.Exit(1)
 
 
+for name, words in COMMANDS.items():
+    app.command(name, help=words)(engine_command)
+
+
 PACK_OPTIONS = {
     "folder": typer.Argument(help="New or empty folder for the pack, e.g. bench."),
     "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
 }
 
 
+@app.command("pack")
 @described(PACK_OPTIONS)
 def pack_command(folder: str, as_json: bool = False) -> None:
     """Write the benchmark pack for developers of DEM codes.
@@ -212,13 +218,10 @@ def pack_command(folder: str, as_json: bool = False) -> None:
     from carom.verify.pack import VERSION, write_pack
 
     files = write_pack(folder)
-    if as_json:
-        typer.echo(json.dumps({"version": VERSION, "folder": folder, "files": files}, indent=2))
-        return
-    typer.echo(
-        f"Carom has written benchmark pack {VERSION}, {len(files)} files, into {folder}. "
-        "Start with its README.md."
-    )
+    record = {"version": VERSION, "folder": folder, "files": files}
+    what = f"benchmark pack {VERSION}, {len(files)} files, into {folder}"
+    words = f"Carom has written {what}. Start with its README.md."
+    typer.echo(json.dumps(record, indent=2) if as_json else words)
 
 
 SCORE_OPTIONS = {
@@ -241,6 +244,7 @@ SCORE_OPTIONS = {
 }
 
 
+@app.command("score")
 @described(SCORE_OPTIONS)
 def score_command(
     results: str,
@@ -316,6 +320,7 @@ TUNE_OPTIONS = {
 }
 
 
+@app.command("tune")
 @described(TUNE_OPTIONS)
 def tune_command(
     case: str | None = None,
@@ -347,10 +352,9 @@ def tune_command(
     tuning = carom.verify.tune(
         chi=setting.chi, kappa=setting.kappa, psi_1=setting.psi, measure=measure
     )
-    inputs = {
-        "inputs": _inputs_of_codes(setting, tuning),
-        "exact_law": _exact_law(setting.restitution),
-    }
+    liggghts = {"LIGGGHTS": "tangential carom"} if setting.restitution == 1.0 else {}  # elastic
+    exact = {"LAMMPS": "pair_style carom", **liggghts, "C++": "carom/contact.hpp"}
+    inputs = {"inputs": _inputs_of_codes(setting, tuning), "exact_law": exact}
     scales = {"normal_speed": setting.normal_speed, "duration": setting.duration}
     own = None if content is None else own_impact(content, setting.restitution)
     record = tuning.to_dict() | inputs | scales
@@ -374,12 +378,6 @@ def _inputs_of_codes(setting: "Setting", tuning: "Tuning") -> dict[str, str]:
     return carom.verify.recipes(bodies, speed, restitution, spring=spring, mindlin=mindlin)
 
 
-def _exact_law(restitution: float) -> dict[str, str]:
-    """Return what the exact law is called in codes that have it; that in LIGGGHTS is elastic."""
-    elastic = {"LIGGGHTS": "tangential carom"} if restitution == 1.0 else {}
-    return {"LAMMPS": "pair_style carom", **elastic, "C++": "carom/contact.hpp"}
-
-
 def _advice(table: str, record: dict[str, Any]) -> str:
     """Return what to do: the exact law where it can be had, then the closest of the others."""
     inputs = dict(record["inputs"])
@@ -398,11 +396,3 @@ def _advice(table: str, record: dict[str, Any]) -> str:
         lines.append("Inputs of DEM codes with these stiffnesses:")
         lines += [f"  {code:26s} {text}" for code, text in inputs.items()]
     return "\n".join(lines)
-
-
-app.command("laws")(laws_command)
-for name, words in COMMANDS.items():
-    app.command(name, help=words)(engine_command)
-app.command("pack")(pack_command)
-app.command("score")(score_command)
-app.command("tune")(tune_command)

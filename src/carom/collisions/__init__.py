@@ -13,15 +13,7 @@ from carom.collisions import records
 from carom.collisions.compiled import Motions, collide_all
 from carom.collisions.plates import PlateRule, plate_rule
 from carom.collisions.portable import collide_arrays
-from carom.collisions.records import (
-    Collisions,
-    CollisionStatus,
-    Incidence,
-    Inertia,
-    JudgedCollisions,
-    Judgement,
-    vectors,
-)
+from carom.collisions.records import Collisions, JudgedCollisions
 from carom.laws.exact import ReboundLaw, law_of
 from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
@@ -29,15 +21,6 @@ from carom.quantities.arrays import along_the_same
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import threads_or_none
-
-__all__ = [
-    "CollisionLaw",
-    "CollisionStatus",
-    "Collisions",
-    "JudgedCollisions",
-    "Judgement",
-    "collide",
-]
 
 OF_NUMPY = (
     "a plate takes NumPy arrays; convert yours, leave it out, or pass a law for one lambda, "
@@ -145,17 +128,11 @@ def collide(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> after = carom.collide(pair, velocity1=[[1.0, 0.0, 1.732]], normal=[0.0, 0.0, 1.0])
     >>> after.velocity1.round(3), after.spin1.round(1), after.status
     (array([[ 0.583,  0.   , -1.732]]), array([[   0. , -208.5,    0. ]]), array([0], dtype=int8))
-    >>> plate = carom.HalfSpace(material="steel", thickness="5 mm")
-    >>> pair = carom.Pair(ball, plate, friction=0.2)
-    >>> after = carom.collide(pair, velocity1=[[0, 0, 0.1], [0, 0, 10]], normal=[0, 0, 1])
-    >>> after.velocity1[:, 2].round(3)
-    array([-0.085, -6.61 ])
     """
     checked_pair(pair, plates=True)
     check_second_spin(pair, spin2, spins=spin2 is not None)
@@ -176,7 +153,7 @@ def collide(
     return after if before is None else records.judged(pair, before, after)
 
 
-def _incidence(pair: Pair, inputs: tuple[Any, ...], law: CollisionLaw | None) -> Incidence:
+def _incidence(pair: Pair, inputs: tuple[Any, ...], law: CollisionLaw | None) -> records.Incidence:
     """Return how bodies meet, before they may be written over."""
     if law is not None:
         raise refusal("law", law, "judge=True judges the exact law; leave law or judge out")
@@ -189,7 +166,9 @@ def _incidence(pair: Pair, inputs: tuple[Any, ...], law: CollisionLaw | None) ->
 
 def _vectors(inputs: tuple[Any, ...], kind: np.dtype[Any]) -> list[NDArray[np.floating]]:
     """Return vectors of one shape and type, zeros for those left out; copies only where needed."""
-    arrays = [vectors(name, values) for name, values in zip(records.NAMES, inputs, strict=True)]
+    arrays = [
+        records.vectors(name, values) for name, values in zip(records.NAMES, inputs, strict=True)
+    ]
     shape = records.common_shape(arrays)
     return [np.zeros(shape, kind) if each is None else _whole(each, shape, kind) for each in arrays]
 
@@ -209,7 +188,7 @@ def _rule(law: CollisionLaw | None, pair: Pair) -> Rule | PlateRule:
 
 def _collide_numpy(
     inputs: tuple[Any, ...],
-    inertia: Inertia,
+    inertia: records.Inertia,
     rule: Rule | PlateRule,
     inplace: bool,
     threads: int | None,
@@ -218,7 +197,8 @@ def _collide_numpy(
     moving = 4 if inertia.factors[2] > 0.0 else 2
     if inplace:
         _check_writable(inputs, whole, moving)
-        after = [*before[:moving], *map(_writable, before[moving:])]
+        fixed = (each if each.flags.writeable else each.copy() for each in before[moving:])
+        after = [*before[:moving], *fixed]
     else:
         after = [np.empty_like(each) for each in before[:moving]]
         after += [each.copy() for each in before[moving:]]
@@ -241,11 +221,6 @@ def _read_only(array: NDArray[np.floating]) -> NDArray[np.floating]:
     flat = array.reshape(-1)
     flat.setflags(write=False)
     return flat
-
-
-def _writable(array: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return an array as the kernel takes that of a fixed body, though it writes nothing there."""
-    return array if array.flags.writeable else array.copy()
 
 
 def _whole(

@@ -19,8 +19,7 @@ from carom.dimensionless.rebounds import LINEAR_PSI, NEARLY_ELASTIC, STEP_TOLERA
 class PlateRule(NamedTuple):
     """What a collision with a plate needs: lambda = give V_n^(1/5), psi = scale V_t/V_n.
 
-    Without friction the scale is 0. Above `fastest` the plate gives way like a foil, or the
-    penetration of a thick wall exceeds the thickness.
+    Above `fastest` it gives way like a foil, or is thinner than the penetration of a thick wall.
     """
 
     chi: float

@@ -29,10 +29,7 @@ class Approach(NamedTuple):
 def collide_arrays(
     inputs: tuple[Any, ...], inertia: records.Inertia, rule: Rule
 ) -> records.Collisions:
-    """Return velocities and spins after collisions, as `compiled.collide_all` does.
-
-    Arrays must be of one library; lists and NumPy arrays among them take its type and device.
-    """
+    """Return velocities and spins as `compiled.collide_all`, from arrays of one library."""
     arrays, xp = _alike(inputs)
     shape = records.common_shape(arrays)
     kind = next(each for each in arrays if each is not None)

@@ -32,7 +32,6 @@ class CollisionStatus(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.CollisionStatus(1).message
     'left alone: the bodies do not approach'
     """
@@ -78,7 +77,6 @@ class Collisions(EqualByNumbers, After):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.0)
     >>> hit = carom.collide(pair, velocity1=[[1.0, 0.0, -2.0]], normal=[0.0, 0.0, -1.0])
@@ -89,7 +87,6 @@ class Collisions(EqualByNumbers, After):
     __slots__ = ()
 
     def __repr__(self) -> str:
-        """Return in a few lines how many pairs there are, and what became of them."""
         counts = status_counts(self.status)
         if counts is None:  # what jax traces, or no arrays at all
             return tuple.__repr__(self)
@@ -97,7 +94,6 @@ class Collisions(EqualByNumbers, After):
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        """Return a table for a notebook."""
         counts = status_counts(self.status) or {}
         return card(_title(self), {status.message: f"{n:,}" for status, n in counts.items()})
 
@@ -213,7 +209,6 @@ class Judgement(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.Judgement(1).message
     'not studied: materials, inertia, spin or contact size lie outside the study'
     """
@@ -236,7 +231,6 @@ class JudgedCollisions(EqualByNumbers, Judged):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="28.6 mm", material="steel")
     >>> pair = carom.Pair(ball, ball, friction=0.2)
     >>> after = carom.collide(
@@ -250,12 +244,10 @@ class JudgedCollisions(EqualByNumbers, Judged):
     __slots__ = ()
 
     def __repr__(self) -> str:
-        """Return in a few lines how many pairs there are, what became of them, what is known."""
         lines = [repr(Collisions._make(self[:5])), *map(": ".join, self._counted())]
         return "\n  ".join(lines)
 
     def _repr_html_(self) -> str:
-        """Return a table for a notebook."""
         return card("Judged collisions", dict(self._counted()))
 
     def _counted(self) -> list[tuple[str, str]]:

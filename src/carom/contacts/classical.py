@@ -18,7 +18,6 @@ class Obliquity(NamedTuple):
 
     Examples
     --------
-    >>> import carom
     >>> carom.classical.Obliquity(force=0.1974, displacement=0.2383).force
     0.1974
     """
@@ -54,7 +53,6 @@ def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: Arra
 
     Examples
     --------
-    >>> import carom
     >>> import numpy as np
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
@@ -97,7 +95,6 @@ def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Ar
 
     Examples
     --------
-    >>> import carom
     >>> import numpy as np
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
@@ -141,7 +138,6 @@ def critical_obliquity(pair: Pair) -> Obliquity:
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> round(carom.classical.critical_obliquity(pair).force, 4)

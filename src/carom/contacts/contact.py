@@ -28,7 +28,6 @@ class Contact(Printed):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=1.0)

@@ -7,15 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.contacts.contact import Contact
-from carom.dimensionless.fields import surface
-from carom.dimensionless.fields.peaks import (
-    TENSION,
-    VON_MISES,
-    Largest,
-    largest,
-    principal_stresses,
-    von_mises,
-)
+from carom.dimensionless.fields import peaks, surface
 from carom.dimensionless.fields.profile import borne
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 from carom.dimensionless.numerics.chebyshev import evaluate
@@ -44,10 +36,7 @@ Places = ArrayLike | None
 def surface_fields(
     contact: Contact, x: Places = None, y: Places = None, points: Places = None
 ) -> "xr.Dataset":
-    """Return tractions, zones, displacements and slip on a grid or at points of the surface.
-
-    Arguments, result and errors as `InContact.fields`.
-    """
+    """Return what `InContact.fields` does, of any contact."""
     reach = GRID_REACH * (contact.radius or contact.scales.radius)
     side = np.linspace(-reach, reach, GRID_POINTS)
     dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, points)
@@ -155,10 +144,7 @@ def _in_contact(contact: Contact, r: Array) -> NDArray[np.bool_]:
 def stress_dataset(
     contact: Contact, x: Places, z: Places, points: Places, body: str
 ) -> "xr.Dataset":
-    """Return the stress in one body, on a grid in the plane y = 0 or at points.
-
-    Arguments, result and errors are those of `InContact.stress`.
-    """
+    """Return what `InContact.stress` does, of any contact."""
     friction, poisson = _of_body(contact, body)
     reach = STRESS_REACH * (contact.radius or contact.scales.radius)
     top = BELOW_EDGE * contact.radius if contact._rim else 0.0
@@ -177,10 +163,10 @@ def stress_dataset(
         name: (dims, v.reshape(at.shape[:-1])) for name, v in _stress_columns(stress).items()
     }
     shallow = BELOW_EDGE if contact._rim else 0.0
-    mises = largest(VON_MISES, contact.profile, **of_body, shallow=shallow)
+    mises = peaks.largest(peaks.VON_MISES, contact.profile, **of_body, shallow=shallow)
     numbers = _entries(contact, "max_von_mises", mises)
     if not contact._rim:
-        tension = largest(TENSION, contact.profile, **of_body, deepest=0.0)
+        tension = peaks.largest(peaks.TENSION, contact.profile, **of_body, deepest=0.0)
         numbers |= _entries(contact, "max_tension", tension)
     return labelled_dataset(
         {**columns, **numbers, **contact.numbers(), "poisson": poisson},
@@ -190,15 +176,15 @@ def stress_dataset(
 
 
 def _stress_columns(stress: Array) -> dict[str, Array]:
-    principal = principal_stresses(stress)
+    principal = peaks.principal_stresses(stress)
     columns = {f"sigma_{name}": stress[:, i] for i, name in enumerate(COMPONENTS)}
     columns |= {f"principal_{i + 1}": principal[:, i] for i in range(3)}
-    columns["von_mises"] = von_mises(stress)
+    columns["von_mises"] = peaks.von_mises(stress)
     columns["max_shear"] = 0.5 * (principal[:, 0] - principal[:, 2])
     return columns
 
 
-def _entries(contact: Contact, name: str, peak: Largest) -> dict[str, float]:
+def _entries(contact: Contact, name: str, peak: peaks.Largest) -> dict[str, float]:
     place = {f"{name}_{c}": getattr(peak, c) * contact.scales.radius for c in "xyz"}
     return {name: peak.value * contact.scales.pressure, **place}
 

@@ -101,9 +101,6 @@ class InContact(ABC):
         >>> patch = hit.fields(0.6 * hit.duration)
         >>> sorted({int(zone) for zone in patch.zone.values.flat})  # outside, stick, slip
         [0, 1, 2]
-        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
-        >>> round(float(path.fields(points=[[0.0, 0.0]]).pressure[0]) / 1e9, 2)  # in GPa
-        1.01
         """
         return surface_fields(self.contact(at), x, y, points)
 

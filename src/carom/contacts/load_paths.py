@@ -49,7 +49,6 @@ class LoadPath(InContact, Result):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> path = carom.load_path(pair, penetration=[1e-6, 2e-6], displacement=[0.0, 1e-7])
@@ -87,11 +86,9 @@ class LoadPath(InContact, Result):
 
         Parameters
         ----------
-        normal_force, penetration, tangential_force, displacement : array_like, float or str
+        normal_force, penetration, tangential_force, displacement, progress : optional
             As in `load_path`, from the end of this path. If one part has two directions, values
             of one direction are taken along x.
-        progress : bool or callable, optional
-            As in `load_path`.
 
         Returns
         -------
@@ -149,7 +146,6 @@ class LoadPath(InContact, Result):
         return "\n".join([f"Load path of {len(self)} steps", *aligned(self._rows())])
 
     def _repr_html_(self) -> str:
-        """Return a table and a picture for a notebook."""
         figure = self.plot() if len(self) > 1 else None
         return card(f"Load path of {len(self)} steps", self._rows(), figure)
 
@@ -157,14 +153,10 @@ class LoadPath(InContact, Result):
         return plots.plot_cone(dataset, **look)
 
     def to_dataset(self) -> xr.Dataset:
-        """Return the path as a dataset along `step`, which `carom.save` can store.
+        """Return the path as a dataset along `step`, and `direction` if there are two.
 
-        Returns
-        -------
-        xarray.Dataset
-            Along `step`, and `direction` if there are two: penetration, displacement,
-            contact_radius and stick_radius in m, normal_force and tangential_force in N,
-            frictional_work and tangential_elastic_energy in J; and friction as a number.
+        It has penetration, displacement, contact_radius and stick_radius in m, normal_force and
+        tangential_force in N, frictional_work and tangential_elastic_energy in J, and friction.
         """
         count = {"units": "1", "long_name": "step of the load path"}
         columns = {name: getattr(self, name) for name in PATH_COLUMNS}
@@ -251,16 +243,11 @@ def load_path(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> loop = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5, -1.5, 1.5])
     >>> (loop.stick_radius / loop.contact_radius).round(4)
     array([1.  , 0.63, 0.63, 0.63])
-    >>> bend = carom.load_path(pair, normal_force="10 N", tangential_force=[[1.5, 0], [0, 1.5]])
-    >>> bend.displacement.round(9)
-    array([[1.72e-07, 0.00e+00],
-           [4.00e-08, 1.43e-07]])
     """
     with_friction(pair, "a load path needs friction, or there is no tangential force")
     steps = read_steps(pair, normal_force, penetration, tangential_force, displacement)

@@ -22,11 +22,7 @@ BEYOND = "its forces are too large or small for floating point; check the units"
 
 
 class Steps(NamedTuple):
-    """Steps of a path: penetrations in m with the normal forces in N, and what moves it sideways.
-
-    Targets are displacements in m or, by force, forces in N, of shape (n,) or, in two directions,
-    (n, 2).
-    """
+    """Steps of a path: penetrations in m, normal forces in N, targets (n,) or (n, 2) in m or N."""
 
     penetration: Array
     normal_force: Array
@@ -34,7 +30,6 @@ class Steps(NamedTuple):
     by_force: NDArray[np.bool_]
 
     def followed_by(self, more: "Steps") -> "Steps":
-        """Return these steps and then more of them."""
         targets = [self.target, more.target]
         if self.target.ndim != more.target.ndim:  # what had one direction goes along x
             targets = [t if t.ndim == 2 else t[:, None] * [1.0, 0.0] for t in targets]
@@ -43,7 +38,6 @@ class Steps(NamedTuple):
         return Steps(*columns)
 
     def first(self, n: int) -> "Steps":
-        """Return the first n steps."""
         columns: list[Any] = [column[:n] for column in self]
         return Steps(*columns)
 
@@ -101,9 +95,8 @@ def _directions_last(control: Control, first: bool = False) -> Control:
 def _one_of(most: int, **controls: Control) -> tuple[str, Array]:
     chosen = {name: value for name, value in controls.items() if value is not None}
     if len(chosen) != 1:
-        raise InputError(
-            f"load path: give {' or '.join(controls)}, {'not both' if chosen else 'one of them'}"
-        )
+        which = "not both" if chosen else "one of them"
+        raise InputError(f"load path: give {' or '.join(controls)}, {which}")
     name, value = next(iter(chosen.items()))
     return name, _values(name, value, most)
 
@@ -141,9 +134,8 @@ def followed(
         if refused != paths.INSIDE:
             raise _refused(steps, refused, pair.friction)
         energy = scales.tangential_force * scales.tangential_length
-        moved, force = steps.as_given(
-            moved * scales.tangential_length, force * scales.tangential_force
-        )
+        units = scales.tangential_length, scales.tangential_force
+        moved, force = steps.as_given(moved * units[0], force * units[1])
         columns = {
             "displacement": moved,
             "normal_force": steps.normal_force,

@@ -96,7 +96,6 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="2.5 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.092)
     >>> known = {"speed": 3.9, "angle": ["20 deg", "40 deg"], "tangential_restitution": [0.6, 0.78]}

@@ -16,16 +16,10 @@ if TYPE_CHECKING:
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of the measured datasets.
-
-    Returns
-    -------
-    tuple of str
-        Names that `path`, `table` and `load` accept.
+    """Return the names of the measured datasets, which `path`, `table` and `load` accept.
 
     Examples
     --------
-    >>> import carom
     >>> carom.datasets.names()
     ('foerster1994', 'kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
     """
@@ -52,7 +46,6 @@ def path(name: str) -> Path:
 
     Examples
     --------
-    >>> import carom
     >>> carom.datasets.path("kharaz2001").name
     'kharaz2001.csv'
     """
@@ -80,7 +73,6 @@ def table(name: str) -> UserTable:
 
     Examples
     --------
-    >>> import carom
     >>> measured = carom.datasets.table("kharaz2001")
     >>> measured["spin_out"][8:10].round(1), measured["rebound_angle"][8:10]
     (array([-136.2, -265.7]), array([nan, nan]))
@@ -114,7 +106,6 @@ def load(name: str) -> "xr.Dataset":
 
     Examples
     --------
-    >>> import carom
     >>> data = carom.datasets.load("kharaz2001")
     >>> data.spin_out.units, int(data.spin_out.notnull().sum()), data.doi
     ('rad/s', 7, '10.1016/S0032-5910(01)00283-2')
@@ -158,18 +149,13 @@ def parameters() -> "xr.Dataset":
 
     These are the three parameters of Walton's law. The exact law has the same mu, but there beta_0,
     which is -V_x'/V_x of a contact point that sticks, follows from the elastic constants. All
-    values depend on surfaces, size and speed, so use them as first estimates.
-
-    Returns
-    -------
-    xarray.Dataset
-        Along `pair`: `normal_restitution`, `friction` and `beta_0`, each also with `_error` as the
-        authors state it; `diameter` in m and `density` in kg/m^3 of the sphere, NaN if not stated;
-        and the texts `body`, `other`, `shape` (sphere or plane) and `reference`.
+    values depend on surfaces, size and speed, so use them as first estimates. Along `pair` the
+    dataset has `normal_restitution`, `friction` and `beta_0`, each also with `_error` as the
+    authors state it; `diameter` in m and `density` in kg/m^3 of the sphere, NaN if not stated; and
+    the texts `body`, `other`, `shape` (sphere or plane) and `reference`.
 
     Examples
     --------
-    >>> import carom
     >>> data = carom.datasets.parameters()
     >>> glass = data.isel(pair=(data.body == "soda-lime glass") & (data.other == "aluminium"))
     >>> glass.friction.item(), glass.friction_error.item(), glass.reference.item()[:16]

@@ -42,11 +42,7 @@ ERROR = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 /
 
 
 class Mode(NamedTuple):
-    """What does not change within a step.
-
-    `slip` is 0 in stick, else the sign of the slip; `branch` that of an incremental law, `peak` the
-    largest penetration.
-    """
+    """What is constant in a step: sign of `slip`, branch, loading, and the largest penetration."""
 
     slip: int
     branch: int
@@ -188,10 +184,7 @@ def leaves_limit(law: Coefficients, mode: Mode, y: Array, f: float) -> bool:
 def until_event(
     law: Coefficients, mode: Mode, chatters: bool, h: float, y: Array, work: Array
 ) -> int:
-    """Return what happens first in a step of this length; the state just after it is in work[7].
-
-    Of a law that chatters it is what has happened by the end of the step.
-    """
+    """Return what ends a step, the state then in work[7]; a law that chatters goes to its end."""
     pushing = forces.normal_force(law, mode.peak, mode.loading, y[B], y[V]) > 0.0
     what = event(law, mode, pushing, work[7])
     if what == NOTHING or chatters:

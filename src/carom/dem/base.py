@@ -35,7 +35,6 @@ class LawStatus(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.LawStatus(2).message
     'chi must be positive and finite'
     """
@@ -266,12 +265,8 @@ class ContactLaw(Law):
 
         Parameters
         ----------
-        psi_1 : float
-            Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
-        chi : float
-            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
-        kappa : float, optional
-            Stiffness ratio G*/E*, by default that of solid spheres, 4 chi/7.
+        psi_1, chi, kappa : float
+            As in `rebound`.
         steps : int
             Number of equal time steps in the duration of Hertz's contact, from 4 to a million.
 

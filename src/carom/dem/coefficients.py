@@ -102,10 +102,7 @@ FIRST, BACK, AGAIN = 0, 1, 2  # first loading, unloading, reloading
 
 @kernel
 def softening(shear: int, branch: int, t: float, f: float, upper: float, lower: float) -> float:
-    """Return theta, the part of the full stiffness that is left, from 1 to 0.
-
-    Turning points: `upper` where unloading began, `lower` where reloading began.
-    """
+    """Return theta, 1 to 0, of the stiffness; unloading began at `upper`, reloading at `lower`."""
     if shear == Shear.MINDLIN_DERESIEWICZ.value:
         if branch == FIRST:
             part = t / f

@@ -27,10 +27,7 @@ def damping_ratio(restitution: float) -> float:
 
 
 def tsuji_damping(restitution: float) -> float:
-    """Return alpha of Tsuji, Tanaka & Ishida (1992), whose damping is alpha sqrt(m_n F_n/d) v.
-
-    A polynomial fit, given in the documentation of LAMMPS, pair_style granular.
-    """
+    """Return alpha of Tsuji, Tanaka & Ishida (1992), a polynomial of LAMMPS's documentation."""
     coefficients = (1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218)
     return sum(value * restitution**power for power, value in enumerate(coefficients))
 

@@ -22,7 +22,6 @@ from carom.quantities.refusals import InputError, checked_type, clipped, one_of,
 from carom.quantities.units import bears_unit, number, positive
 
 DEFAULT_STEPS = 2000
-Force = Callable[[Any, Any], tuple[float, Any]]
 FORCE, REBOUND = "def law(contact, state)", "def rebound(psi, chi)"
 NORMAL = ("hertz", "linear")  # how the elastic part of the normal force grows
 
@@ -38,24 +37,16 @@ class ContactStep(NamedTuple):
 
     Parameters
     ----------
-    overlap : float
-        d in m.
-    normal_velocity : float
-        In m/s, positive while the bodies approach.
+    overlap, normal_velocity : float
+        d in m; in m/s, positive while the bodies approach.
     normal_force : float
         F_n in N, damping included; negative where it pulls.
-    tangential_velocity : float
-        V_x in m/s.
-    time_step : float
-        In s.
-    contact_radius : float
-        a = sqrt(R* d) in m.
+    tangential_velocity, time_step, contact_radius : float
+        V_x in m/s; in s; a = sqrt(R* d) in m.
     normal_stiffness, tangential_stiffness : float
         k_n and k_t in N/m.
-    friction : float
-        Coefficient mu.
-    effective_radius : float
-        R* in m.
+    friction, effective_radius : float
+        Coefficient mu; R* in m.
     effective_modulus, effective_shear_modulus : float
         E* and G* in Pa.
     normal_mass, tangential_mass : float
@@ -63,7 +54,6 @@ class ContactStep(NamedTuple):
 
     Examples
     --------
-    >>> import carom
     >>> def spring(contact, stretch):
     ...     stretch = stretch + contact.tangential_velocity * contact.time_step
     ...     return -contact.tangential_stiffness * stretch, stretch
@@ -96,10 +86,7 @@ class Fault(Exception):
 
 
 class Bodies(NamedTuple):
-    """Two bodies at one normal speed with the chi and kappa of an impact, in SI units.
-
-    G* and m_t follow from chi and kappa; `constants` are those of a ContactStep from `friction` on.
-    """
+    """Two bodies in SI units; chi and kappa set G* and m_t, `constants` those of a ContactStep."""
 
     constants: tuple[float, float, float, float, float, float]
     speed: float
@@ -130,11 +117,7 @@ def stepped_by(
     steps: int,
     record: Array,
 ) -> tuple[int, float]:
-    """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part.
-
-    The steps are those of DEM codes, velocity Verlet, as in `stepping`; nothing is compiled. The
-    record is in the units of Hertz's impact, its tangential force positive against V_x > 0.
-    """
+    """Return filled rows and psi_2 by Verlet, as `stepping.stepped`; -1 if bodies do not part."""
     friction, radius, modulus, _, m_n, m_t = bodies.constants
     unit, limit = friction * bodies.speed / bodies.kappa, friction * bodies.force
     whole = bodies.length / bodies.speed  # unit of time
@@ -243,7 +226,6 @@ class FunctionLaw(ByFunction, ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> def sliding(contact, state):
     ...     sign = 1.0 if contact.tangential_velocity > 0.0 else -1.0
     ...     return -sign * contact.friction * contact.normal_force, state
@@ -346,7 +328,6 @@ class FunctionRebound(ByFunction):
 
     Examples
     --------
-    >>> import carom
     >>> def hard_sphere(psi, chi):
     ...     return max(-0.4 * psi, psi - 4.0 * chi) if psi > 0.0 else -hard_sphere(-psi, chi)
     >>> carom.dem.FunctionRebound(hard_sphere).rebound([1.0, 10.0], 1.5)

@@ -27,7 +27,6 @@ class HardSphere(Law):
 
     Examples
     --------
-    >>> import carom
     >>> carom.dem.HardSphere(0.4).rebound([1.0, 10.0], 1.5)
     array([-0.4,  4. ])
     """

@@ -26,11 +26,7 @@ MOST_LEVELS = 64
 
 
 class Now(NamedTuple):
-    """What all springs share at the end of a step.
-
-    `rises` is what d has grown by, `depth` D; of what springs let go are pressed and deflected by,
-    the parts `fade` and `faded` are gone after the step.
-    """
+    """What springs share: `rises` of d, `depth` D, and the parts gone in, and after, the step."""
 
     d: float
     rises: float
@@ -107,10 +103,7 @@ def length(x: float, y: float, most: float) -> float:
 
 @kernel
 def to_right(q: float, r: float, x: float, y: float) -> float:
-    """Return how far (q, r) reaches to the right of (x, y), in lengths of it.
-
-    A cut turns springs too little, by half of what it takes of this.
-    """
+    """Return how far (q, r) is right of (x, y), in its lengths; a cut turns by half too little."""
     square = x * x + y * y
     return (q * y - r * x) / square if square > 0.0 else 0.0
 
@@ -172,9 +165,7 @@ def move(memory: Array, springs: int, now: Now, moved: tuple[float, float]) -> N
 def pull(memory: Array, springs: int, now: Now, drag: tuple[float, float]) -> tuple[float, float]:
     """Return the integrals of what springs and dashpots bear, up to the edge.
 
-    They are sums over springs. Beyond the last one q is linear in s, and there the sum is
-    corrected by -h^2/12 dq/dx (Euler & Maclaurin), with the slope from the spring before to the
-    edge.
+    Sums over springs; beyond the last q is linear in s: -h^2/12 dq/dx (Euler & Maclaurin).
     """
     if now.edge <= 0.0:
         return 0.0, 0.0
@@ -210,10 +201,7 @@ def step(
     shear_alpha: float,
     load: Vector,
 ) -> None:
-    """Bring a contact to the end of a step; write the normal force and both tangential ones.
-
-    `motion` holds the velocities in the middle of the step: of approach, along and across.
-    """
+    """Step a contact; write its three forces. `motion` has velocities of the middle of the step."""
     load[:] = 0.0
     if d <= 0.0:
         memory[:] = 0.0

@@ -47,7 +47,6 @@ class ExactContactLaw(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> law = carom.dem.ExactContactLaw(springs=16)
     >>> round(law.rebound(1.5, 1.4412, steps=200), 3), round(carom.rebound(1.5, 1.4412), 3)
     (-0.428, -0.428)

@@ -9,15 +9,9 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import ClassVar
 
+from carom.dem import damping as damped
 from carom.dem.base import ContactLaw
 from carom.dem.coefficients import MINDLIN, SPRING, Coefficients, Shear, hertzian, linear
-from carom.dem.damping import (
-    COEFF_RESTITUTION,
-    RULES,
-    damping_ratio,
-    hertz_damping,
-    thornton_damping,
-)
 from carom.quantities.refusals import one_of
 
 KEPT = {  # powers n, while the contact grows and while it shrinks
@@ -52,7 +46,6 @@ class LammpsMindlin(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.dem.LammpsMindlin("mindlin_rescale").rebound(0.75, 1.4412), 3)
     0.441
     """
@@ -63,17 +56,17 @@ class LammpsMindlin(ContactLaw):
     variant: str = "mindlin"
     stiffness: float = 1.0
     restitution: float = 1.0
-    damping: str = COEFF_RESTITUTION
+    damping: str = damped.COEFF_RESTITUTION
     tangential_damping: float = 0.0
 
     def __post_init__(self) -> None:
         one_of("variant", self.variant, KEPT)
-        one_of("damping", self.damping, RULES)
+        one_of("damping", self.damping, damped.RULES)
         super().__post_init__()
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
         loading, unloading = KEPT[self.variant]
-        damping = hertz_damping(self.restitution, self.damping)
+        damping = damped.hertz_damping(self.restitution, self.damping)
         return hertzian(
             chi,
             damping,
@@ -100,7 +93,6 @@ class LiggghtsHertz(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> elastic = carom.dem.LammpsMindlin("mindlin").rebound(0.75, 1.4412)
     >>> carom.dem.LiggghtsHertz().rebound(0.75, 1.4412) == elastic
     True
@@ -112,7 +104,7 @@ class LiggghtsHertz(ContactLaw):
     restitution: float = 1.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        damping = hertz_damping(self.restitution)
+        damping = damped.hertz_damping(self.restitution)
         return hertzian(
             chi,
             damping,
@@ -135,7 +127,6 @@ class EdemHertzMindlin(LiggghtsHertz):
 
     Examples
     --------
-    >>> import carom
     >>> laws = carom.dem.EdemHertzMindlin(restitution=0.9), carom.dem.LiggghtsHertz(restitution=0.9)
     >>> [round(law.rebound(2.0, 1.4412), 3) for law in laws]
     [-0.451, -0.416]
@@ -165,7 +156,6 @@ class YadeMindlin(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> elastic = carom.dem.LammpsMindlin("mindlin/force").rebound(0.75, 1.4412)
     >>> carom.dem.YadeMindlin().rebound(0.75, 1.4412) == elastic
     True
@@ -177,7 +167,7 @@ class YadeMindlin(ContactLaw):
     restitution: float = 1.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        damping = 2.0 * sqrt(SPRING * MINDLIN) * thornton_damping(self.restitution)
+        damping = 2.0 * sqrt(SPRING * MINDLIN) * damped.thornton_damping(self.restitution)
         return hertzian(
             chi, damping, pulls=False, shear_damping=damping * kappa**-0.5, limits_damping=False
         )
@@ -199,7 +189,6 @@ class LinearSpring(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.dem.LinearSpring(2 / 7).rebound(3.0, 1.4412), 3)  # the default of many codes
     -2.765
     """
@@ -212,7 +201,7 @@ class LinearSpring(ContactLaw):
     tangential_damping: float = 0.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        damping = 2.0 * SPRING * damping_ratio(self.restitution)
+        damping = 2.0 * SPRING * damped.damping_ratio(self.restitution)
         shear_damping = self.tangential_damping * damping / kappa
         return linear(
             chi, kappa, self.stiffness_ratio, normal_damping=damping, shear_damping=shear_damping
@@ -235,7 +224,6 @@ class HertzLinearHistory(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.dem.HertzLinearHistory(0.8).rebound(0.75, 1.4412), 3)
     0.337
     """
@@ -248,7 +236,7 @@ class HertzLinearHistory(ContactLaw):
     tangential_damping: float = 0.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        damping = hertz_damping(self.restitution)
+        damping = damped.hertz_damping(self.restitution)
         return hertzian(
             chi,
             damping,
@@ -266,7 +254,6 @@ class BilinearLaw(ContactLaw):
     restitution: float = 1.0
 
     def _coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         return linear(chi, kappa, self.stiffness_ratio, unloading=self.restitution**-2)
 
 
@@ -286,7 +273,6 @@ class StrongeLaw(BilinearLaw):
 
     Examples
     --------
-    >>> import carom
     >>> carom.dem.StrongeLaw().rebound(1.0, 1.44) == carom.dem.LinearSpring().rebound(1.0, 1.44)
     True
     """
@@ -311,7 +297,6 @@ class ThorntonLaw(ContactLaw):
 
     Examples
     --------
-    >>> import carom
     >>> law = carom.dem.ThorntonLaw()
     >>> round(law.rebound(0.75, 1.4412), 3), round(carom.rebound(0.75, 1.4412), 3)
     (0.178, 0.014)
@@ -340,7 +325,6 @@ class WaltonBraunLaw(BilinearLaw):
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.dem.WaltonBraunLaw().rebound(0.75, 1.4412), 3)
     -0.078
     """

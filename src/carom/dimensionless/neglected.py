@@ -71,10 +71,7 @@ def spin_error(chi: float, psi: Any, spin: Any) -> Any:
 
 
 def beyond_sliding(chi: Any, psi: Any) -> Any:
-    """Return what psi exceeds the border of sliding throughout by, as far as that was studied.
-
-    Farther out slip is along the motion ever more, and differences fall, if slowly.
-    """
+    """Return psi less the border of sliding as far as studied: slip farther out is along x."""
     return np.clip(psi - np.maximum(4.0 * chi - 1.0, 1.0), 0.0, FARTHEST_BEYOND)
 
 

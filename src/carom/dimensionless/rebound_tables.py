@@ -17,18 +17,11 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
 from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
+from carom.dimensionless.numerics import patches
 from carom.dimensionless.numerics.arrays import Array, Counts, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.dimensionless.numerics.patches import (
-    NARROWEST,
-    Patches,
-    Samples,
-    contract,
-    fitted,
-    leaf_at,
-    sections,
-)
+from carom.dimensionless.numerics.patches import Patches, Samples, sections
 from carom.dimensionless.rebounds import lossy_rebounds, regime_borders, solved
 from carom.quantities.refusals import refusal
 
@@ -69,10 +62,7 @@ def fill(
     kept: Counts,
     psi_out: Matrix,
 ) -> None:
-    """Write psi_2 of rows of impacts, each row with its chi and e.
-
-    `sections` keeps series of leaves at the chi and e of a row, `kept` which these are.
-    """
+    """Write psi_2 of rows of impacts; `sections` holds series of the leaves `kept` for a row."""
     last = table.terms.size - 1
     terms, leaves = table.terms[last], table.series.shape[0]
     for row in range(psi.shape[0]):
@@ -87,10 +77,10 @@ def fill(
             place = place_of(size, chi[row], restitution[row])
             if place < 3.0:
                 point[last] = place
-                leaf = leaf_at(table, point)
+                leaf = patches.leaf_at(table, point)
                 slot, key = leaf % kept.size, row * leaves + leaf
                 if kept[slot] != key:
-                    contract(table, leaf, point, sections[slot])
+                    patches.contract(table, leaf, point, sections[slot])
                     kept[slot] = key
                 low, high = table.corners[leaf, last, 0], table.corners[leaf, last, 1]
                 ratio = evaluate(sections[slot, :terms], low, high, max(place, low))
@@ -99,10 +89,7 @@ def fill(
 
 
 def psi_out(table: Patches, psi: Array, chi: Array, restitution: Array) -> Array:
-    """Return psi_2 of shape (rows, impacts), from psi_1 of that shape, chi and e of shape (rows,).
-
-    The table must have a range of chi or e, and hold both. |psi_2| <= |psi_1|; psi_2 is odd.
-    """
+    """Return psi_2 (rows, impacts) from psi_1, and chi and e of rows, within the table's range."""
     leaves, size = table.series.shape
     slots = leaves if psi.shape[1] > 1 else 1
     room = np.empty(table.terms.size), np.empty((slots, size)), np.full(slots, -1, dtype=np.int64)
@@ -113,10 +100,7 @@ def psi_out(table: Patches, psi: Array, chi: Array, restitution: Array) -> Array
 
 
 def panels(table: Patches, chi: float, restitution: float) -> tuple[Array, Array]:
-    """Return the table at one chi and e: ends of panels in psi_1, and series of psi_2/psi_1.
-
-    Their shapes are (n + 1,) and (n, terms).
-    """
+    """Return panels in psi_1, (n + 1,), and series of psi_2/psi_1, (n, terms), at one chi and e."""
     places, series = sections(table, *(chi, restitution)[: table.terms.size - 1])
     if table.terms.size == 1:
         return places, series
@@ -164,24 +148,21 @@ def tabulated(
         advance(psi.size)
         return Samples(outgoing / psi, psi * weight(each_chi), branches)
 
-    return fitted(
+    return patches.fitted(
         ratio,
         [*(ranges[i] for i in wide), places],
         [*(degrees[i] for i in wide), degrees[-1]],
         tolerance,
         cuts=cuts,
         singular=1.0,
-        narrowest=NARROWEST if elastic else NARROW,
+        narrowest=patches.NARROWEST if elastic else NARROW,
     )
 
 
 def _rebounds(
     psi: Array, chi: Array, restitution: Array, tolerance: float, give: float
 ) -> tuple[Array, NDArray[np.int64]]:
-    """Return psi_2 and the branch of each impact: its phases, or one for all with losses.
-
-    With losses kinks are weak. Raises InputError where an impact is not solved.
-    """
+    """Return psi_2 and branches, the phases; one with losses, whose kinks are weak. May raise."""
     if give > 0.0 or np.all(restitution == 1.0):
         outgoing, status, branches = solved(psi, chi, give=give)
     else:
@@ -211,3 +192,20 @@ def stored() -> Patches:
     with files("carom").joinpath(STORED).open("rb") as stream, np.load(stream) as arrays:
         parts = (arrays[name] for name in Patches._fields)
         return Patches(*(part.astype(f"{part.dtype.kind}8") for part in parts))
+
+
+def is_whole(
+    chi: float, restitution: float, edges: Array, rows: Array, terms: int, plate: bool
+) -> bool:
+    """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
+    first = SMALLEST if restitution == 1.0 or plate else SMALLEST_LOSSY
+    last, sliding = regime_borders(chi, restitution)[-1], 2.0 * chi * (1.0 + restitution)
+    if rows.shape != (edges.size - 1, terms) or edges.ndim != 1:
+        return False
+    if not np.all(np.isfinite(edges)) or [edges[0], edges[-1]] != [first, last]:
+        return False
+    places = edges[1:]
+    starts = rows @ (-1.0) ** np.arange(rows.shape[1])
+    after = np.append(starts[1:], 1.0 - sliding / places[-1])
+    gaps = np.abs(rows.sum(axis=1) - after) * places
+    return bool(np.all(np.diff(edges) > 0.0) and np.all(gaps < 1e-8))

@@ -101,10 +101,7 @@ def fill_motion(give: Vector, tolerance: float, work: Work, numbers: Matrix) -> 
 def solved(
     psi_1: Array, chi: Array, threads: int | None = None, give: Array | float = 0.0
 ) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
-    """Return psi_2, `Status` and a number for the sequence of phases of impacts, in threads.
-
-    `give` is lambda of a plate.
-    """
+    """Return psi_2, `Status` and code of phases of impacts, in threads; `give` is of a plate."""
     gives = np.broadcast_to(np.asarray(give, dtype=np.float64), psi_1.shape).copy()
     psi_2, status = np.empty(psi_1.size), np.empty(psi_1.size, dtype=np.int8)
     sequence = np.empty(psi_1.size, dtype=np.int64)
@@ -139,10 +136,7 @@ def lossy_rebounds(
     threads: int | None = None,
     tolerance: float = viscoelastic.TOLERANCE,
 ) -> LossyRebounds:
-    """Return what impacts with losses come to, psi_1 and chi of one length, in threads.
-
-    NaN where the status is not SOLVED.
-    """
+    """Return what impacts with losses come to, in threads; NaN where the status is not SOLVED."""
     parameter, extra = (np.broadcast_to(x, psi_1.shape) for x in losses[1:])
     elastic = is_elastic(losses.loss, parameter, extra)
     numbers, status = np.ones((psi_1.size, layout.NUMBERS)), np.zeros(psi_1.size, dtype=np.int8)
@@ -221,9 +215,6 @@ def rebound(
 
     Examples
     --------
-    >>> import carom
-    >>> round(carom.rebound(0.5, 1.44), 10)
-    0.0471310838
     >>> carom.rebound([0.5, 1.5, 3.5, 6.0], 1.44).round(6)
     array([ 0.047131, -0.429967, -1.477247,  0.24    ])
     >>> carom.rebound([0.5, 6.0], 1.44, losses=carom.KelvinVoigt(restitution=0.9)).round(6)
@@ -268,9 +259,8 @@ def answered(
 ) -> Any:
     """Return psi_2 of impacts whose arguments broadcast, and the status of each if asked for.
 
-    `solve` takes flat arrays and returns psi_2, a status, zero where an impact is solved, and the
-    reason of the first that is not, "" if its status of this `kind` says it. Of such impacts there
-    is one warning, unless the status is asked for.
+    `solve` takes flat arrays and returns psi_2, a status, zero where solved, and the first reason,
+    "" if its status of this `kind` says it; of that there is one warning, unless status is asked.
     """
     along_the_same(**arguments)
     numbers = {name: pure_numbers(name, values) for name, values in arguments.items()}

@@ -45,12 +45,9 @@ class Solution(Trajectory):
 
     Examples
     --------
-    >>> import carom
     >>> s = carom.solve(0.5, 1.44)
     >>> round(s.psi_out, 10)
     0.0471310838
-    >>> [(phase.kind, phase.sign) for phase in s.phases]
-    [('stick', 0), ('slip', -1), ('gross slip', -1)]
     >>> s.history(5).psi.round(4)
     array([ 0.5   ,  0.2069, -0.3927, -0.2166,  0.0471])
     """
@@ -73,11 +70,7 @@ class Solution(Trajectory):
 
     @property
     def _scale(self) -> float:
-        """Factor between the recorded impact and this one, which is 1 or -1 unless psi_1 is tiny.
-
-        The impact is recorded at |psi_1|, and at 1e-6 if that is smaller, because all tangential
-        quantities are proportional to psi_1 below 1e-6.
-        """
+        """Factor to the recorded impact, 1 or -1; below 1e-6 all is proportional to psi_1."""
         return float(np.copysign(min(1.0, abs(self.psi_in) / LINEAR_PSI), self.psi_in))
 
     def at(self, time: ArrayLike) -> History:
@@ -182,10 +175,8 @@ class Solution(Trajectory):
 
         Parameters
         ----------
-        at : float
-            Time in units of d_max/V_1, from 0 to `duration`.
-        radii : array_like, shape (n,)
-            Distances from the centre in units of sqrt(R* d_max).
+        at, radii : float, array_like
+            As in `traction`.
 
         Returns
         -------
@@ -297,7 +288,6 @@ def solve(
 
     Examples
     --------
-    >>> import carom
     >>> for phase in carom.solve(1.5, 1.44).phases:
     ...     print(f"{phase.kind:10s} {phase.sign:+d} until {phase.end:.4f}: {phase.cause}")
     gross slip +1 until 0.7958: slip stops

@@ -22,10 +22,7 @@ KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross sl
 
 
 class Phase(NamedTuple):
-    """A phase: its kind, sign of slip (0 in stick), start and end, and the cause of the end.
-
-    Times are in d_max/V_1 in a `Solution`, in s in an `Impact`.
-    """
+    """A phase: kind, sign of slip (0 in stick), start and end in d_max/V_1 or s, cause of end."""
 
     kind: str
     sign: int
@@ -137,10 +134,7 @@ class Trajectory(Printed, ABC):
         """Return the contact at a time within the impact."""
 
     def contact_at(self, time: float) -> ContactState:
-        """Return the contact at a time in d_max/V_1: its radius, tractions and slip.
-
-        Raises InputError if the time is outside the contact, or the impact is not solved.
-        """
+        """Return radius, tractions and slip at a time in d_max/V_1, or raise InputError."""
         return self._contact_at(self._time_within(time))
 
     @abstractmethod
@@ -148,10 +142,7 @@ class Trajectory(Printed, ABC):
         """Return when the edge of the contact first passed radii that it reaches."""
 
     def touched(self, radii: ArrayLike) -> Array:
-        """Return the times in d_max/V_1 at which the edge of the growing contact passed radii.
-
-        Radii are in sqrt(R* d_max). Raises InputError for one that the contact never reaches.
-        """
+        """Return times in d_max/V_1 at which the edge first passed radii; InputError if never."""
         places = places_of(radii)
         allowed = f"the largest radius of the contact is {self.max_radius:.6g}"
         refuse_where("radii", places, places > self.max_radius, allowed)

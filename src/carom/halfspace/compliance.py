@@ -31,12 +31,6 @@ def influence(x: Field, y: Field) -> Influence:
     """Return the influence of the unit element at points none of which lies on a line of corners.
 
     The sum of `xx` and `yy` is the integral of 1/r, the normal influence of a normal load.
-
-    >>> import numpy as np
-    >>> from carom.halfspace.compliance import influence
-    >>> at_centre = influence(np.array(0.0), np.array(0.0))
-    >>> round(float(at_centre.xx + at_centre.yy), 6)  # 4 asinh 1
-    3.525494
     """
     return Influence(
         _over_corners(_xx, x, y),
@@ -68,10 +62,7 @@ def _x(x: Field, y: Field) -> Field:
 
 
 class Materials(NamedTuple):
-    """What the materials of both bodies enter with.
-
-    `kappa` is G*/E*, `beta` Dundurs' second parameter, `friction` the coefficient of friction.
-    """
+    """What the materials of both bodies enter with: G*/E*, Dundurs' beta, and the friction."""
 
     kappa: float
     beta: float = 0.0
@@ -124,11 +115,9 @@ class Compliance:
         return self.materials.beta != 0.0
 
     def normal(self, pressure: Field) -> Field:
-        """Return the normal displacement under a pressure alone."""
         return self.padded.backward(self._normal * self.padded.forward(pressure))
 
     def tangential(self, traction: Field) -> Field:
-        """Return the tangential displacement, along (x, y), under a traction alone."""
         return self._tangential.applied(self.padded, traction)
 
     def normal_of_traction(self, traction: Field) -> Field:
@@ -186,7 +175,6 @@ class _Tensor(NamedTuple):
         return _Tensor(along, across, -self.to_even / determinant, -self.to_odd / determinant)
 
     def applied(self, transform: Transform, field: Field) -> Field:
-        """Return a field of two components, convolved."""
         even, odd = transform.forward(field[0]), transform.forward(field[1], odd=True)
         along, across = self.along * even, self.across * odd
         along[transform.even] += self.to_even * odd[transform.odd]
@@ -203,10 +191,7 @@ def _used(kernel: Field) -> Field:
 
 
 def _periodic(kernel: Field) -> Field:
-    """Return the nearest kernel of half the period (T. Chan 1988, SIAM J. Sci. Stat.
-
-    Comput. 9:766), whose spectrum is positive wherever the convolution itself is.
-    """
+    """Return the kernel of half the period that is nearest, and positive (T. Chan 1988)."""
     size = len(kernel) // 2
     fade = np.maximum(1.0 - np.abs(np.fft.fftfreq(2 * size, 1.0 / (2 * size))) / size, 0.0)
     faded = kernel * fade[:, None] * fade

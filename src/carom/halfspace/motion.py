@@ -20,11 +20,7 @@ FROM_TOUCH = 2.0 / 3.0  # of its end, a traction that grows from zero as a squar
 
 
 class BodyMotion(NamedTuple):
-    """The bodies at an instant.
-
-    Velocities along x and y are psi/kappa, in friction V_1, that of the turn is in friction
-    V_1/a_max.
-    """
+    """The bodies at an instant: psi/kappa along x, y in friction V_1, turn in that over a_max."""
 
     time: float
     approach: float  # velocity, d'
@@ -179,10 +175,7 @@ def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry[floa
 
 
 def _angles(pulled: Field, slid: Field) -> tuple[float, float]:
-    """Return mean and largest angle against x of what slips; zero where nothing does.
-
-    Slip is along the traction, whose direction is known better where slip is little.
-    """
+    """Return mean and largest angle of slip from x, along the traction, known better; else zero."""
     if not pulled.size:
         return 0.0, 0.0
     work = np.maximum(np.sum(slid * pulled, axis=0), 0.0)

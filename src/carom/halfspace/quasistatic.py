@@ -50,7 +50,6 @@ class ContactState(NamedTuple):
 
     @property
     def loads(self) -> tuple[Field, Field]:
-        """Pressure and traction."""
         return self.pressure, self.traction
 
 
@@ -107,10 +106,9 @@ class Patch:
     def advance(
         self, state: ContactState, depth: float, displacement: Field, length: float = 1.0
     ) -> ContactStep:
-        """Return the contact after the bodies have moved in a straight line.
+        """Return the contact after the bodies have moved in a straight line, to second order.
 
-        Second order in the step: elements stick from their own touch on, and traction is along the
-        slip at the end of the step. `length` is that of the step, in any unit.
+        Elements stick from their own touch on; traction is along the slip at the end of the step.
         """
         carried = self.grid.carried(displacement - state.displacement)
         followed, approach = carried + state.yielded, depth - state.depth
@@ -130,10 +128,7 @@ class Patch:
         return ContactStep(reached, balanced.moved, balanced.moved - balanced.turn)
 
     def _balance(self, asked: "_Asked", pressure: Field, traction: Field) -> "_Balance":
-        """Return normal and tangential contact and the direction of slip that agree.
-
-        They are solved in turns, each with the others' results, from loads to begin with.
-        """
+        """Return normal and tangential contact and slip direction, solved in turns."""
         surface, tolerances = self.compliance, self.tolerances
         turn, rough = np.zeros_like(traction), FIRST_TOLERANCE if surface.couples else 0.0
         for count in range(MOST_EXCHANGES):
@@ -209,10 +204,7 @@ def before_touch(gap: Field, carried: Field, approach: float, aside: Field) -> F
 
 
 def aside_of_bodies(closed: Field, moved: Field, carried: Field, approach: float) -> Field:
-    """Return the motion of the surfaces over the closing of their gap, less that of the bodies.
-
-    Where nothing closes it is zero. `moved` is the motion in a step, `closed` what the gap did.
-    """
+    """Return surfaces' motion over the closing of their gap, less the bodies'; 0 if none closes."""
     tells = closed > max(CLOSING * approach, 0.0)
     if approach <= 0.0 or not tells.any():
         return np.zeros_like(moved)
@@ -222,8 +214,7 @@ def aside_of_bodies(closed: Field, moved: Field, carried: Field, approach: float
 def turn_to_end(moved: Field, slips: Mask, last: Field, share: float) -> Field:
     """Return what of the slip in a step is not along its direction at the end of the step.
 
-    The slip of this step and of the `last` tell the direction in the middle of each; the end is
-    ahead of this middle by `share` of the time between them.
+    The slip of this step and the `last` tell directions in the middle; the end is `share` ahead.
     """
     middle, before = _unit(moved), _unit(last)
     end = _unit(middle + share * (middle - before))

@@ -42,11 +42,10 @@ STANDARD = Resolution()
 
 
 def refinement_error(quarter: float, half: float, whole: float) -> float:
-    """Return about the error of a number that was found on a whole grid, half and a quarter of it.
+    """Return about the error of a number, from grids that are whole, half and a quarter as fine.
 
-    The last change, as for an error of first order in the grid; more where changes fall by less
-    than that, less than half, by their geometric series; and at least three tenths of the change
-    before.
+    The last change, more where changes fall slowly, by their geometric series, and at least three
+    tenths of the change before.
     """
     before, last = abs(half - quarter), abs(whole - half)
     to_come = min(last / (before - last), MOST_TO_COME) if before > last else MOST_TO_COME
@@ -64,11 +63,7 @@ class SlipStage(NamedTuple):
 
 
 def stages(time: Field, slipping: Field, sign: Field) -> tuple[SlipStage, ...]:
-    """Return the stages of an impact, those too short for the grid left out.
-
-    `slipping` is the share of the contact that slips in the step that ends at each time, `sign` the
-    sign of that slip.
-    """
+    """Return stages of an impact not too short for the grid, by the share that slips in steps."""
     kinds = [_kind(*step) for step in zip(slipping[1:-1], sign[1:-1], strict=True)]
     runs = [(kind, len(list(group))) for kind, group in groupby(kinds)]
     starts = np.cumsum([0, *(length for _, length in runs)])
@@ -155,10 +150,7 @@ class HalfspaceSolution:
 
     @property
     def energy_error(self) -> float:
-        """Largest change of the sum of all energies, as a share of those before the impact.
-
-        Of spin about the normal what it loses counts: all of it may be as large as one likes.
-        """
+        """Largest change of all energies over those before; of normal spin its loss counts."""
         ledger = self.ledger
         response = motion.responses(self.chi, self.materials.kappa, self.spin.lightness)
         velocities = ledger.velocity, ledger.velocity_across, ledger.turn_velocity
@@ -190,7 +182,6 @@ class HalfspaceSolution:
         return float(ledger.slip_angle_max[within].max()), float(mean)
 
     def history(self, n: int) -> GridHistory:
-        """Return the impact at n evenly spaced times."""
         return self.at(np.linspace(0.0, self.duration, n))
 
     def at(self, time: Field) -> GridHistory:

@@ -125,7 +125,6 @@ class Pushing:
         return Face(lambda vectors: np.where(touching, vectors, 0.0), 0.0)
 
     def largest(self, load: Field) -> float:
-        """Return the largest pressure."""
         return float(load.max())
 
 
@@ -157,10 +156,7 @@ class Discs(NamedTuple):
         return load * (np.minimum(size, self.bound) / np.where(size > 0.0, size, 1.0))
 
     def face(self, load: Field, pull: Field) -> Face:
-        """Return where traction moves freely, sticking, and along the edge of a disc, slipping.
-
-        Along the edge the energy is bent by slip over bound.
-        """
+        """Return where traction is free, or along the edge of a disc, bent by slip over bound."""
         size = np.hypot(*load)
         unit = load / np.where(size > 0.0, size, 1.0)
         outwards = np.sum(pull * unit, axis=0)

@@ -14,10 +14,7 @@ DENSE_ELEMENTS = 96  # up to which a product with a matrix is faster than a cosi
 
 
 class Mirrors(NamedTuple):
-    """Axes on which fields are mirrored, so that only positive coordinates are kept.
-
-    Pressure and traction along x are even there, traction along y is odd.
-    """
+    """Mirrored axes, of which one half is kept: p and q_x are even there, q_y is odd."""
 
     x: bool = False
     y: bool = False
@@ -48,7 +45,6 @@ class Transform:
         self.odd = tuple(slice(None, -1) if one else slice(None) for one in mirrors)
 
     def forward(self, field: Field, odd: bool = False) -> Spectrum:
-        """Return the spectrum of a field."""
         self.count += 1
         spectrum: Spectrum = field
         for axis in self.mirrored:
@@ -70,11 +66,7 @@ class Transform:
         return np.asarray(spectrum)
 
     def of_kernel(self, kernel: Field, from_odd: bool = False, to_odd: bool = False) -> Spectrum:
-        """Return what multiplies the spectrum of a field convolved with a kernel.
-
-        The kernel is given over one period. Along mirrored axes it is even, or, if it leads from an
-        even to an odd field or back, odd.
-        """
+        """Return what multiplies a spectrum in a convolution, from a kernel over one period."""
         numbers = [np.arange(self.period)] * 2
         for axis in self.mirrored:
             shared = slice(from_odd or to_odd, self.period // 2 + (from_odd and to_odd))

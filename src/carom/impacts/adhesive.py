@@ -8,15 +8,9 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.bodies import pairs
 from carom.bodies.kinematics import Tangential
-from carom.bodies.pairs import (
-    Pair,
-    Scales,
-    check_second_spin,
-    checked_pair,
-    checked_scales,
-    scales_fit,
-)
+from carom.bodies.pairs import Pair, Scales
 from carom.dimensionless.adhesion import STICKING, Adhering, solve_adhering
 from carom.impacts.outcome import Outcome
 from carom.io.citations import ADHESION, bibtex
@@ -48,7 +42,6 @@ class AdhesiveImpact(Outcome):
 
     Examples
     --------
-    >>> import carom
     >>> bead = carom.Sphere(radius="50 um", material="pmma")
     >>> pair = carom.Pair(bead, carom.HalfSpace(material="glass"), friction=0.3)
     >>> hit = carom.classical.adhesive_impact(pair, normal_speed=0.05, work_of_adhesion=0.1)
@@ -105,13 +98,7 @@ class AdhesiveImpact(Outcome):
         return super().inputs() | {NAME: self.work_of_adhesion}
 
     def cite(self) -> str:
-        """Return what to cite for this result, as BibTeX.
-
-        Returns
-        -------
-        str
-            Entries of BibTeX, one after the other.
-        """
+        """Return what to cite for this result, as BibTeX."""
         return bibtex(*ADHESION)
 
     @cached_property
@@ -138,9 +125,8 @@ def adhesive_impact(
     where the spheres touch, and out where the fixed approach becomes unstable. W_s is what this
     takes, and up to the sticking speed V_s the bodies stick (Thornton & Ning 1998). No contact
     loses more; where `tabor` is below 5, e is larger. In shear the contact is taken to stick
-    wherever it is closed, and to have the radius that it has without shear: psi_2/psi_1 is that of
-    small psi_1, and `shear_release` says how small. How adhering surfaces slip is not settled, so
-    slip is not treated.
+    wherever it is closed, with the radius that it has without shear: psi_2/psi_1 is that of small
+    psi_1, and `shear_release` says how small. Slip of adhering surfaces is not treated.
 
     Parameters
     ----------
@@ -170,7 +156,6 @@ def adhesive_impact(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="10 um", material="pmma")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="glass"), friction=0.3)
     >>> hit = carom.classical.adhesive_impact(
@@ -180,7 +165,7 @@ def adhesive_impact(
     [0.0, 0.599, 0.997]
     """
     given = (normal_speed, tangential_speed, spin, spin2)
-    speed, motion = _motion(checked_pair(pair), given)
+    speed, motion = _motion(pairs.checked_pair(pair), given)
     energy, scales = _energy(pair, work_of_adhesion), _scales(pair, speed, motion)
     psi = pair.psi(motion.contact_velocity(pair), speed)
     solution = solve_adhering(psi, pair.chi, sticking_speed(pair, energy) / speed)
@@ -208,7 +193,7 @@ def _motion(pair: Pair, given: tuple[ArrayLike, ...]) -> tuple[Any, Tangential]:
         refuse_where(name, values, ~np.isfinite(values), FINITE)
     speed = read["normal_speed"]
     refuse_where("normal_speed", speed, speed <= 0.0, f"must be positive{APPROACH}")
-    check_second_spin(pair, given[3], spins=bool(np.any(read["spin2"])))
+    pairs.check_second_spin(pair, given[3], spins=bool(np.any(read["spin2"])))
     speed, *motion = (_plain(np.broadcast_to(each, shape).copy()) for each in read.values())
     return speed, Tangential(*motion)
 
@@ -225,12 +210,12 @@ def _scales(pair: Pair, speed: Any, motion: Tangential) -> Scales:
     refuse(slides and refusal("friction", 0.0, needed))
     parts = speed, velocity, motion.tangential_speed, *carried
     if not np.ndim(speed):
-        return checked_scales(pair, *parts)
+        return pairs.checked_scales(pair, *parts)
     with np.errstate(all="ignore"):
         scales = pair.scales(speed)
-        fits = scales_fit(pair, scales, *parts[1:])
+        fits = pairs.scales_fit(pair, scales, *parts[1:])
     for each in () if np.all(fits) else np.nditer(parts):
-        checked_scales(pair, *map(float, each))
+        pairs.checked_scales(pair, *map(float, each))
     return scales
 
 
@@ -259,8 +244,5 @@ def tabor(pair: Pair, energy: float) -> float:
 
 
 def lost_by_maugis(number: float) -> float:
-    """Return what Maugis & Dugdale's contact loses in a cycle, over `pull_off_work`.
-
-    A table against Tabor's number, made by `tests.oracles.adhesion`.
-    """
+    """Return the loss of Maugis & Dugdale's contact over `pull_off_work`, from a table."""
     return float(np.interp(np.log(max(number, 1e-9)), np.log(TABOR), LOST, left=0.0))

@@ -13,7 +13,7 @@ from carom.dimensionless.lossy.law import Loss, ScaleFreeLaw, scale_free
 from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
 from carom.impacts.map_borders import border_variables
 from carom.impacts.sequences import Sequences
-from carom.io.labels import labelled_dataset
+from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, finite_line, positive_line
 from carom.quantities.keywords import known_keywords
@@ -33,7 +33,8 @@ REGIMES = (
 )
 TOLERANCE = 1e-6  # of points of a border
 COARSE = 1e-3  # the same with losses, as such an impact takes a hundred times as long
-MORE, COARSE_MORE = 20.0, 0.5  # impacts to refine borders, to those that find them on the grid
+PLACE = "sequence of phases, its place in sequence_name"
+MET = "sequence of phases of one impact of the map or more"
 BORDER = {"units": "1", "long_name": "psi_in at which the regime changes"}
 
 
@@ -98,35 +99,26 @@ def curve(
 
     Examples
     --------
-    >>> import carom
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
     array([[ 0.    , -0.0612,  0.24  ]])
-    >>> carom.curve(1.44, [6.0], losses=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
-    array([[0.528]])
     """
     chis, incoming = _axes(chi, psi_1)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     outgoing = rebound(nonzero, rows, losses=losses)
     contact = outgoing / nonzero
+    centre = 1.0 - SOLID_SPHERE * (1.0 - contact)
     wide, border = ("chi", "psi_in"), regime_borders(chis, *_ends(losses))
+    regimes: Any = ("regime_border", list(REGIMES[1:]), {})
     attributes: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
     return labelled_dataset(
         {
             "psi_out": (wide, np.where(incoming == 0.0, 0.0, outgoing)),
             "contact_restitution": (wide, contact),
-            "tangential_restitution": (
-                wide,
-                1.0 - SOLID_SPHERE * (1.0 - contact),
-                {"note": "solid sphere without spin"},
-            ),
+            "tangential_restitution": (wide, centre, {"note": "solid sphere without spin"}),
             "border": (("chi", "regime_border"), border, BORDER),
         },
-        {
-            "chi": chis,
-            "psi_in": incoming,
-            "regime_border": ("regime_border", list(REGIMES[1:]), {}),
-        },
+        {"chi": chis, "psi_in": incoming, "regime_border": regimes},
         {"title": "rebound curve"} | attributes,
     )
 
@@ -162,11 +154,10 @@ def regime_map(
 
     Phases are those of the exact impact (Maw, Barber & Fawcett 1976). Beyond psi_1 =
     2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are outlines of
-    an image of sequences, finer than the given values, through points that are found by bisection
-    along its lines. It is finest, to a thousandth of an axis, where three regimes meet, so that
-    strips between two others are followed to their ends. A regime between the given values that
-    is nowhere wider than a thirtieth of an axis, a twentieth with losses, may be missed; what was
-    met and is too narrow for an outline is among sequence_met.
+    an image of sequences, finer than the given values, to a thousandth of an axis where three
+    regimes meet, through points found by bisection. A regime between the given values that is
+    nowhere wider than a thirtieth of an axis, a twentieth with losses, may be missed; what was met
+    and is too narrow for an outline is among sequence_met.
 
     Parameters
     ----------
@@ -175,8 +166,7 @@ def regime_map(
     losses : KelvinVoigt, optional
         What the impacts lose energy to: a restitution is given.
     progress : bool or callable, optional
-        Whether a progress bar is shown after two seconds, by default in a notebook and on a
-        terminal; or a function that is called with the number of rows of chi done and their total.
+        As for `carom.sweep`; rows of chi are counted.
 
     Returns
     -------
@@ -199,7 +189,6 @@ def regime_map(
 
     Examples
     --------
-    >>> import carom
     >>> found = carom.regime_map([0.5, 2.0, 6.0], [1.44])
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -
@@ -217,20 +206,14 @@ def regime_map(
     names = [name for name in names if name]
     places = {name: place for place, name in enumerate(names)} | {"": -1}
     codes = np.array([places.get(name, -1) for name in sequences.names], dtype=np.int16)[met]
+    found = border_variables(incoming, chis, met, sequences, progress)  # which meets more
+    met_names = np.array([name for name in sequences.names if name], dtype=np.str_)
     return labelled_dataset(
         {
-            "sequence": (
-                ("chi", "psi_in"),
-                codes,
-                {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
-            ),
+            "sequence": (("chi", "psi_in"), codes, pure(PLACE)),
             "restitution": e,
-            **border_variables(incoming, chis, met, sequences, progress),
-            "sequence_met": (
-                "met",
-                np.array([name for name in sequences.names if name], dtype=np.str_),
-                {"long_name": "sequence of phases of one impact of the map or more"},
-            ),
+            **found,
+            "sequence_met": ("met", met_names, {"long_name": MET}),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},

@@ -55,10 +55,7 @@ def compressional_speed(wall: Material) -> float:
 
 
 def adhesion(hit: ImpactResult) -> Finding:
-    """Return the finding on the work that pulls the bodies apart (Johnson, Kendall & Roberts).
-
-    It is the most that adhesion takes; the contact of small stiff bodies loses less (Maugis 1992).
-    """
+    """Return the finding on adhesion: at most that of Johnson, Kendall & Roberts (Maugis 1992)."""
     pair, name = hit.pair, "work of adhesion"
     limit = LOST if hit.losses is None else 1.0
     energies = [work_of_adhesion(pair, usual) for usual in (CLEAN, STICKY)]

@@ -50,7 +50,6 @@ class Impact(ImpactResult, InContact):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", spin="100 rad/s")
@@ -122,12 +121,10 @@ class Impact(ImpactResult, InContact):
             (y, x): friction_work. As numbers: dissipated_energy, the work of friction by the
             balance of energies; max_friction_work, the largest anywhere in the contact, at the
             distance max_wear_radius; and work_error, the relative difference between it and the
-            work per area summed over the contact. It is 1e-8 for elastic bodies up to chi = 6
-            and 2e-7 beyond; for viscous ones it is about 1e-5, and more near normal incidence, as
-            their energies are known to some 1e-7 only; for those that yield or relax it is some
-            1e-3. With a coefficient also mean_wear_depth,
-            wear_depth, max_wear_depth in m and worn_volume in m^3, which is computed from the work
-            per area where work_error is above 1e-4.
+            work per area summed over the contact: 1e-8 for elastic bodies up to chi = 6, 2e-7
+            beyond, about 1e-5 for viscous ones, more near normal incidence, some 1e-3 for those
+            that yield or relax. With a coefficient also mean_wear_depth, wear_depth, max_wear_depth
+            in m and worn_volume in m^3, from the work per area where work_error is above 1e-4.
 
         Raises
         ------
@@ -148,10 +145,9 @@ class Impact(ImpactResult, InContact):
         """Return the largest stresses of the whole impact in each body: value, place and instant.
 
         These are the von Mises stress, the shear stress (s_1 - s_3)/2 and the tensile stress s_1,
-        with the principal stresses s_i of what `stress` returns, over all places and instants. A
-        scan finds the peaks, which are then refined. The error is below 1e-4 of the value; the
-        place is known to about 0.01 of the contact radius and the instant to about 0.01 of the
-        duration, as stresses are flat there. The stress intensity is that of long surface cracks
+        with the principal stresses s_i of `stress`, over all places and instants, to 1e-4 of the
+        value; place and instant are known to about 0.01 of the contact radius and the duration, as
+        stresses are flat there. The stress intensity is that of long surface cracks
         up to `flaw_size` deep, which go straight down across the plane of the impact, K = 2
         sqrt(c/pi) integral of (1.3 - 0.3 u^(5/4)) sigma(c u)/sqrt(1 - u^2) du (Tada, Paris & Irwin
         2000), to 0.5 %; for flaws below 1/2000 of the contact radius it is up to 2 % too large.
@@ -210,11 +206,6 @@ class Impact(ImpactResult, InContact):
 
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.
-
-        Returns
-        -------
-        str
-            Entries of BibTeX, one after the other.
 
         Examples
         --------

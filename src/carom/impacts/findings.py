@@ -23,8 +23,7 @@ def lacking(
     name: str, limit: float, key: str, bodies: dict[str, Material], value: float = nan
 ) -> Finding:
     """Return the finding that cannot be judged, as these bodies lack a value of their material."""
-    whose = " and ".join(
-        dict.fromkeys(stuff.name or f"the {body} body" for body, stuff in bodies.items())
-    )
+    names = (stuff.name or f"the {body} body" for body, stuff in bodies.items())
+    whose = " and ".join(dict.fromkeys(names))
     where = f"no {GLOSSARY[key].meaning} of {whose}: Material({key}=...)"
     return Finding(name, value, limit, None, f"not judged: {where}", f"{key} of {whose}")

@@ -13,17 +13,8 @@ from scipy.ndimage import distance_transform_edt, label
 
 from carom.impacts.sequences import Sequences
 from carom.io.progress import Progress, advancing
-from carom.plots.outlines import (
-    JUNCTION,
-    KEPT,
-    MEETING,
-    RIM,
-    Labels,
-    Ring,
-    changes,
-    lattice,
-    outlines,
-)
+from carom.plots import outlines
+from carom.plots.outlines import KEPT, MEETING, RIM, Labels, Ring
 from carom.quantities.arrays import Array
 
 Tell: TypeAlias = Callable[[Array, Array], Labels]
@@ -35,11 +26,7 @@ ENOUGH_LINES = 40  # lines on which borders are found
 
 
 class Fineness(NamedTuple):
-    """How many lines an image has along psi_1 and chi at least, and the error of its borders.
-
-    Where regions meet, lines are as close as `closest`, a share of an axis. Pieces of regions with
-    fewer points than `smallest` are left out: beads of narrow strips.
-    """
+    """Lines of an image along either axis, `closest` where regions meet, `smallest` piece kept."""
 
     lines: tuple[int, int]
     closest: float
@@ -60,9 +47,8 @@ def border_variables(
     shown = False if callable(progress) else progress  # which counts the rows of the map
     rings: list[Ring] = []
     if min(x.size, y.size) > 1:
-        with advancing(
-            "finding the borders of the regimes", None, shown, unit="impacts"
-        ) as advance:
+        what = "finding the borders of the regimes"
+        with advancing(what, None, shown, unit="impacts") as advance:
 
             def tell(psis: Array, chis: Array) -> Labels:
                 advance(psis.size)
@@ -74,10 +60,11 @@ def border_variables(
                 image.refine(fineness)
                 places, kept = bisected(image, fineness.tolerance)
                 places[:, [0, -1], 0], places[[0, -1], :, 1] = x[[0, -1]], y[[0, -1], np.newaxis]
-                rings += outlines(image.labels, places, kept)
+                rings += outlines.outlines(image.labels, places, kept)
     names = np.array(sequences.names, dtype=np.str_)
     borders = [border for ring in rings for border in _borders(ring)]
     sides = np.array([border[:2] for border in borders], dtype=np.int64).reshape(-1, 2)
+    inside = {"long_name": "sequence of phases in the region of an outline"}
     side = "sequence of phases on the {} of a border, in the direction of its points"
     return {
         **_points("border", [points for _, _, points in borders]),
@@ -86,11 +73,7 @@ def border_variables(
         "border_tolerance": fineness.tolerance,
         **_points("outline", [ring.points for ring in rings]),
         "outline_region": ("outline", np.array([r.region for r in rings], dtype=np.int32)),
-        "outline_sequence": (
-            "outline",
-            names[[ring.label for ring in rings]],
-            {"long_name": "sequence of phases in the region of an outline"},
-        ),
+        "outline_sequence": ("outline", names[[ring.label for ring in rings]], inside),
     }
 
 
@@ -103,24 +86,20 @@ def _points(kind: str, lines: list[Array]) -> dict[str, Any]:
 
 def _borders(ring: Ring) -> Iterator[tuple[int, int, Array]]:
     """Yield the parts of an outline along one other region, each from one of its two sides only."""
-    cuts = np.flatnonzero(np.isin(ring.beyond, (RIM, JUNCTION)))
+    cuts = np.flatnonzero(np.isin(ring.beyond, (RIM, outlines.JUNCTION)))
     turned = np.roll(np.arange(len(ring.points)), -cuts[0] if cuts.size else 0)
     turned = np.append(turned, turned[0])
     for beyond, run in groupby(range(len(turned)), lambda k: int(ring.beyond[turned[k]])):
         places = list(run)
         if beyond > ring.label:
             first, last = places[0], places[-1]
-            first -= first > 0 and ring.beyond[turned[first - 1]] == JUNCTION
-            last += last + 1 < len(turned) and ring.beyond[turned[last + 1]] == JUNCTION
+            first -= first > 0 and ring.beyond[turned[first - 1]] == outlines.JUNCTION
+            last += last + 1 < len(turned) and ring.beyond[turned[last + 1]] == outlines.JUNCTION
             yield ring.label, beyond, ring.points[turned[first : last + 1]]
 
 
 class Image:
-    """Labels at columns x and rows y, some of which are whole: solved wherever labels differ.
-
-    Elsewhere those points are solved that are around meetings of three regions. The others have
-    the label of the point before them.
-    """
+    """Labels at columns x and rows y, solved where they differ, else those of the point before."""
 
     def __init__(self, x: Array, y: Array, labels: Labels, tell: Tell) -> None:
         self.lines, self.labels, self.tell = [x.copy(), y.copy()], labels, tell
@@ -139,7 +118,8 @@ class Image:
         """Insert lines everywhere until there are enough, then more where three regions meet."""
         least = [fineness.closest * np.ptp(line) for line in self.lines]
         while True:
-            gaps, meeting = [np.diff(line) for line in self.lines], changes(self.labels) > 2
+            gaps = [np.diff(line) for line in self.lines]
+            meeting = outlines.changes(self.labels) > 2
             few = [self.lines[k].size < fineness.lines[k] for k in (0, 1)]
             fill = [np.full(gaps[k].size, few[k]) for k in (0, 1)]
             if not any(few):
@@ -164,7 +144,7 @@ class Image:
 
     def kept(self) -> tuple[Labels, Labels]:
         """Return on how many edges labels change, and which of it outlines keep."""
-        count = changes(self.labels)
+        count = outlines.changes(self.labels)
         kept = np.zeros_like(count)
         for i, j in np.ndindex(3, 3):
             kept[i : i - 2 or None : 2, j : j - 2 or None : 2][count[1::2, 1::2] > 2] = KEPT
@@ -188,10 +168,7 @@ class Image:
 
 
 def without_specks(labels: Labels, smallest: int) -> Labels:
-    """Return labels with those of what is around them where pieces of a region have few points.
-
-    The largest piece of each region stays.
-    """
+    """Return labels without small pieces of regions, but with the largest piece of each."""
     specks = np.zeros(labels.shape, dtype=np.bool_)
     for each in np.unique(labels):
         pieces, _ = label(labels == each, np.ones((3, 3)))
@@ -202,16 +179,11 @@ def without_specks(labels: Labels, smallest: int) -> Labels:
 
 
 def bisected(image: Image, tolerance: float) -> tuple[Array, Labels]:
-    """Return a lattice with the places of borders on whole lines and all around meetings.
-
-    Also which of its places these are, for `outlines`.
-    """
-    labels, places, (count, kept) = image.labels, lattice(*image.lines), image.kept()
+    """Return a lattice with the places of borders, and which those are, for `outlines`."""
+    labels, places, (count, kept) = image.labels, outlines.lattice(*image.lines), image.kept()
     row, column = np.nonzero((kept == KEPT) & (count == 1))
-    low, high = (
-        places[row - row % 2, column - column % 2],
-        places[row + row % 2, column + column % 2],
-    )
+    low = places[row - row % 2, column - column % 2]
+    high = places[row + row % 2, column + column % 2]
     before, after = labels[row // 2, column // 2], labels[(row + 1) // 2, (column + 1) // 2]
     sides, least = [before, after], tolerance / FINER
     while True:
@@ -222,10 +194,8 @@ def bisected(image: Image, tolerance: float) -> tuple[Array, Labels]:
         met = image.tell(*middle.T)
         same = met == sides[0][wide]
         third = ~same & (met != sides[1][wide])  # which may hide others, so as to meet them too
-        low, high = (
-            np.concatenate([low, middle[third]]),
-            np.concatenate([high, high[wide][third]]),
-        )
+        low = np.concatenate([low, middle[third]])
+        high = np.concatenate([high, high[wide][third]])
         sides = [
             np.concatenate([sides[0], met[third]]),
             np.concatenate([sides[1], sides[1][wide][third]]),

@@ -131,10 +131,7 @@ class Outcome(Kinematics):
 
     @cached_property
     def _slowed_by(self) -> float:
-        """V_x - V_x'; in fast gross slip, where that difference loses digits, by its closed form.
-
-        It is 2 chi (1 + e) mu V_1/kappa there, by Coulomb's law.
-        """
+        """V_x - V_x', in fast gross slip in its closed form: the difference loses digits there."""
         before, lost = self.contact_velocity, self.contact_velocity - self.contact_velocity_out
         unit = self.scales.tangential_speed
         most = 2.0 * self.pair.chi * (1.0 + self.normal_restitution) * unit

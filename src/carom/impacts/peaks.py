@@ -66,8 +66,7 @@ UNCOUPLED = (
 class StruckBody:
     """One body of an impact; stress grows as V^(2/5) where all velocities grow alike.
 
-    `side` is 1 for the second body, -1 for the first, in which friction acts the other way: its
-    stresses are those of the second, mirrored.
+    `side` is 1 for the second body, -1 for the first, whose stresses are mirrored.
     """
 
     contacts: Contacts = field(repr=False)
@@ -86,10 +85,7 @@ class StruckBody:
         return self._in_units(peak, self.scales.pressure)
 
     def intensity(self, flaw: float | None = None) -> Peak:
-        """Return the largest stress intensity at flaws up to `flaw_size`, z the depth of the flaw.
-
-        NaN where the depth of flaws is not known, or viscous bodies have no bound at the surface.
-        """
+        """Return the largest stress intensity at flaws; NaN if unknown, or without bound."""
         flaw, width = self.bears("flaw_size") if flaw is None else flaw, self.scales.radius
         if not (flaw > 0.0 and self.judges_flaws):
             return Peak(*(nan,) * 5)
@@ -115,15 +111,12 @@ class StruckBody:
         return self.contacts.depth * self.scales.radius
 
     def yield_ratio(self) -> float:
-        """Return the largest von Mises stress over the yield strength."""
         return self._share("peak_von_mises", self.bears("yield_strength"))
 
     def tension_ratio(self) -> float:
-        """Return the largest tensile stress over the tensile strength."""
         return self._share("peak_tension", self.bears("tensile_strength"))
 
     def toughness_ratio(self) -> float:
-        """Return the largest stress intensity over the fracture toughness."""
         toughness = self.bears("fracture_toughness")
         return self.intensity().value / toughness if toughness > 0.0 else nan
 
@@ -215,7 +208,7 @@ def _places(name: str, peak: Peak) -> Iterator[tuple[str, float]]:
 
 def _missing(body: StruckBody) -> str:
     """Return what is not known of a body, in words."""
-    names = _lacking(body, STRENGTHS)
+    names = [name for name in STRENGTHS if isnan(body.bears(name))]
     lost = [] if body.judges_flaws else ["stress_intensity (not bounded with losses)"]
     return ", ".join(names + lost) or "nothing"
 
@@ -282,10 +275,7 @@ def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
 
 
 def _yields(bodies: dict[str, StruckBody]) -> Finding:
-    """Return the finding on yield, at the yield strength of slow tests and at that of impacts.
-
-    What is brittle yields between a third of its hardness and all of it (Johnson 1985, 6.3).
-    """
+    """Return the finding on yield; brittle bodies do from a third of the hardness (Johnson 6.3)."""
     ratios, broken = _ratios("yield_ratio", bodies), []
     for which, body in bodies.items():
         if which in ratios:
@@ -304,20 +294,13 @@ def _yields(bodies: dict[str, StruckBody]) -> Finding:
 
 
 def _tears(bodies: dict[str, StruckBody]) -> Finding | None:
-    """Return the finding on tension; what is beyond its strength beside a contact may still hold.
-
-    The stress falls so fast with the depth that flaws hardly feel it (see `bearable_speeds`).
-    """
+    """Return the finding on tension, which falls so fast with depth that flaws hardly feel it."""
     ratios = _ratios("tension_ratio", bodies)
     return _finding("tension_ratio", ratios, bodies, []) if ratios else None
 
 
 def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
-    """Return the finding on flaws, of any depth where it is not known how deep they are.
-
-    It arises where a body is brittle: toughness, flaws or, without a yield strength, its hardness
-    are known.
-    """
+    """Return the finding on flaws of brittle bodies, of any depth where that is not known."""
     label = RATIOS["toughness_ratio"][0]
     brittle = {name: body for name, body in bodies.items() if body.is_brittle}
     if not brittle:
@@ -330,7 +313,8 @@ def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
     deep = {n: b for n, b in brittle.items() if n not in ratios}
     ratios |= _ratios("deep_toughness_ratio", deep)
     for key in ("fracture_toughness", "flaw_size"):
-        unsure = _without(key, {n: b for n, b in deep.items() if not ratios.get(n, inf) <= 1.0})
+        open_ = {n: b for n, b in deep.items() if not ratios.get(n, inf) <= 1.0}
+        unsure = {n: b.material for n, b in open_.items() if isnan(b.bears(key))}
         if unsure and not broken:
             return lacking(label, 1.0, key, unsure, max(ratios.values(), default=nan))
     return _finding("toughness_ratio", ratios, brittle, broken)
@@ -340,16 +324,6 @@ def _ratios(name: str, bodies: dict[str, StruckBody]) -> dict[str, float]:
     """Return the shares of a strength, of the bodies of which it is known."""
     ratios = {which: getattr(body, name)() for which, body in bodies.items()}
     return {which: ratio for which, ratio in ratios.items() if isfinite(ratio)}
-
-
-def _without(key: str, bodies: dict[str, StruckBody]) -> dict[str, Material]:
-    """Return the materials that lack a value, by body."""
-    return {name: body.material for name, body in bodies.items() if isnan(body.bears(key))}
-
-
-def _lacking(body: StruckBody, needed: tuple[str, ...]) -> list[str]:
-    """Return the strengths that are not known of those that are needed."""
-    return [name for name in needed if isnan(body.bears(name))]
 
 
 def _finding(
@@ -384,16 +358,11 @@ def _hardened(body: StruckBody) -> float:
 
 
 def judge_pressure(pair: Pair, pressure: float, *, yields: bool) -> Finding:
-    """Return the finding on yield where stresses are not known: by the pressure, without friction.
-
-    First yield of a sphere under a pressure of Hertz's (Johnson 1985, section 6.1). What yields by
-    its law of losses need not stay elastic.
-    """
+    """Return the finding on yield by the pressure alone, without friction (Johnson 1985, 6.1)."""
     stuffs = {"first": pair.first.material, "second": pair.second.material}
     without = {w: m for w, m in stuffs.items() if not (m.yield_strength or m.is_rigid)}
-    ratio = pressure / min(
-        [m.yield_strength for m in stuffs.values() if m.yield_strength], default=nan
-    )
+    strengths = [m.yield_strength for m in stuffs.values() if m.yield_strength]
+    ratio = pressure / min(strengths, default=nan)
     name = "p_0/Y"
     if yields:
         return Finding(name, ratio, YIELD_PRESSURE, True, "what yields is in the law of losses")

@@ -33,9 +33,8 @@ def bending(hit: ImpactResult) -> Finding | None:
     if ratio < LONG_WAVE:
         between = "not judged: the plate is neither thin nor a thick wall; 1 - e is an estimate"
         return Finding(name, ratio, LONG_WAVE, None, between)
-    more = (
-        f"1 - e is larger by some {100.0 * SHEARING / ratio**2:.0f} % of itself, as it also shears"
-    )
+    percent = 100.0 * SHEARING / ratio**2
+    more = f"1 - e is larger by some {percent:.0f} % of itself, as it also shears"
     return Finding(name, ratio, LONG_WAVE, True, f"the plate is thin enough to bend; {more}")
 
 
@@ -75,18 +74,12 @@ def rim(hit: ImpactResult) -> Finding | None:
 
 
 def quiet_width(plate: HalfSpace, duration: float) -> float:
-    """Return the width in m up to which bending waves come back from the rim within the contact.
-
-    Those of the period of the contact; their group velocity is twice the phase velocity.
-    """
+    """Return up to which width in m bending waves come back in time, at their group velocity."""
     return 2.0 * sqrt(2.0) * _half_wave(plate, duration)
 
 
 def _half_wave(plate: HalfSpace, duration: float) -> float:
-    """Return half the length of a bending wave of twice the contact time.
-
-    pi (D/(rho h))^(1/4)/sqrt(omega), omega = pi/t_c.
-    """
+    """Return half a bending wave of the contact, pi (D/(rho h))^(1/4)/sqrt(pi/t_c)."""
     stuff, thickness = plate.material, cast(float, plate.thickness)
     stiffness = stuff.young * thickness**2 / (12.0 * (1.0 - stuff.poisson**2))
     return sqrt(pi * duration * sqrt(stiffness / cast(float, stuff.density)))

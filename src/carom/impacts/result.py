@@ -140,12 +140,10 @@ class ImpactResult(Outcome, Result):
         """Return the spectra of the forces, int F(t) exp(-2 pi i f t) dt, and their corners.
 
         They describe the impact as a source of acoustic emission and of the signals of impact
-        sensors (McLaskey & Glaser 2010). The time t counts from the first touch. At f = 0 the
-        spectra are the impulses. The moment is that of the tangential force about the centre of the
-        first body, R F_x, against its spin. A corner is the frequency at which the amplitude has
-        first fallen by 3 dB, to 1/sqrt(2) of its largest value, or by 6 dB, to 1/2. The largest
-        value of the normal force is that at f = 0; that of the tangential force, which may change
-        its sign, is at `tangential_peak_frequency`.
+        sensors (McLaskey & Glaser 2010). At f = 0 the spectra are the impulses. The moment is R F_x
+        about the centre of the first body, against its spin. At a corner the amplitude has first
+        fallen by 3 dB, to 1/sqrt(2) of its largest value, or by 6 dB, to 1/2. That of the normal
+        force is at f = 0, of the tangential force at `tangential_peak_frequency`.
 
         Parameters
         ----------
@@ -205,7 +203,6 @@ class ImpactResult(Outcome, Result):
         return _impact_text(self)
 
     def _repr_html_(self) -> str:
-        """Return a table and a picture for a notebook."""
         numbers = self.scalars()
         rows = {GLOSSARY[name].meaning: GLOSSARY[name].text(numbers[name]) for name in SHOWN}
         times, unit = _phase_times(self.phases)
@@ -219,11 +216,8 @@ class ImpactResult(Outcome, Result):
     def to_dataset(self) -> xr.Dataset:
         """Return all of the result as one dataset, with a history of 400 times.
 
-        Returns
-        -------
-        xarray.Dataset
-            Along `time` in s the course of the impact, as `history` has it; along `phase` kind,
-            sign, start and end in s; the numbers of the result without a dimension.
+        Along `time` in s the course of the impact, as `history` has it; along `phase` kind, sign,
+        start and end in s; the numbers of the result without a dimension.
         """
         angles = self._phase_columns()
         return labelled(self._columns(400), self.scalars(), self.phases, self.inputs(), angles)
@@ -234,24 +228,18 @@ class ImpactResult(Outcome, Result):
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, texts and lists, for JSON; NaN becomes None.
 
-        Returns
-        -------
-        dict
-            inputs, result (all numbers by name, SI units), phases, verdict (holds, fails or not
-            judged) and validity, the findings behind it.
+        It has inputs, result (all numbers by name, SI units), phases, verdict (holds, fails or not
+        judged) and validity, the findings behind it.
         """
-        validity = self.validity
+        names, validity = ("slip_angle_max", "slip_angle_mean"), self.validity
+        phases = [
+            phase._asdict() | dict(zip(names, map(or_none, angle), strict=True))
+            for phase, angle in zip(self.phases, self.slip_angles, strict=True)
+        ]
         return {
             "inputs": self.inputs(),
             "result": {name: or_none(value) for name, value in self.scalars().items()},
-            "phases": [
-                {
-                    **phase._asdict(),
-                    "slip_angle_max": or_none(angle.largest),
-                    "slip_angle_mean": or_none(angle.mean),
-                }
-                for phase, angle in zip(self.phases, self.slip_angles, strict=True)
-            ],
+            "phases": phases,
             "verdict": validity.verdict,
             "validity": [
                 {**finding._asdict(), "value": or_none(finding.value)}
@@ -274,8 +262,7 @@ class ImpactResult(Outcome, Result):
         frames : int
             Number of instants, evenly spaced, up to 10,000; 12 are shown per second.
         progress : bool or callable, optional
-            Whether a progress bar is shown after two seconds, by default in a notebook and on a
-            terminal; or a function that is called after every frame.
+            As for `carom.sweep`; a function is called after every frame.
 
         Returns
         -------
@@ -309,7 +296,6 @@ class ImpactResult(Outcome, Result):
 
 
 def _impact_text(hit: ImpactResult) -> str:
-    """Return the result as text to read."""
     scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
     note = NOTES["lossy" if hit.losses is not None else method]
     coupled = method != "exact" and hit.pair.dundurs_beta != 0.0

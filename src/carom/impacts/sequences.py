@@ -31,7 +31,6 @@ class Sequences:
 
     @property
     def names(self) -> list[str]:
-        """Sequences in words."""
         return list(self.numbers)
 
     def of(self, psi: Array, chi: Array) -> NDArray[np.int64]:
@@ -68,9 +67,8 @@ def _elastic() -> Callable[[float, float], str]:
 
     def name(psi: float, chi: float) -> str:
         record.counts[:] = 0
-        if run_phases(
-            max(abs(psi), LINEAR_PSI) if psi else 0.0, chi, 0.0, STEP_TOLERANCE, work, record
-        ):
+        solved_for = max(abs(psi), LINEAR_PSI) if psi else 0.0
+        if run_phases(solved_for, chi, 0.0, STEP_TOLERANCE, work, record):
             return ""
         rows = record.changes[: record.counts[2]].tolist()
         mirror = -1 if np.signbit(psi) else 1

@@ -105,7 +105,6 @@ def impact(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from math import isnan
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 COUNT, WIDTH = 601, 6.0  # frequencies where none are told, and up to how many over the duration
 NO_NOTCH = f"the amplitude has no minimum up to {WIDTH:g} over the duration"
+PARTS: Any = {"": np.abs, "_real": np.real, "_imag": np.imag}
 MOST, FARTHEST = 20_000, 1000.0  # the most that there may be, likewise
 
 
@@ -74,13 +75,9 @@ def spectrum_dataset(hit: Outcome, frequencies: Array) -> xr.Dataset:
     moment = hit.pair.first.radius * tangential
     spectra = {"normal": normal, "tangential": tangential, "moment": moment}
     columns = {
-        f"{name}_spectrum{part}": ("frequency", values)
+        f"{name}_spectrum{part}": ("frequency", read(spectrum))
         for name, spectrum in spectra.items()
-        for part, values in (
-            ("", np.abs(spectrum)),
-            ("_real", spectrum.real),
-            ("_imag", spectrum.imag),
-        )
+        for part, read in PARTS.items()
     }
     reversal = 1.0 + hit.normal_restitution
     numbers = {

@@ -10,15 +10,9 @@ from math import isfinite, isnan, nan, sqrt
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
 from carom.bodies.shapes import Sphere
+from carom.dimensionless import neglected
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.neglected import (
-    NO_BETA,
-    SMALL_CONTACT,
-    SPIN,
-    not_studied,
-    rebound_error,
-    spin_error,
-)
+from carom.dimensionless.neglected import SMALL_CONTACT
 from carom.impacts.dissipation import adhesion, damping, together, waves
 from carom.impacts.findings import bounded, judged
 from carom.impacts.plates import bending, deflection, rim, small_on_plate
@@ -48,24 +42,18 @@ def judge(hit: ImpactResult, assumptions: Sequence[Assumption]) -> Validity:
 
 
 def _small_contact(hit: ImpactResult) -> Finding:
-    return judged(
-        "a_max/R*",
-        hit.max_radius / hit.pair.effective_radius,
-        SMALL_CONTACT,
-        "the contact is small compared with the bodies",
-        f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most",
-    )
+    ratio, good = hit.max_radius / hit.pair.effective_radius, "the contact is small compared with"
+    bad = f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most"
+    return judged("a_max/R*", ratio, SMALL_CONTACT, f"{good} the bodies", bad)
 
 
 def _slow_contact(hit: ImpactResult) -> Finding:
     transits = hit.duration / max(_transit(hit.pair), 1e-300)
     slow = transits >= SLOW_CONTACT
-    verdict = (
-        "the contact lasts long enough to be quasi-static"
-        if slow
-        else f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
-    )
-    return Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
+    good = "the contact lasts long enough to be quasi-static"
+    bad = f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
+    name = "contact time/wave transit"
+    return Finding(name, transits, SLOW_CONTACT, slow, good if slow else bad)
 
 
 def _transit(pair: Pair) -> float:
@@ -75,11 +63,7 @@ def _transit(pair: Pair) -> float:
 
 
 def _weight(hit: ImpactResult) -> Finding | None:
-    """Return the finding on a ball that falls on a wall so slowly that its weight counts.
-
-    Gravity along the normal adds m g t_c to the impulse, so up to 2 chi g t_c/V_1 to psi_2, but
-    takes no energy.
-    """
+    """Return the finding on gravity, which adds up to 2 chi g t_c/V_1 to psi_2, but no energy."""
     gained = GRAVITY * hit.duration / hit.normal_speed
     if isinstance(hit.pair.second, Sphere) or hit.psi_in == 0.0 or not gained > LIGHT:
         return None
@@ -89,10 +73,7 @@ def _weight(hit: ImpactResult) -> Finding | None:
 
 
 def _shell(hit: ImpactResult) -> Finding | None:
-    """Return the finding on hollow spheres: the dent of a shell under a point load, over d_max.
-
-    Its stiffness is 4 E h^2/(R sqrt(3 (1 - nu^2))) (Reissner 1946).
-    """
+    """Return the finding on hollow spheres: dent over d_max, k = 4 E h^2/(R sqrt(3 (1 - nu^2)))."""
     dents = [_dent(body, hit) for body in hit.pair.moving if not body.material.is_rigid]
     dent, name = max(dents, default=0.0), "dent of the shell/d_max"
     if isnan(sum(dents)):
@@ -170,8 +151,8 @@ def _judge_metal(losses: LossNumbers) -> Finding:
 def _others(loss: int, restitution: float, chi: float) -> str:
     """Return by how much psi_2 of other solids of the same e may differ, in words.
 
-    (1 - e) max(1.2, 2.4 chi - 1.7) from Kelvin & Voigt's, an envelope of standard linear solids and
-    yielding spheres, psi_1 up to 4 chi + 1; from a standard linear one twice that.
+    (1 - e) max(1.2, 2.4 chi - 1.7) from Kelvin & Voigt's, psi_1 up to 4 chi + 1, an envelope; from
+    a standard linear solid twice that.
     """
     if not (STUDIED[0] <= chi <= STUDIED[1] and restitution >= LEAST_STUDIED):
         return "how far other solids of this e differ was not studied here"
@@ -189,16 +170,16 @@ def _spin(hit: ImpactResult) -> Finding | None:
     if pair.friction == 0.0 or not isfinite(hit.psi_in):
         return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction this spin does not matter")
     spin = abs(hit.normal_spin) * hit.scales.radius / (pair.friction * hit.normal_speed)
-    outside = not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
-    if spin > SPIN.most:
-        outside = f"spin of {spin:.3g} mu V_1/a_max is above {SPIN.most:g}"
+    outside = neglected.not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
+    if spin > neglected.SPIN.most:
+        outside = f"spin of {spin:.3g} mu V_1/a_max is above {neglected.SPIN.most:g}"
     if hit.losses is not None:
         return _unknown(name, "with losses; the theory neglects this spin")
     if outside:
         return _unknown(name, f"{outside}; {cure}")
     good = "the spin about the normal, which the theory neglects, hardly matters"
     bad = f"the theory neglects the spin about the normal; {cure}"
-    error = float(spin_error(pair.chi, hit.psi_in, spin))
+    error = float(neglected.spin_error(pair.chi, hit.psi_in, spin))
     return bounded(name, error, CLOSE_REBOUND, good, bad)
 
 
@@ -206,15 +187,15 @@ def _rebound(hit: ImpactResult) -> Finding:
     """Return the finding on what slip off the motion and coupling may do to psi_2."""
     pair, name = hit.pair, "error of psi_2"
     numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
-    unlike = abs(pair.dundurs_beta) > NO_BETA
+    unlike = abs(pair.dundurs_beta) > neglected.NO_BETA
     if pair.friction == 0.0 or not isfinite(hit.psi_in):
         nothing = "without friction the theory neglects nothing"
         return Finding(name, 0.0, CLOSE_REBOUND, True, nothing)
     if hit.psi_in == 0.0 and not unlike:
         return Finding(name, 0.0, CLOSE_REBOUND, True, "like bodies that meet head-on do not slip")
-    if outside := not_studied(*numbers):
+    if outside := neglected.not_studied(*numbers):
         return _unknown(name, f"{outside}; method='halfspace' solves the full contact")
-    error = float(rebound_error(*numbers, hit.psi_in))
+    error = float(neglected.rebound_error(*numbers, hit.psi_in))
     if hit.losses is not None:
         return _unknown(name, f"with losses; for elastic bodies it is at most {error:.2g}")
     but = "apart from the spin about the normal, " if hit.normal_spin else ""
@@ -239,17 +220,7 @@ def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
 
 
 OF_BODIES: tuple[Assumption, ...] = (
-    _slow_contact,
-    _weight,
-    _shell,
-    waves,
-    bending,
-    small_on_plate,
-    deflection,
-    rim,
-    adhesion,
-    damping,
-    together,
-    _solid,
+    *(_slow_contact, _weight, _shell, waves, bending, small_on_plate, deflection, rim),
+    *(adhesion, damping, together, _solid),
 )
 OF_THEORY: tuple[Assumption, ...] = (*OF_BODIES, _spin, _rebound)

@@ -35,8 +35,7 @@ ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(16)
 class Rubbing(NamedTuple):
     """The integral of pressure times slip rate over an impact, mean - lateral cos 2 theta, in Pa m.
 
-    At rising radii in m, and over the contact in N m: as the energies tell it, and as the radii do.
-    `inner` are those radii that are well apart from each other.
+    At rising radii, and over the contact in N m by energies and by radii; `inner` are well apart.
     """
 
     radii: Array
@@ -148,10 +147,7 @@ def rubbed_at(hit: ImpactResult, radii: Array) -> tuple[Array, Array]:
 
 
 def rubbed(outcome: Outcome) -> Any:
-    """Return the integral of pressure times slip rate over contact and time, in N m, by energies.
-
-    Those of viscous bodies are known to some 1e-7 of the energy before, below which it is zero.
-    """
+    """Return the integral of pressure times slip rate, N m; viscous energies are good to 1e-7."""
     if outcome.pair.friction > FRICTIONLESS:
         return np.maximum(outcome.dissipated_energy, 0.0) / outcome.pair.friction
     impulse = outcome.pair.normal_mass * outcome.normal_speed * (1.0 + outcome.normal_restitution)

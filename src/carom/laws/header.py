@@ -36,8 +36,6 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
 
     Examples
     --------
-    >>> import carom
-    >>> from carom.laws.header import c_header
     >>> text = c_header([carom.laws.ReboundLaw(0.5), carom.laws.ReboundLaw(1.44)])
     >>> "double carom_rebound_0_5(double psi)" in text
     True

@@ -32,7 +32,6 @@ class SmoothLaw:
 
     Examples
     --------
-    >>> import carom
     >>> carom.laws.SmoothLaw(restitution=0.9)
     SmoothLaw(restitution=0.9)
     """
@@ -63,7 +62,6 @@ class RoughLaw:
 
     Examples
     --------
-    >>> import carom
     >>> carom.laws.RoughLaw()
     RoughLaw(restitution=1.0)
     """
@@ -103,7 +101,6 @@ class WaltonLaw:
 
     Examples
     --------
-    >>> import carom
     >>> law = carom.laws.WaltonLaw(friction=0.2, restitution=1.0, tangential_restitution=0.4)
     >>> law.tangential_restitution
     0.4

@@ -27,7 +27,6 @@ class WaltonFit:
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> fit = carom.laws.fit_walton(pair)
@@ -69,7 +68,6 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> fit = carom.laws.fit_walton(pair)

@@ -40,10 +40,7 @@ define void @NRT_decref(i8* %x) alwaysinline { ret void }
 
 @global_compiler_lock  # type: ignore[untyped-decorator]
 def object_code(entries: Iterable[Kernel[..., Any]]) -> bytes:
-    """Return an object file of entry points, which needs nothing but the C library.
-
-    Raises RuntimeError for kernels that need more: that allocate memory, or raise.
-    """
+    """Return an object file of entry points; RuntimeError if one needs more than the C library."""
     with numba_internals.front_end():
         modules = {
             name: _module(name, kernel.dispatcher, signature)

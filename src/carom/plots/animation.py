@@ -55,8 +55,7 @@ def animate(
     path : str or Path
         A name that ends in .gif, or in .mp4 where ffmpeg is installed.
     progress : bool or callable, optional
-        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
-        what is called after every frame.
+        As for `carom.sweep`; a function is called after every frame.
 
     Returns
     -------
@@ -110,7 +109,6 @@ def checked_animation(path: str | Path) -> Path:
 
     Examples
     --------
-    >>> import carom
     >>> carom.plots.checked_animation("hit.gif").name
     'hit.gif'
     """
@@ -148,7 +146,6 @@ class _Film:
         self.still: Any = None
 
     def picture(self, fields: xr.Dataset) -> Image.Image:
-        """Return one frame."""
         style.check_grid(fields, "traction_x", "y", "x")
         self._draw_patch(fields)
         self._move_marker(fields)
@@ -178,14 +175,8 @@ class _Film:
         scale, unit = style.prefixed(largest, "Pa")
         reach = MARGIN * float(history["contact_radius"].max())
         self.patch.clear()
-        shading = patch_panel(
-            self.patch,
-            fields,
-            "traction_x",
-            scale,
-            reach=reach,
-            **style.colours("traction_x", largest * scale),
-        )
+        colours = style.colours("traction_x", largest * scale)
+        shading = patch_panel(self.patch, fields, "traction_x", scale, reach=reach, **colours)
         title = patch_title(fields, reach, like=history["time"].values)
         self.patch.set_title(title if "\n" in title else title + "\n ")
         if self.still is None:
@@ -212,12 +203,8 @@ def _palette() -> Image.Image:
     """Return an image with the colours of a GIF: the same for all frames, so that none flickers."""
     shades = matplotlib.colormaps[style.SIGNED_MAP](np.linspace(0.0, 1.0, 112))[:, :3]
     hatched = 0.4 * shades[::4] + 0.6 * 0.5  # by lines of grey, see `patch_panel`
-    inks = [
-        style.BLUE,
-        style.BLACK,
-        *(c for band in BANDS.values() for c in (band.face, band.edge)),
-    ]
-    mixed = [to_rgb(ink) for ink in dict.fromkeys(inks)]
+    tints = (color for band in BANDS.values() for color in (band.face, band.edge))
+    mixed = [to_rgb(ink) for ink in dict.fromkeys([style.BLUE, style.BLACK, *tints])]
     faded = [0.5 * np.array(color) + 0.5 for color in mixed]
     greys = np.repeat(np.linspace(0.0, 1.0, 32)[:, np.newaxis], 3, axis=1)
     colors = np.vstack([shades, hatched, mixed, faded, greys])

@@ -22,7 +22,6 @@ class Band(NamedTuple):
     hatch: str
 
     def key(self, label: str) -> Patch:
-        """Return the entry of a legend."""
         return Patch(facecolor=self.face, edgecolor=self.edge, hatch=self.hatch, label=label)
 
 

@@ -66,7 +66,6 @@ def plot_cone(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
 
 def _draw_circle(dataset: xr.Dataset) -> Figure:
-    """Draw the force along the contact inside Coulomb's circle."""
     figure, axis = style.single_axis(height=86.0)
     force = dataset["tangential_force"].transpose("step", "direction").values
     most = float(dataset["friction"]) * dataset["normal_force"].values[:, None]

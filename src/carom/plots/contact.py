@@ -121,10 +121,7 @@ def _instants(course: xr.Dataset, count: int) -> list[float]:
 
 
 def _largest(shown: list[xr.Dataset]) -> tuple[float, bool]:
-    """Return the largest traction in all patches but their rims, and whether rims have more.
-
-    The pressure of viscous bodies, and the limit of friction with it, has no bound at the edge.
-    """
+    """Return the largest traction but at rims, which may have no bound, and if those have more."""
     inside, everywhere = 0.0, 0.0
     for fields in shown:
         traction = np.abs(fields["traction_x"].values)

@@ -46,10 +46,7 @@ class Section(NamedTuple):
 def write_document(
     target: Path, title: str, sections: Sequence[Section], draw: Callable[[bool], Any]
 ) -> Path:
-    """Write a document whole or not at all; its figures stand behind the first section.
-
-    `draw` makes the figures, by what they are called: narrow ones or those for a whole page.
-    """
+    """Write a document whole or not at all; figures by `draw` stand behind the first section."""
     if ending_of(target, DOCUMENTS) == ".pdf":
         figures = draw(False).values()
         return replace_whole(target, lambda where: _write_pdf(where, title, sections, figures))

@@ -32,8 +32,7 @@ AT_TEXT = """at : float or str, optional
     step of a load path, by default the last."""
 FIGURE_TEXT = """matplotlib.figure.Figure
     The figure, as wide as one column of a paper, 86 mm, or two, 178 mm."""
-IMPACT_TEXT = """>>> import carom
->>> ball = carom.Sphere(radius="5 mm", material="steel")
+IMPACT_TEXT = """>>> ball = carom.Sphere(radius="5 mm", material="steel")
 >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
 >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
 """
@@ -50,10 +49,9 @@ def draws(
 ) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Let a function of a dataset take a result, too, in any size and style; refuse all else.
 
-    `what` says what it draws and what makes such a dataset; all of `needed` must be in it, and the
-    first of them must go along these dimensions, if any are named, and have values. A result gives
-    its dataset by a method that `take` names, or by a function of the result and the argument
-    `at`. With `several`, a list or dictionary of them becomes a dictionary of datasets.
+    `what` says what it draws and what makes it; all of `needed` must be in it, the first of them
+    along these dimensions. A result gives its dataset by a method, `take`, or by a function of it
+    and `at`. With `several`, a list or dictionary of them becomes a dictionary of datasets.
     """
     dims = (along,) if isinstance(along, str) else along
 
@@ -91,10 +89,7 @@ def draws(
 
 @contextmanager
 def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
-    """Let a function draw in the style that is wanted, or into a user's Axes as these are.
-
-    Keywords that it does not know are refused.
-    """
+    """Let a function draw in the style that is wanted, or into a user's Axes."""
     words = [*(word for word in parameters if word != "look"), *LOOK]
     refuse(*(f"{w}: no keyword of {name}; {hint(w, words)}" for w in look if w not in LOOK))
     axes = look.get("ax")
@@ -109,10 +104,9 @@ def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
 
 
 def documented(draw: Callable[P, T], drawn: str = "") -> Callable[P, T]:
-    """Add to the docstring of a function that draws what all of them take, return and refuse.
+    """Add to a docstring what all functions that draw take, return and refuse.
 
-    `drawn` describes the first parameter, if the docstring does not. Examples that draw an impact,
-    `hit`, begin with one.
+    `drawn` describes the first parameter, if the docstring does not; `hit` is an impact.
     """
     text, _, examples = cleandoc(draw.__doc__ or "").partition("\nExamples\n--------\n")
     text, _, raises = text.partition("\nRaises\n------\n")
@@ -178,10 +172,9 @@ def _lacking(dataset: Any, needed: tuple[str, ...], along: tuple[str, ...]) -> s
 
 
 def at_instant(*methods: str) -> Take:
-    """Return what takes fields of a result: at an instant of an impact, a step of a load path.
+    """Return what takes fields of a result by the first of the methods that it has.
 
-    The first of the methods that the result has makes them; by default at the instant at which the
-    normal force is largest, or after the last step.
+    By default at the instant of the largest normal force, or after the last step.
     """
 
     def take(result: Any, at: Any) -> Any:

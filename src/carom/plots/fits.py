@@ -20,14 +20,8 @@ ONE_INCIDENCE = 1e-9  # rad, between incidences that are drawn as one
 ACROSS = 2  # responses side by side
 UPPER, LOWER = 48.0, 20.0  # heights of curves and residuals, in mm
 PER_SET = 8.0  # height of a set in mm
-OUTLIERS: Any = {
-    "marker": "o",
-    "ls": "none",
-    "ms": 4.0,
-    "color": style.VERMILION,
-    "mfc": "white",
-    "zorder": 6,
-}
+OUTLIERS: Any = {"marker": "o", "ls": "none", "ms": 4.0, "zorder": 6}
+OUTLIERS |= {"color": style.VERMILION, "mfc": "white"}
 LAW_STYLES: dict[str, Any] = {
     "exact": {"color": style.BLACK, "lw": 1.3, "zorder": 4},
     "rigid Coulomb": {"color": style.VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},
@@ -53,10 +47,6 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     that of the parameters, to first order. Regimes of the exact law are shaded. Outliers are marked
     with their rows; those that would make the others unreadable are triangles at the edge.
 
-    Examples
-    --------
-    >>> import carom
-    >>> from carom.plots.fits import plot_fit
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> angles = [10.0, 25.0, 40.0, 55.0, 70.0]
@@ -98,10 +88,6 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     Error bars are standard deviations; of the laws the one that is likeliest comes first. Outliers
     are marked with their rows.
 
-    Examples
-    --------
-    >>> import carom
-    >>> from carom.plots.fits import plot_drops
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> drops = {"drop_height": [0.1, 0.2, 0.4, 0.8], "rebound_height": [0.06, 0.1, 0.17, 0.29]}

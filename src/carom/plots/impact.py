@@ -62,10 +62,7 @@ def _limit(history: xr.Dataset) -> Array:
 
 
 def stick_line(stick: Array, contact: Array) -> Array:
-    """Return the radius of the stick zone while there is one, to where it has shrunk to nothing.
-
-    Stick that begins all over the contact is no line from zero: there is none in gross slip.
-    """
+    """Return the radius of the stick zone while there is one, to where it has shrunk to nothing."""
     before = np.concatenate([[0.0], stick[:-1]])
     return np.where((stick > 0.0) | (before > 0.0) | (contact == 0.0), stick, np.nan)
 
@@ -223,11 +220,6 @@ def radii_panel(axis: Axes, dataset: xr.Dataset) -> None:
     legend_above(axis, 2)
 
 
-def _taken(energy: Array) -> Array:
-    """Return an energy less what is left of it at the end: all of it would hide the others."""
-    return np.asarray(energy - energy[-1])
-
-
 def energies_panel(
     axis: Axes, dataset: xr.Dataset, energies: dict[str, tuple[str, str, str]] = ENERGIES
 ) -> None:
@@ -239,7 +231,8 @@ def energies_panel(
     parts = np.array([dataset[name].values for name in drawn])
     if all(name in dataset for name in SPUN):
         drawn = drawn | SPUN
-        parts = np.vstack([parts, *(_taken(dataset[name].values) for name in SPUN)])
+        spun = (dataset[name].values for name in SPUN)  # all of it would hide the others
+        parts = np.vstack([parts, *(energy - energy[-1] for energy in spun)])
     total = float(parts[:, 0].sum()) or 1.0
     shares = axis.stackplot(time, parts / total, colors=[face for _, face, _ in drawn.values()])
     for area, (name, _, hatch) in zip(shares, drawn.values(), strict=True):

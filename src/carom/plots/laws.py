@@ -59,7 +59,6 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
     >>> ranking = carom.verify.rank(carom.verify.catalogue()[:2], psi_1=[0.5, 1.0, 3.0])
     >>> axis = carom.plots.plot_laws(ranking.to_dataset()).axes[1]
     >>> [text.get_text() for text in axis.get_yticklabels()]
@@ -123,10 +122,8 @@ def _draw_bars(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any], mo
         sample.set_in_layout(False)
         axis.add_line(sample)
     names = [str(name).replace("$", r"\$") for name in dataset["law"].values[rows]]
-    axis.set_yticks(
-        places,
-        [style.with_formulas(textwrap.fill(n, LABEL_WIDTH, break_long_words=False)) for n in names],
-    )
+    lines = (textwrap.fill(name, LABEL_WIDTH, break_long_words=False) for name in names)
+    axis.set_yticks(places, map(style.with_formulas, lines))
     axis.tick_params(axis="y", length=0.0, pad=15.0)
     axis.set_ylim(most - 0.5, -0.5)
     for side in ("top", "right"):
@@ -167,7 +164,6 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
 
     Examples
     --------
-    >>> import carom
     >>> found = carom.verify.error_map(carom.dem.LinearSpring(), [0.5, 1.0, 3.0], [1.2, 1.4])
     >>> carom.plots.plot_error_map(found).axes[1].get_ylabel()
     'error in $\\\\psi_2$'

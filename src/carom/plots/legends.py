@@ -22,10 +22,7 @@ LABEL_ROOM = 5.0  # beside axes, in sizes of the font
 
 
 def legend_above(axis: Axes, columns: int, **options: Any) -> None:
-    """Put the legend above the axes, where it covers no data, in as many columns as there is room.
-
-    One that is wider than the axes would make these narrower.
-    """
+    """Put the legend above the axes in as many columns as fit: a wider one makes axes narrower."""
     handles = options.pop("handles", None) or axis.get_legend_handles_labels()[0]
     grid = axis.get_subplotspec()
     across = grid.get_gridspec().ncols / len(grid.colspan) if grid else 1
@@ -36,10 +33,7 @@ def legend_above(axis: Axes, columns: int, **options: Any) -> None:
 
 
 def legend_outside(figure: Figure, handles: list[Any], columns: int, **options: Any) -> None:
-    """Put a legend above all axes of a figure, in as many columns as there is room.
-
-    Above a user's Axes, if that is what is drawn into.
-    """
+    """Put a legend above all axes of a figure, or a user's Axes, in as many columns as fit."""
     axis = AXES.get()
     if axis is not None:
         legend_above(axis, columns, handles=handles, **options)
@@ -114,7 +108,6 @@ def _outline(text: str, size: float, fonts: tuple[str, ...]) -> Bbox:
 
 
 def _fonts() -> tuple[str, ...]:
-    """Return all that is set of fonts."""
     return tuple(str(RC[name]) for name in FONTS)
 
 

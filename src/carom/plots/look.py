@@ -133,10 +133,7 @@ def wanted_width(look: Look) -> float | None:
 
 @contextmanager
 def using(chosen: dict[str, Any]) -> Iterator[None]:
-    """Set matplotlib to some settings for a while, its defaults for the rest.
-
-    They are the same for all threads, which therefore draw one after the other.
-    """
+    """Set matplotlib to settings for a while, for all threads: they draw one after the other."""
     with LOCK, matplotlib.rc_context():
         matplotlib.rcdefaults()
         RC.update(chosen)

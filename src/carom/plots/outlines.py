@@ -22,10 +22,7 @@ KEPT, MEETING = 1, 2  # places of a lattice that outlines go through; where a th
 
 
 class Ring(NamedTuple):
-    """A line around a region, anticlockwise, or around a hole in it, clockwise.
-
-    `beyond` is the label on the other side of each point, RIM or JUNCTION.
-    """
+    """A line around a region, anticlockwise, or a hole; `beyond` are labels, RIM or JUNCTION."""
 
     label: int
     region: int
@@ -54,10 +51,7 @@ def _around(values: Any) -> Any:
 
 
 def outlines(labels: Labels, places: Array, kept: Labels | None = None) -> Iterator[Ring]:
-    """Yield the outlines of all regions, each followed by those of its holes.
-
-    They go through the places of a lattice that are KEPT or MEETING, by default through all.
-    """
+    """Yield outlines of regions, each with its holes, through places KEPT or MEETING, or all."""
     count = changes(labels)
     places, kept = places.copy(), np.full(count.shape, KEPT) if kept is None else kept
     cells = count[1::2, 1::2]

@@ -59,9 +59,8 @@ def plot_patch(
     one_of("variable", variable, MAPPED)
     style.check_grid(dataset, "pressure", "y", "x")
     title = patch_title(dataset)
-    figure, axis = style.single_axis(
-        height=64.0 + 4.0 * len(title.splitlines())
-    )  # the map is square
+    height = 64.0 + 4.0 * len(title.splitlines())  # the map is square
+    figure, axis = style.single_axis(height=height)
     scale, unit = style.prefixed(dataset[variable].values, style.unit_of(dataset, variable))
     colours = style.colours(variable, dataset[variable].values * scale)
     shading = patch_panel(axis, dataset, variable, scale, **colours)
@@ -80,11 +79,7 @@ def patch_panel(
     word: str = "stick",
     **colours: Any,
 ) -> Any:
-    """Draw the patch on axes and return its shading.
-
-    The map goes to `reach` in m, by default to a little beyond the contact. The shading is the
-    variable times `scale` in these colours. The word stands in the middle where that sticks.
-    """
+    """Draw the patch on axes to `reach` in m, the variable times `scale`; return its shading."""
     reach = reach or _reach(dataset)
     x, unit, length = style.scaled(dataset, "x", like=reach)
     y = dataset["y"].values * length
@@ -95,7 +90,7 @@ def patch_panel(
     ink = "0.5" if colours["cmap"] == style.SIGNED_MAP else "white"
     _draw_zones(axis, contact, stick, slip_band(dataset).hatch, ink)
     if stick > ROOM * contact:
-        _name_stick(axis, word)
+        style.stroke_white(axis.text(0.0, 0.0, word, ha="center", va="center"))
     _draw_arrows(axis, arrows(dataset, reach), length)
     axis.set_aspect("equal")
     ends = (-reach * length, reach * length)
@@ -128,15 +123,8 @@ def _draw_zones(axis: Axes, contact: float, stick: float, hatch: str, ink: str) 
     axis.add_patch(Circle((0, 0), contact, fill=False, ec="black", lw=1.0))
 
 
-def _name_stick(axis: Axes, word: str) -> None:
-    style.stroke_white(axis.text(0.0, 0.0, word, ha="center", va="center"))
-
-
 class Arrows(NamedTuple):
-    """Where the surfaces slip on each other, and how fast, in SI units: arrays of one length.
-
-    `longest` is how long the arrow of the fastest is drawn, in m.
-    """
+    """Where surfaces slip, and how fast, in SI units; `longest` m is drawn for the fastest."""
 
     x: Array
     y: Array
@@ -151,10 +139,7 @@ class Arrows(NamedTuple):
 
 
 def arrows(dataset: xr.Dataset, reach: float | None = None) -> Arrows:
-    """Return the slip velocities at some points of the grid, all in the slip zone; or the slips.
-
-    They are as many as fit on a map that goes to `reach`.
-    """
+    """Return slip velocities, or slips, at points of the slip zone that fit on a map to `reach`."""
     x, y = dataset["x"].values, dataset["y"].values
     contact, stick = (float(dataset[f"{name}_radius"]) for name in ZONES)
     room = min(MARGIN * contact / (reach or _reach(dataset)), 1.0)
@@ -175,10 +160,7 @@ def _slip(dataset: xr.Dataset) -> str:
 
 
 def _places(contact: float, stick: float, count: int) -> tuple[Array, Array, float]:
-    """Return points on a lattice, or in the middle of a slip ring too narrow for one.
-
-    Also how long an arrow may be that neither meets the next one nor leaves the ring.
-    """
+    """Return points of a lattice, or inside a ring too narrow for it, and the length of arrows."""
     spacing = 2.0 * contact / count
     if stick > 0.0 and contact - stick < NARROW_RING * spacing:
         around = count * RING_ARROWS // ARROWS_ACROSS

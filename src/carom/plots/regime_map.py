@@ -73,7 +73,6 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
     >>> figure = carom.plots.plot_regime_map(carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]))
     >>> [text.get_text() for text in figure.axes[0].texts][2:4]
     ['$\\\\psi_1 = $$4\\\\chi-1$', 'G+']

@@ -1,6 +1,6 @@
 """Rebound curves with their regimes, and the borders of regimes over a map of psi_1 and chi."""
 
-from typing import TypeAlias, Unpack
+from typing import Any, TypeAlias, Unpack
 
 import numpy as np
 import xarray as xr
@@ -41,7 +41,6 @@ def plot_curve(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
     >>> axis = carom.plots.plot_curve(carom.curve(1.44, [0.0, 0.5, 1.0, 1.5, 2.0])).axes[0]
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['stick', 'gross slip, stick']
@@ -72,13 +71,10 @@ def _draw_line(axis: Axes, one: xr.Dataset, row: int, dots: bool) -> None:
         ends = np.concatenate([-one["border"].values[::-1], one["border"].values])
         ends = ends[(ends > psi[0]) & (ends < psi[-1])]
         axis.plot(ends, np.interp(ends, psi, out), marker, color=color)
-    axis.plot(psi, out, color=color, ls=style.DASHES[row % len(style.DASHES)])
-    handle = {
-        "color": color,
-        "ls": style.DASHES[row % len(style.DASHES)],
-        "marker": marker if dots else "",
-    }
-    axis.plot([], [], **handle, label=rf"$\chi$ = {float(one['chi']):g}")
+    stroke: Any = {"color": color, "ls": style.DASHES[row % len(style.DASHES)]}
+    axis.plot(psi, out, **stroke)
+    label = rf"$\chi$ = {float(one['chi']):g}"
+    axis.plot([], [], **stroke, marker=marker if dots else "", label=label)
 
 
 def shade_regimes(axis: Axes, borders: Array | None, low: float, high: float) -> list[Patch]:

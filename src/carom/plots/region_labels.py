@@ -89,11 +89,7 @@ def in_letters(name: str) -> list[str]:
 def find_labels(
     regions: list[Region], lines: list[Array], to_mm: Array, size: tuple[float, float]
 ) -> Labels:
-    """Return where the labels of regions go on a map of a size in mm, clear of some lines.
-
-    Inside their region, else at the end of a leader line. Where there is no room for the sequence,
-    a number takes its place.
-    """
+    """Return labels of regions on a map: inside, else on a leader; a number if there is no room."""
     sheet = Sheet(regions, to_mm, size)
     for line in lines:
         sheet.keep_off(line * to_mm[0] + to_mm[1])
@@ -199,10 +195,7 @@ class Sheet:
     def beside(
         self, anchors: Array, k: int, blocks: list[Block], extra: float = 0.0
     ) -> Iterator[Spot]:
-        """Yield places for a label in free room, at the end of a short leader line to its anchor.
-
-        Lines cost their length, more on borders and where they pass the anchors of others closely.
-        """
+        """Yield places in free room on short leaders; borders and anchors of others cost more."""
         most = SPOTS // (3 * len(anchors))
         start, others = anchors[k], np.delete(anchors, k, axis=0)
         for block in blocks:
@@ -256,10 +249,7 @@ class Sheet:
 
 
 def without_overlaps(spots: list[list[Spot]]) -> list[Label | None]:
-    """Return a label of each list or none, no two of which meet, at the least cost on the whole.
-
-    By simulated annealing: each in turn moves to where it costs least, by some chance elsewhere.
-    """
+    """Return a label of each list or none, no two meeting, at least cost: simulated annealing."""
     every = [spot for choice in spots for spot in choice]
     ends = np.cumsum([0, *map(len, spots)])
     own = [slice(*pair) for pair in pairwise(ends) if pair[0] < pair[1]]
@@ -274,10 +264,7 @@ def without_overlaps(spots: list[list[Spot]]) -> list[Label | None]:
 
 
 def _meeting(labels: list[Label]) -> Callable[[int], Mask]:
-    """Return what tells which labels one of them meets: by its place or by leader lines.
-
-    A line that passes a label crosses one of its diagonals.
-    """
+    """Return what tells which labels one meets: by places, or leaders that cross a diagonal."""
     at, end = (np.array([getattr(label, name) for label in labels]).T for name in ("at", "end"))
     start = np.array([one.at if one.start is None else one.start for one in labels]).T
     half = 0.5 * np.array([one.block[1:3] for one in labels]).T + 0.5 * APART

@@ -21,7 +21,6 @@ class Region(NamedTuple):
     rings: list[Array]
 
     def path(self) -> Path:
-        """Return the region as a path to fill."""
         rings = (np.concatenate([ring, ring[:1]]) for ring in self.rings)
         return Path.make_compound_path(*(Path(ring, closed=True) for ring in rings))
 
@@ -71,10 +70,7 @@ def _lines(dataset: Any, kind: str) -> list[Array]:
 
 
 def _of_borders(dataset: Any) -> Any:
-    """Return outlines of a fine image, through the borders of a map of version 0.2.
-
-    Its pixels have the sequence on their side of the nearest border.
-    """
+    """Return outlines of an image, by the nearest border of a map of version 0.2."""
     low, high = np.transpose([limits(dataset, name) for name in ("psi_in", "chi")])
     lines = [(line - low) / (high - low) for line in _lines(dataset, "border")]
     fine = [np.asarray(Path(line).interpolated(DENSE).vertices) for line in lines]

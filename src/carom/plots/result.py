@@ -77,10 +77,7 @@ class Result(ABC):
 def card(
     title: str, rows: Mapping[str, str], figure: "Figure | None" = None, notes: str = ""
 ) -> str:
-    """Return HTML with a table of named texts, beside a picture if any, and lines of text below.
-
-    Colours are those of the notebook; the picture brings its own, light ground.
-    """
+    """Return HTML: named texts beside a picture, which brings its light ground, and lines below."""
     cells = "".join(
         f"<tr><th style='text-align:left;padding-right:1em'>{escape(name.replace('$', ''))}</th>"
         f"<td style='text-align:left'>{escape(text)}</td></tr>"

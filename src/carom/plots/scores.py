@@ -37,7 +37,6 @@ def plot_score(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
     >>> psi = [0.5, 1.0, 2.0, 4.0]
     >>> result = carom.verify.score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
     >>> len(carom.plots.plot_score(result.to_dataset()).axes)
@@ -63,9 +62,8 @@ def _points(dataset: xr.Dataset) -> Figure:
     _exact(upper, dataset, (low, high + room))
     for name, marker in markers.items():
         where = _names(dataset) == name
-        upper.plot(
-            psi[where], dataset["psi_out"].values[where], label=_label(whole, name), **marker
-        )
+        out = dataset["psi_out"].values[where]
+        upper.plot(psi[where], out, label=_label(whole, name), **marker)
         lower.plot(psi[where], dataset["error"].values[where], **marker)
     _tolerance(lower, dataset["error"].values, float(dataset["tolerance"]))
     upper.set_xlim(low, high + room)
@@ -125,11 +123,8 @@ def _exact(axis: Axes, dataset: xr.Dataset, span: tuple[float, float]) -> None:
         for row, chi in enumerate(np.unique(chis)):
             where = shown & (chis == chi)
             line = [dataset[f"curve_psi_{side}"].values[where] for side in ("in", "out")]
-            stroke = {
-                "color": style.LINES[row % len(style.LINES)],
-                "ls": style.DASHES[row % len(style.DASHES)],
-            }
-            axis.plot(*line, label=rf"exact, $\chi$ = {chi:.5g}", **stroke)
+            color, dash = (some[row % len(some)] for some in (style.LINES, style.DASHES))
+            axis.plot(*line, label=rf"exact, $\chi$ = {chi:.5g}", color=color, ls=dash)
     else:
         exact = dataset["psi_out_exact"].values
         axis.plot(psi, exact, "x", ms=4.5, color=style.BLUE, zorder=3, label="exact")

@@ -37,7 +37,6 @@ def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
     >>> figure = carom.plots.plot_strength(carom.bearable_speeds(pair, angle=["0 deg", "60 deg"]))

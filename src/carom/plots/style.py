@@ -45,14 +45,8 @@ MAP = "cividis"
 SIGNED_MAP = "RdBu_r"  # white at zero
 SIGNED = ("traction_", "sigma_", "principal_")  # how quantities begin that have a sign
 
-POINTS: Any = {
-    "fmt": "o",
-    "ms": 2.6,
-    "color": BLACK,
-    "mfc": "white",
-    "lw": 0.0,
-    "elinewidth": 0.7,
-}  # of measured values, with error bars
+# Of measured values, with error bars.
+POINTS: Any = {"fmt": "o", "ms": 2.6, "color": BLACK, "mfc": "white", "lw": 0.0, "elinewidth": 0.7}
 
 
 def check_grid(dataset: Any, name: str, *dims: str) -> None:
@@ -99,7 +93,6 @@ def style(**look: Unpack[looks.Look]) -> Iterator[None]:
 
     Examples
     --------
-    >>> import carom
     >>> import matplotlib
     >>> with carom.plots.style.style(font_size=9.0):
     ...     matplotlib.rcParams["font.size"]
@@ -156,7 +149,6 @@ def new_figure(
 
     Examples
     --------
-    >>> import carom
     >>> with carom.plots.style.style():
     ...     figure, axes = carom.plots.style.new_figure(2, 1, width=178.0, height=100.0)
     >>> (25.4 * figure.get_size_inches()).round(9), axes.shape
@@ -208,7 +200,6 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
     Examples
     --------
     >>> import tempfile
-    >>> import carom
     >>> figure = carom.plots.plot_curve(carom.curve(1.44, [0.0, 1.0, 6.0]))
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     carom.plots.save_figure(figure, folder + "/curve.png").name
@@ -222,14 +213,7 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
 
 
 def label(name: str, unit: str | None = None) -> str:
-    """Return the label of an axis: symbol and unit; what the symbol means belongs in the caption.
-
-    Examples
-    --------
-    >>> from carom.plots.style import label
-    >>> label("tangential_force", "mN")
-    '$F_x$\\xa0(mN)'
-    """
+    """Return the label of an axis: symbol and unit; what the symbol means stands in the caption."""
     entry = GLOSSARY[name]
     unit = entry.unit if unit is None else unit
     return entry.symbol if unit == "1" else f"{entry.symbol}\u00a0({unit})"

@@ -37,9 +37,8 @@ def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     mapped = name in dataset
     if mapped:
         style.check_grid(dataset, name, "y", "x")
-    figure, axes = style.new_figure(
-        1, 1 + mapped, width=style.DOUBLE if mapped else style.SINGLE, height=66.0
-    )
+    width = style.DOUBLE if mapped else style.SINGLE
+    figure, axes = style.new_figure(1, 1 + mapped, width=width, height=66.0)
     _profile(axes[0, 0], dataset, f"mean_{name}")
     if mapped:
         _map(figure, axes[0, 1], dataset, name)

@@ -55,15 +55,7 @@ def numbers(
 
 
 def pure_numbers(name: str, values: Any, allowed: str = REALS) -> Array:
-    """Return real numbers without a unit as an array, NaN where they are masked, or raise.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from carom.quantities.arrays import pure_numbers
-    >>> pure_numbers("psi", np.ma.masked_greater([0.5, 9.0], 1.0))
-    array([0.5, nan])
-    """
+    """Return real numbers without a unit as an array, NaN where they are masked, or raise."""
     return _read(values, _Reading(name, "1", allowed, texts=False, gaps=True))
 
 
@@ -108,10 +100,7 @@ def in_unit(name: str, values: Array, own: Factor) -> Array:
 
 
 def _bare(values: Any, reading: _Reading) -> Any:
-    """Return numbers in SI units: one, an array, or nested lists of them; None for anything else.
-
-    Raises InputError for what has another unit or cannot be read.
-    """
+    """Return numbers in SI units, None for anything else, or raise InputError for another unit."""
     if type(values) is float or (type(values) is int and abs(values) < INT64_END):
         return values
     if isinstance(values, list | tuple):
@@ -139,15 +128,7 @@ def _bare(values: Any, reading: _Reading) -> Any:
 
 
 def together(arrays: Mapping[str, Array], most: int = MOST_POINTS) -> tuple[int, ...]:
-    """Return the shape to which arrays broadcast, or raise InputError; also if it is too large.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from carom.quantities.arrays import together
-    >>> together({"psi": np.zeros((7, 1)), "chi": np.zeros(3)})
-    (7, 3)
-    """
+    """Return the shape to which arrays broadcast, or raise InputError; also if it is too large."""
     names, shapes = ", ".join(arrays), [values.shape for values in arrays.values()]
     try:
         shape = np.broadcast_shapes(*shapes)
@@ -164,17 +145,7 @@ def together(arrays: Mapping[str, Array], most: int = MOST_POINTS) -> tuple[int,
 
 
 def along_the_same(**arrays: Any) -> None:
-    """Raise InputError for arrays of xarray's or pandas' whose dimensions or labels differ.
-
-    Examples
-    --------
-    >>> import xarray as xr
-    >>> from carom.quantities.arrays import along_the_same
-    >>> psi, chi = (xr.DataArray([1.0, 2.0], dims=name) for name in "ab")
-    >>> along_the_same(psi=psi, chi=chi)
-    Traceback (most recent call last):
-    carom.InputError: psi, chi: their dimensions are a and b; give arrays along the same ones
-    """
+    """Raise InputError for arrays of xarray's or pandas' whose dimensions or labels differ."""
     named = {name: getattr(value, "dims", ()) for name, value in arrays.items()}
     along = {name: tuple(map(str, dims)) for name, dims in named.items() if dims}
     longest = max(along.values(), key=len, default=())
@@ -203,14 +174,7 @@ def _labels(value: Any) -> Iterable[tuple[Any, Any]]:
 
 
 def plain_numbers(texts: Sequence[str]) -> Array | None:
-    """Return texts that are all numbers without a unit as an array, quickly; else None.
-
-    Examples
-    --------
-    >>> from carom.quantities.arrays import plain_numbers
-    >>> plain_numbers(["1.5", " -2e3"]), plain_numbers(["1.5", "1_000"])
-    (array([ 1.5e+00, -2.0e+03]), None)
-    """
+    """Return texts that are all numbers without a unit as an array, quickly; else None."""
     if not texts or ASCII_NUMBERS.fullmatch("".join(texts)) is None:
         return None
     try:
@@ -260,10 +224,7 @@ def places(
     default: Mapping[str, Array],
     points: ArrayLike | None,
 ) -> Places:
-    """Return points, or a grid along two of the axes of space, the others zero there.
-
-    Raises InputError if both are given, or one cannot be used.
-    """
+    """Return points, or a grid along two of the axes, others zero; InputError for both."""
     if points is not None:
         both, wanted = any(values is not None for values in grid.values()), " and ".join(grid)
         allowed = f"give a grid by {wanted}, or points"

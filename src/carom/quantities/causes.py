@@ -4,14 +4,7 @@ from carom.quantities.statuses import WordedStatus
 
 
 class Cause(WordedStatus):
-    """What ends a phase, as a number for kernels; its `message` says it in words.
-
-    Examples
-    --------
-    >>> from carom.quantities.causes import Cause
-    >>> Cause.RING_CLOSES.message
-    'slip ring closes'
-    """
+    """What ends a phase, as a number for kernels; its `message` says it in words."""
 
     FIRST_TOUCH = 0, "first touch"
     EDGE_AT_LIMIT = 1, "edge reaches friction limit"

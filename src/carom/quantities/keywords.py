@@ -13,21 +13,7 @@ Result = TypeVar("Result")
 
 
 def known_keywords(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Return a function that refuses keywords it does not know, and values without their name.
-
-    Examples
-    --------
-    >>> from carom.quantities.keywords import known_keywords
-    >>> @known_keywords
-    ... def slide(*, friction):
-    ...     return friction
-    >>> slide(mu=0.2)
-    Traceback (most recent call last):
-    carom.InputError: mu: no keyword of slide; write friction
-    >>> slide(0.2)
-    Traceback (most recent call last):
-    carom.InputError: slide: takes these by name; write friction=0.2
-    """
+    """Return a function that refuses keywords it does not know, and values without their name."""
     parameters = signature(function).parameters.values()
     keywords = [each.name for each in parameters if each.kind is not Parameter.POSITIONAL_ONLY]
     named = [each.name for each in parameters if each.kind is Parameter.KEYWORD_ONLY]

@@ -37,26 +37,12 @@ READ: Mapping[str, Mapping[int, str]] = {  # units by the power of ten that they
 
 
 def text(value: float, unit: str, digits: int = DIGITS) -> str:
-    """Return an SI value with a unit, to read; angles in degrees and in radians, NaN as a dash.
-
-    >>> from carom.quantities.prefixes import text
-    >>> text(0.000187666, "m"), text(2.1e11, "Pa"), text(-0.0, "N"), text(0.25, "1")
-    ('187.666 µm', '210 GPa', '0 N', '0.25')
-    >>> text(0.349066, "rad"), text(4e-17, "m^3"), text(4.1e-6, "kg"), text(7850.0, "kg/m^3")
-    ('20 deg (0.349066 rad)', '40 µm^3', '4.1 mg', '7850 kg/m^3')
-    """
+    """Return an SI value with a unit, to read; angles in degrees and in radians, NaN as a dash."""
     return span(value, value, unit, digits)
 
 
 def span(low: float, high: float, unit: str, digits: int = DIGITS) -> str:
-    """Return from where to where SI values go, in one unit, to read.
-
-    >>> from carom.quantities.prefixes import span
-    >>> span(0.0, 845.996, "N"), span(0.0, 2e-5, "m"), span(0.5, 0.5, "1")
-    ('0 to 845.996 N', '0 to 20 µm', '0.5')
-    >>> span(0.0, 0.349066, "rad")
-    '0 to 20 deg (0 to 0.349066 rad)'
-    """
+    """Return from where to where SI values go, in one unit, to read."""
     if isnan(low) or isnan(high):
         return "-"
     if unit == "rad":
@@ -67,24 +53,14 @@ def span(low: float, high: float, unit: str, digits: int = DIGITS) -> str:
 
 
 def shared(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tuple[str, ...], str]:
-    """Return SI values as numbers in one unit, which suits the largest, and that unit.
-
-    >>> from carom.quantities.prefixes import shared
-    >>> shared((-6.472e-5, 0.0, 1.385e-4), "m")
-    (('-64.72', '0', '138.5'), 'µm')
-    """
+    """Return SI values as numbers in one unit, which suits the largest, and that unit."""
     numbers = tuple(values)
     power, name = _suited(numbers, unit, digits)
     return tuple(_number(value, power, digits) for value in numbers), printable(name)
 
 
 def column(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tuple[str, ...], str]:
-    """Return the cells of a column, all with as many decimals, and the unit for its head.
-
-    >>> from carom.quantities.prefixes import column
-    >>> column((0.0, 1.31886e-5, 3.096e-5), "s")
-    (('0.0000', '13.1886', '30.9600'), 'µs')
-    """
+    """Return the cells of a column, all with as many decimals, and the unit for its head."""
     numbers = tuple(values)
     power, name = _suited(numbers, unit, digits)
     decades = _exponent(_largest(numbers), digits) - power
@@ -96,12 +72,7 @@ def column(values: Iterable[float], unit: str, digits: int = DIGITS) -> tuple[tu
 
 
 def prefixed(values: "ArrayLike", unit: str) -> tuple[float, str]:
-    """Return by what to multiply SI values, and the unit that they are in then, for a figure.
-
-    >>> from carom.quantities.prefixes import prefixed
-    >>> prefixed([0.0, 2.5e-5], "m"), prefixed([0.0, 0.9], "1")
-    ((1000000.0, 'µm'), (1.0, '1'))
-    """
+    """Return by what to multiply SI values, and the unit that they are in then, for a figure."""
     import numpy as np  # what only prints does without
 
     numbers = np.abs(np.asarray(values, dtype=np.float64))

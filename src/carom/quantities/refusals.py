@@ -35,16 +35,7 @@ def refusal(name: str, value: Any, allowed: str) -> InputError:
 
 
 def refuse(*faults: object) -> None:
-    """Raise InputError with all texts and errors among these; what is false is no fault.
-
-    Examples
-    --------
-    >>> from carom.quantities.refusals import refuse
-    >>> mass, speed = 1.0, -2.0
-    >>> refuse(mass < 0.0 and "mass: must be positive", speed < 0.0 and "speed: must be positive")
-    Traceback (most recent call last):
-    carom.InputError: speed: must be positive
-    """
+    """Raise InputError with all texts and errors among these; what is false is no fault."""
     if messages := list(map(str, filter(None, faults))):
         raise InputError(_together(messages))
 
@@ -112,17 +103,7 @@ def _shown(value: Any) -> str:
 
 
 class Faults:
-    """What is wrong with a file: collected inside its context, and told in one message after it.
-
-    Examples
-    --------
-    >>> from carom.quantities.refusals import Faults
-    >>> with Faults() as faults:
-    ...     faults.add("angle: column missing")
-    ...     faults.add("spin: not a number in line 3")
-    Traceback (most recent call last):
-    carom.InputError: 2 faults: (1) angle: column missing; (2) spin: not a number in line 3
-    """
+    """What is wrong with a file: collected inside its context, and told in one message after it."""
 
     def __init__(self) -> None:
         self._messages: list[str] = []

@@ -5,17 +5,7 @@ from typing import Self
 
 
 class WordedStatus(IntEnum):
-    """A status for arrays of int8, 0 where all is well; its `message` says in words what it is.
-
-    Examples
-    --------
-    >>> from carom.quantities.statuses import WordedStatus
-    >>> class Landing(WordedStatus):
-    ...     SOFT = 0, "landed softly"
-    ...     HARD = 1, "landed hard"
-    >>> Landing(1).message
-    'landed hard'
-    """
+    """A status for arrays of int8, 0 where all is well; its `message` says in words what it is."""
 
     message: str
 

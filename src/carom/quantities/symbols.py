@@ -59,14 +59,7 @@ def remark(word: str, name: str) -> str:
 
 
 def meant(word: str, names: Iterable[str]) -> str:
-    """Return that of these names for which a word stands, empty if there is none.
-
-    Examples
-    --------
-    >>> from carom.quantities.symbols import meant
-    >>> meant("mu", ["friction", "speed"]), meant("omega", ["angle", "spin"]), meant("x", ["spin"])
-    ('friction', 'spin', '')
-    """
+    """Return that of these names for which a word stands, empty if there is none."""
     wanted = _named(word) or _named(word.lower())
     there = set(names)
     return next((name for name in wanted if name in there), "")

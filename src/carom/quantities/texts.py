@@ -83,10 +83,7 @@ FOLDED = str.maketrans("", "", BLANKS + "^*·⋅.(){}")
 
 
 class Unreadable(ValueError):
-    """A text is no quantity, or not one of the kind that is asked for; the message says why.
-
-    `enough` tells whether it says what to do, too.
-    """
+    """A text is no quantity, or of another kind; `enough` if the message says what to do, too."""
 
     def __init__(self, reason: str = "", *, enough: bool = False) -> None:
         super().__init__(reason)
@@ -124,25 +121,13 @@ def as_factor(ratio: float) -> Factor:
 
 
 def read_text(text: str, unit: str, bare: Factor = UNCHANGED) -> float:
-    """Return the quantity in a text, in a unit; `bare` is how a bare number comes to be in it.
-
-    Raises Unreadable.
-
-    Examples
-    --------
-    >>> from carom.quantities.texts import read_text
-    >>> read_text("\N{MINUS SIGN}3e3 mm/s", "m/s"), read_text("20 %", "1"), read_text("7", "Pa")
-    (-3.0, 0.2, 7.0)
-    """
+    """Return the quantity in a text, in a unit; `bare` is how a bare number comes to be in it."""
     value, expression = split(text)
     return (factor(expression, unit) if expression else bare).apply(value)
 
 
 def split(text: str) -> tuple[float, str]:
-    """Return the number in a text and the unit expression after it, which may be empty.
-
-    Raises Unreadable, also for numbers that floating point cannot hold.
-    """
+    """Return the number in a text and its unit, perhaps empty; Unreadable if no float holds it."""
     if len(text) > LONGEST_TEXT:
         raise Unreadable(f"it is longer than {LONGEST_TEXT} characters", enough=True)
     plain = text.strip(BLANKS)
@@ -162,10 +147,7 @@ def split(text: str) -> tuple[float, str]:
 
 
 def factor(expression: str, unit: str) -> Factor:
-    """Return how numbers with one unit, empty for pure numbers, become those of another.
-
-    Raises Unreadable if the expression is none, or of another kind; angles are a kind of their own.
-    """
+    """Return how a unit becomes another; Unreadable for another kind, of which angles are one."""
     result = _factor(expression, unit)
     if isinstance(result, Unreadable):
         raise Unreadable(str(result), enough=result.enough)
@@ -173,14 +155,7 @@ def factor(expression: str, unit: str) -> Factor:
 
 
 def is_unit(expression: str) -> bool:
-    """Tell whether a text is a unit, of whatever quantity.
-
-    Examples
-    --------
-    >>> from carom.quantities.texts import is_unit
-    >>> is_unit("m/s"), is_unit("%"), is_unit("fast")
-    (True, True, False)
-    """
+    """Tell whether a text is a unit, of whatever quantity."""
     try:
         _root(_terms(expression))
     except (Unreadable, ArithmeticError):
@@ -267,10 +242,7 @@ def _spelling(expression: str, unit: str) -> str:
 
 @lru_cache(maxsize=1024)
 def _whole_name(name: str) -> str:
-    """Return pint's name of a unit, with its prefix, or raise Unreadable if there is none.
-
-    Capital letters are taken for small ones in names that are written out, such as Pascal.
-    """
+    """Return pint's name of a unit, in small letters if written out, or raise Unreadable."""
     parse, small = _registry().parse_unit_name, name.lower()
     if small == "grad":
         raise Unreadable(f"{name!r} may be degrees or gon; write deg or gon", enough=True)

@@ -51,20 +51,9 @@ EXAMPLES = {
 
 
 def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHANGED) -> float:
-    """Return a value in SI units: a number, or text with a unit such as "5 mm".
+    """Return a value in SI units, a number or text with a unit ("5 mm"), or raise InputError.
 
     `bare` is how a number without a unit comes to be in SI units.
-
-    Raises InputError for anything else, for an unknown unit and for a unit of another kind.
-
-    Examples
-    --------
-    >>> import math
-    >>> from carom.quantities.units import number
-    >>> number("radius", "5 mm")
-    0.005
-    >>> number("angle", "90 deg") == math.pi / 2
-    True
     """
     unit = unit or GLOSSARY[name].unit
     plain, own_unit = without_unit(name, value, unit)
@@ -83,10 +72,7 @@ def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHAN
 
 
 def pure_number(name: str, value: Any, allowed: str = "give one number") -> float:
-    """Return a number that has no unit, which may be NaN or infinite; texts are none.
-
-    Raises InputError for anything else.
-    """
+    """Return a number without a unit, perhaps NaN or infinite, or raise InputError."""
     plain, own_unit = without_unit(name, value, "1")
     if not is_real(plain):
         raise refusal(name, value, allowed)
@@ -121,21 +107,13 @@ def as_float(name: str, value: Any) -> float:
 
 
 def finite_or_text(text: str) -> float | str:
-    """Return a number of TOML or JSON, as a text if it is not finite, which no quantity is then.
-
-    Examples
-    --------
-    >>> from carom.quantities.units import finite_or_text
-    >>> finite_or_text("1e99"), finite_or_text("1e999"), finite_or_text("inf")
-    (1e+99, '1e999', 'inf')
-    """
+    """Return a number of TOML or JSON, as a text if it is not finite, which no quantity is then."""
     return float(text) if math.isfinite(float(text)) else text
 
 
 def without_unit(name: str, value: Any, unit: str = "") -> tuple[Any, Any]:
-    """Return a value without its unit, and that unit, None if it has none.
+    """Return a value without its unit, and that unit, an object of pint's or a text, or None.
 
-    Quantities of pint's and arrays of xarray's have one, an object of pint's or a text.
     Raises InputError for quantities of other libraries; `unit` is the one that is wanted.
     """
     if hasattr(value, "to_root_units"):
@@ -183,10 +161,7 @@ def two_units(name: str, one: Any, other: Any) -> InputError:
 
 
 def factor_of(name: str, own: Any, unit: str) -> Factor:
-    """Return how numbers in a unit, a text or one of pint's, become those in another.
-
-    Raises InputError if it is none, or of another kind.
-    """
+    """Return how a unit, a text or pint's, becomes another; InputError for none or another kind."""
     try:
         if isinstance(own, str):
             return factor("" if own in PURE_UNITS else own, unit)
@@ -240,14 +215,7 @@ def counted(name: str, value: Any, least: int, most: int = MOST_COUNTED) -> int:
 
 
 def whole(name: str, text: str, least: int, most: int = MOST_COUNTED) -> int:
-    """Return the whole number in a text of ASCII digits, or raise InputError.
-
-    Examples
-    --------
-    >>> from carom.quantities.units import whole
-    >>> whole("points", "401", 2)
-    401
-    """
+    """Return the whole number in a text of ASCII digits, or raise InputError."""
     plain = text.strip()
     return _within(name, text, int(plain) if WHOLE_NUMBER.fullmatch(plain) else None, least, most)
 
@@ -266,14 +234,7 @@ def threads_or_none(threads: Any) -> int | None:
 
 
 def or_none(value: float) -> float | None:
-    """Return a number as JSON can hold it: None if it is not finite.
-
-    Examples
-    --------
-    >>> from carom.quantities.units import or_none
-    >>> or_none(2), or_none(float("inf")), or_none(float("nan"))
-    (2.0, None, None)
-    """
+    """Return a number as JSON can hold it: None if it is not finite."""
     return float(value) if math.isfinite(value) else None
 
 

@@ -79,7 +79,6 @@ def sweep(
 
     Examples
     --------
-    >>> import carom
     >>> case = {"first": {"radius": "5 mm", "material": "steel"}, "speed": "2 m/s"}
     >>> grid = carom.Grid({"angle": ["20 deg", "60 deg"], "friction": [0.1, 0.2, 0.3]})
     >>> result = carom.sweep(case, grid)

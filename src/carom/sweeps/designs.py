@@ -15,16 +15,7 @@ from carom.dimensionless.numerics.permutation import fractions, secrets
 from carom.quantities.arrays import Array, numbers, refuse_where
 from carom.quantities.refusals import checked_type, one_of, refusal, refuse
 from carom.quantities.units import counted, number, without_unit
-from carom.sweeps.inputs import (
-    CHOSEN,
-    CODE,
-    Choices,
-    checked_names,
-    input_attributes,
-    leaf,
-    read_choices,
-    variable,
-)
+from carom.sweeps import inputs as known
 
 Box = tuple[slice, ...]
 Values = dict[str, NDArray[Any]]
@@ -34,10 +25,7 @@ USUAL_BLOCKS = 32  # that a sweep of middling size is cut into
 
 
 def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
-    """Return the shape of the blocks of a sweep, filled from its last axis on.
-
-    Blocks have fewer points where each point costs more.
-    """
+    """Return the shape of blocks, filled from the last axis on, smaller where points cost more."""
     room = min(max(prod(shape) // USUAL_BLOCKS, FEWEST // cost), MOST // cost)
     chunks = []
     for length in reversed(shape):
@@ -83,19 +71,16 @@ class Range(NamedTuple):
 
 def read_values(name: str, axis: ArrayLike) -> Array:
     """Return the values of an axis in SI units, or raise InputError."""
-    key, allowed = leaf(name), "must be a list of finite numbers or texts with units"
+    key, allowed = known.leaf(name), "must be a list of finite numbers or texts with units"
     values = np.atleast_1d(numbers(key, axis, allowed))
     line = values.ndim == 1 and values.size > 0
     refuse(not line and refusal(name, axis, f"{allowed}, at least one"))
     fits = np.isfinite(values) | ((key == "young") & (values == np.inf))
     refuse_where(name, values, ~fits, allowed)
-    bare = key == "angle" and np.abs(values).max() > pi and not _has_text(axis)
+    texts = isinstance(axis, str) or any(isinstance(each, str) for each in np.atleast_1d(axis))
+    bare = key == "angle" and np.abs(values).max() > pi and not texts
     refuse(bare and refusal(name, axis, "bare angles are in radians; write '30 deg'"))
     return values
-
-
-def _has_text(values: Any) -> bool:
-    return isinstance(values, str) or any(isinstance(value, str) for value in np.atleast_1d(values))
 
 
 def read_axis(name: str, axis: Any) -> Array:
@@ -141,8 +126,8 @@ def _as_table(name: str, reach: Any) -> Mapping[str, Any]:
 
 def _end(name: str, which: str, value: Any) -> float:
     refuse(value is None and f"{name}.{which}: missing; a range needs from and to")
-    result = number(leaf(name), value)
-    bare = leaf(name) == "angle" and abs(result) > pi and not isinstance(value, str)
+    result = number(known.leaf(name), value)
+    bare = known.leaf(name) == "angle" and abs(result) > pi and not isinstance(value, str)
     allowed = bare and f"a bare angle is in radians; write '{value} deg'"
     allowed = allowed if isfinite(result) else "must be finite"
     refuse(allowed and refusal(f"{name}.{which}", value, allowed))
@@ -157,16 +142,15 @@ MOST_SEED = 2**128 - 1
 class Design(ABC):
     """What a sweep needs to know of its points: the names of their inputs, and how these vary.
 
-    `_choices` are what the codes of an input that has names stand for. Points are `_sampled` if
-    their inputs are variables along `point`, rather than coordinates.
+    `_choices` are what codes of names stand for; `_sampled` inputs are variables along `point`.
     """
 
     names: tuple[str, ...]
-    _choices: Choices = field(repr=False)
+    _choices: known.Choices = field(repr=False)
     _by_input: Mapping[str, Any] = field(repr=False)
     _sampled: ClassVar[bool] = True
 
-    def __init__(self, choices: Choices, by_input: Mapping[str, Any], **more: Any) -> None:
+    def __init__(self, choices: known.Choices, by_input: Mapping[str, Any], **more: Any) -> None:
         fields = {"names": tuple(by_input), "_choices": choices, "_by_input": by_input, **more}
         for name, value in fields.items():
             object.__setattr__(self, name, value)
@@ -196,7 +180,7 @@ class Design(ABC):
     def _doubts(self) -> tuple[str, ...]:
         """Return what is hardly meant among the inputs, in words."""
         numbers = [
-            (leaf(name), values[:2] if isinstance(values, Range) else values)
+            (known.leaf(name), values[:2] if isinstance(values, Range) else values)
             for name, values in self._by_input.items()
             if name not in self._choices
         ]
@@ -234,7 +218,6 @@ class Grid(Design):
 
     Examples
     --------
-    >>> import carom
     >>> angle = {"from": "0 deg", "to": "80 deg", "points": 9}
     >>> grid = carom.Grid({"angle": angle, "friction": [0.1]})
     >>> grid.dims, grid.shape
@@ -246,7 +229,7 @@ class Grid(Design):
     def __init__(self, axes: Mapping[str, Any]) -> None:
         choices = _choices("axes", axes)
         values = {
-            name: np.arange(len(choices[name]), dtype=CODE)
+            name: np.arange(len(choices[name]), dtype=known.CODE)
             if name in choices
             else read_axis(name, axis)
             for name, axis in axes.items()
@@ -255,7 +238,7 @@ class Grid(Design):
 
     @property
     def dims(self) -> tuple[str, ...]:
-        return tuple(variable(name) for name in self.names)
+        return tuple(known.variable(name) for name in self.names)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -264,7 +247,7 @@ class Grid(Design):
     def _coords(self) -> dict[str, Any]:
         labels = {name: [one.label for one in self._choices[name]] for name in self._choices}
         return {
-            dim: (dim, labels.get(name, values), input_attributes(name, self._choices))
+            dim: (dim, labels.get(name, values), known.input_attributes(name, self._choices))
             for dim, (name, values) in zip(self.dims, self._by_input.items(), strict=True)
         }
 
@@ -303,7 +286,6 @@ class LatinHypercube(Design):
 
     Examples
     --------
-    >>> import carom
     >>> design = carom.LatinHypercube({"friction": (0.0, 0.5)}, samples=5, seed=1)
     >>> sorted((design.inputs((slice(0, 5),))["friction"] * 10).astype(int).tolist())
     [0, 1, 2, 3, 4]
@@ -334,7 +316,7 @@ class LatinHypercube(Design):
         inputs: dict[str, NDArray[Any]] = {}
         for (name, reach), secret in zip(self._by_input.items(), words, strict=True):
             values = reach.at(fractions(index, self.samples, secret))
-            inputs[name] = values.astype(CODE) if name in self._choices else values
+            inputs[name] = values.astype(known.CODE) if name in self._choices else values
         return inputs
 
     def _description(self) -> dict[str, Any]:
@@ -342,8 +324,8 @@ class LatinHypercube(Design):
         return {"kind": "latin hypercube", **whole, "ranges": self._described(Range._asdict)}
 
 
-def _choices(what: str, values: Any) -> Choices:
+def _choices(what: str, values: Any) -> known.Choices:
     """Return the choices of the inputs that have names; InputError for what is not an input."""
     inputs = checked_type(what, values, Mapping, "must be a mapping from names of inputs to values")
-    named = (name for name in checked_names(inputs) if name in CHOSEN)
-    return {name: read_choices(name, inputs[name]) for name in named}
+    named = (name for name in known.checked_names(inputs) if name in known.CHOSEN)
+    return {name: known.read_choices(name, inputs[name]) for name in named}

@@ -80,10 +80,7 @@ def input_attributes(name: str, choices: Choices) -> dict[str, Any]:
 
 
 def checked_names(inputs: Iterable[Any], *, listing: bool = True) -> tuple[str, ...]:
-    """Return names of inputs, or raise InputError for one that is unknown or contradicts others.
-
-    It lists all names for the first that resembles none, unless `listing` is false.
-    """
+    """Return names of inputs, or raise InputError for unknown ones or contradictions."""
     names = tuple(inputs)
     unknown = [name for name in names if name not in INPUTS]
     refuse(

@@ -102,7 +102,6 @@ class PointStatus(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.PointStatus(3).message
     'bodies do not approach'
     """
@@ -131,14 +130,8 @@ OF_SOLVER = {
 WITH_RESULTS = (PointStatus.SOLVED, PointStatus.STRENGTH_NOT_KNOWN, PointStatus.RIM_ANSWERS)
 FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
 POSITIVE = (
-    "radius",
-    "gyration_radius",
-    "thickness",
-    "width",
-    "young",
-    "density",
-    "yield_velocity",
-    "flow_stress",
+    *("radius", "gyration_radius", "thickness", "width", "young", "density"),
+    *("yield_velocity", "flow_stress"),
 )
 NOT_NEGATIVE = ("friction", "inner_radius", "loss_time", "relaxation_time")
 IN_RANGE: dict[str, Callable[[Any], Any]] = {
@@ -201,9 +194,8 @@ def evaluate(
         unknown = np.logical_or.reduce([solved & np.isnan(values) for values in strengths.values()])
         status[unknown & solved] = PointStatus.STRENGTH_NOT_KNOWN
         if "second.width" in columns and pair.thickness is not None:
-            narrow = columns["second.width"] < quiet_width(
-                cast(HalfSpace, second), outcome.duration
-            )
+            quiet = quiet_width(cast(HalfSpace, second), outcome.duration)
+            narrow = columns["second.width"] < quiet
             status[solved & narrow] = PointStatus.RIM_ANSWERS
         results |= strengths
         values = {name: np.where(solved, value, np.nan) for name, value in results.items()}

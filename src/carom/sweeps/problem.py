@@ -113,7 +113,7 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
     if "second.kind" in names:
         kinds = tuple(choice.label for choice in design._choices["second.kind"])
     inherits = second.get("material") is None and "second.material" not in names
-    fixed = {name: value for name, value in _numbers(case) if not _replaced(name, names)}
+    fixed = {n: v for n, v in _numbers(case) if not {n, n.rpartition(".")[0]} & {*names}}
     yielding = set(losses) & set(LAWS_OF_STRENGTH)
     yields = bool(yielding - {*names, *fixed})
     if yields or "flow_stress" in yielding:  # which body yields is told by the strengths
@@ -158,11 +158,6 @@ def _numbers(case: cases.Case) -> Iterator[tuple[str, float]]:
                 yield f"{body}.material.{name}", value
 
 
-def _replaced(name: str, names: tuple[str, ...]) -> bool:
-    """Whether a design gives this number, or the material that it is of."""
-    return name in names or (".material." in name and name.rpartition(".")[0] in names)
-
-
 def _inherit(columns: dict[str, Any], *names: str) -> None:
     for name in names:
         if f"first.{name}" in columns:
@@ -186,7 +181,8 @@ def _refuse_missing(whole: Common) -> None:
     for kind in whole.kinds:
         columns = whole.columns(first_point, kind)
         needed = ["friction", "first.radius", *(f"first.material.{name}" for name in ELASTIC)]
-        optional = (*OPTIONAL, *(("material.density",) if not _is_plate(columns, kind) else ()))
+        moves = kind == "sphere" or "second.thickness" in columns
+        optional = OPTIONAL if moves else (*OPTIONAL, "material.density")
         needed += [f"second.{name}" for name in OF_SECOND[kind] if name not in optional]
         needed += ["normal_speed" if "normal_speed" in columns else "speed"]
         missing = [name for name in needed if name not in columns]
@@ -194,10 +190,6 @@ def _refuse_missing(whole: Common) -> None:
             *(f"{name}: missing; give it in the case or in the design" for name in missing),
             whole.yields and YIELD not in map(leaf, columns) and NO_STRENGTH.format(whole.loss),
         )
-
-
-def _is_plate(columns: Mapping[str, Any], kind: str) -> bool:
-    return kind == "sphere" or "second.thickness" in columns
 
 
 OUTPUTS = (
@@ -242,7 +234,6 @@ class SweepProblem:
 
     @property
     def loses(self) -> bool:
-        """Whether energy is lost but to friction."""
         plate = "second.thickness" in {*self.design.names, *self._common.fixed}
         return self._common.loss is not None or plate
 
@@ -253,10 +244,7 @@ class SweepProblem:
         return chunk_shape(self.design.shape, cost)
 
     def block(self, box: Box, threads: int | None = 1) -> Values:
-        """Return the outputs, sampled inputs and status of a box of points, in its shape.
-
-        The numbers of a point do not depend on the box. NaN where the status is not SOLVED.
-        """
+        """Return outputs, sampled inputs and status of points, whatever the box; else NaN."""
         shape = tuple(part.stop - part.start for part in box)
         size, inputs = prod(shape), self.design.inputs(box)
         status = np.full(size, PointStatus.NOT_A_NUMBER, dtype=np.int8)

@@ -45,7 +45,6 @@ class MemoryRecord:
         self.todo = list(boxes(shape, problem.chunks()))
 
     def write(self, box: Box, values: Values) -> None:
-        """Keep a block."""
         for name, part in values.items():
             self._arrays[name][box] = part
 
@@ -54,7 +53,6 @@ class MemoryRecord:
         return "nothing is stored; with --store DIR.zarr (store=) you could continue it"
 
     def dataset(self) -> "xr.Dataset":
-        """Return the sweep."""
         return blank_dataset(self._problem, self._arrays)
 
 
@@ -103,7 +101,6 @@ class Summary(NamedTuple):
 
     @property
     def points(self) -> int:
-        """The number of points."""
         return sum(self.statuses.values())
 
 
@@ -119,11 +116,8 @@ def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summar
         for name in shown:
             values = dataset[name][box].values
             if (finite := values[np.isfinite(values)]).size:
-                least, most = ranges[name]
-                ranges[name] = (
-                    float(np.fmin(least, finite.min())),
-                    float(np.fmax(most, finite.max())),
-                )
+                least, most = np.fmin(ranges[name][0], finite.min()), finite.max()
+                ranges[name] = float(least), float(np.fmax(ranges[name][1], most))
     statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
     solved = sum(counts[status] for status in WITH_RESULTS)
     return Summary({str(n): size for n, size in dataset.sizes.items()}, statuses, ranges, solved)

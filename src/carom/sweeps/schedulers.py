@@ -58,9 +58,8 @@ def team(scheduler: str | None, workers: int | None, problem: SweepProblem) -> I
         with futures.ThreadPoolExecutor(own, "sweep") as pool:
             yield Team(lambda box: pool.submit(problem.block, box), own, {})
     elif workers is not None:
-        raise refusal(
-            "workers", workers, "a cluster has its own workers; leave it out with a scheduler"
-        )
+        allowed = "a cluster has its own workers; leave it out with a scheduler"
+        raise refusal("workers", workers, allowed)
     else:
         with _cluster(scheduler, problem) as there:
             yield there
@@ -109,9 +108,8 @@ def _checked_threads(client: Any, address: str) -> int:
     try:
         client.wait_for_workers(1, timeout=ANSWER_SECONDS)
     except TimeoutError:
-        raise refusal(
-            "scheduler", address, f"it has no workers; start one with: dask worker {address}"
-        ) from None
+        allowed = f"it has no workers; start one with: dask worker {address}"
+        raise refusal("scheduler", address, allowed) from None
     for worker, there in client.run(versions, on_error="return").items():
         _require_same(worker, there, versions())
     return sum(client.nthreads().values())

@@ -113,12 +113,12 @@ def opened(folder: str | Path, problem: SweepProblem, resume: bool) -> Iterator[
 def _checked(folder: str | Path) -> Path:
     kind = f"folder that ends in {STORE_ENDING}"
     path = checked_path("store", folder, kind)
+    named = path.suffix.lower() == STORE_ENDING
     there = os.path.isdir(os.path.dirname(os.path.realpath(path)))
+    missing = "the folder that holds it must exist; make it first"
     refuse(
-        path.suffix.lower() != STORE_ENDING
-        and refusal("store", str(folder), f"must be the name of a {kind}"),
-        not there
-        and refusal("store", str(path), "the folder that holds it must exist; make it first"),
+        not named and refusal("store", str(folder), f"must be the name of a {kind}"),
+        not there and refusal("store", str(path), missing),
     )
     return path
 
@@ -158,10 +158,7 @@ def _create(path: Path, problem: SweepProblem) -> None:
 
 
 def _blank_files(problem: SweepProblem) -> dict[str, Buffer]:
-    """Return the files of a store without points.
-
-    Threads of zarr would go on writing into a folder while a signal has it removed.
-    """
+    """Return the files of an empty store; zarr's threads would write on as a signal removes it."""
     files: dict[str, Buffer] = {}
     store = MemoryStore(files)
     with warnings.catch_warnings():  # of what the format 3 does not yet have on paper

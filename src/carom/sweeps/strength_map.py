@@ -42,8 +42,7 @@ def bearable_speeds(
     V_Y = V (Y/sigma_M)^(5/2), with the largest von Mises stress sigma_M of the whole impact
     (`Impact.peaks`), and exceeds its tensile strength above V_t, which follows in the same way from
     the largest tensile stress. Flaws up to the flaw size grow into cracks above V_c, the speed at
-    which K = K_c. If the contact is so small that deeper flaws are pulled at less, the force for
-    this is proportional to the radius: Auerbach's law (1891). Without friction, for nu = 0.3, a
+    which K = K_c; for small contacts by Auerbach's law (1891). Without friction, for nu = 0.3, a
     sphere yields at a pressure of 1.6 Y (Johnson 1985, section 6.1). If flaws are known, use V_c
     and not V_t: a tensile strength measured in bending is exceeded beside a contact long before
     flaws crack, as the stress there falls with the depth.
@@ -57,9 +56,7 @@ def bearable_speeds(
         Angles of incidence from the normal, in rad or as text; by default 18 up to 85 degrees.
     friction : array_like, optional
         Coefficients of friction; by default that of the pair.
-    workers : int, optional
-        Number of threads, by default one for each core.
-    progress : bool or callable, optional
+    workers, progress : optional
         As for `sweep`.
 
     Returns
@@ -79,7 +76,6 @@ def bearable_speeds(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
     >>> found = carom.bearable_speeds(pair, angle=["0 deg", "60 deg"])

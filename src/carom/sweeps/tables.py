@@ -20,20 +20,8 @@ from carom.io.user_table import UserTable, column_in_si
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, checked_type, heading, refusal, refuse
 from carom.quantities.texts import Unreadable, factor
+from carom.sweeps import inputs as known
 from carom.sweeps.designs import Box, Design, Grid, LatinHypercube
-from carom.sweeps.inputs import (
-    CHOSEN,
-    CODE,
-    INPUTS,
-    UNREADABLE,
-    Choice,
-    Choices,
-    checked_choices,
-    checked_names,
-    leaf,
-    read_choice,
-    refuse_contradictions,
-)
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -62,7 +50,6 @@ class Table(Design):
 
     Examples
     --------
-    >>> import carom
     >>> carom.Table({"angle [deg]": [10, 20], "friction": [0.1, 0.2]}).names
     ('angle', 'friction')
     """
@@ -102,27 +89,27 @@ class Table(Design):
         return {"kind": "table", **whole, "sha256": digest.hexdigest()}
 
 
-def _read(table: UserTable) -> tuple[Choices, dict[str, NDArray[Any]]]:
+def _read(table: UserTable) -> tuple[known.Choices, dict[str, NDArray[Any]]]:
     """Return what the codes of names stand for, and the inputs by name."""
     inputs: dict[str, NDArray[Any]] = {}
-    choices: dict[str, tuple[Choice, ...]] = {}
-    unknown = [name for name in table.names if name not in INPUTS] or [""]
+    choices: dict[str, tuple[known.Choice, ...]] = {}
+    unknown = [name for name in table.names if name not in known.INPUTS] or [""]
     with Faults() as faults:
         for name in table.names:
             try:
-                checked_names([name], listing=name == unknown[0])
+                known.checked_names([name], listing=name == unknown[0])
                 _, cells, unit, *_ = table.column(name)
-                if name in CHOSEN:
+                if name in known.CHOSEN:
                     inputs[name], choices[name] = _chosen(name, cells)
                 else:
-                    key = leaf(name)
+                    key = known.leaf(name)
                     inputs[name] = column_in_si(key, GLOSSARY[key].unit, unit, cells)[0]
                     _refuse_units(table, name, inputs[name])
             except InputError as error:
                 faults.add(str(error))
-        refuse_contradictions(table.names)
+        known.refuse_contradictions(table.names)
         faults.settle()
-        _refuse_words(table, [name for name in inputs if name not in CHOSEN])
+        _refuse_words(table, [name for name in inputs if name not in known.CHOSEN])
     return choices, inputs
 
 
@@ -132,7 +119,7 @@ def _refuse_units(table: UserTable, name: str, values: NDArray[Any]) -> None:
     for place in np.flatnonzero(np.isnan(values)) if isinstance(cells, list) else ():
         text = str(cells[place]).strip("[]() ")
         with suppress(Unreadable):
-            if text and factor(text, GLOSSARY[leaf(name)].unit):
+            if text and factor(text, GLOSSARY[known.leaf(name)].unit):
                 raise InputError(
                     f"{name}: {text!r} in {table.one(int(place))} is a unit without a number; "
                     f"write it into the head of the column, '{name} [{text}]'"
@@ -148,7 +135,7 @@ def _refuse_words(table: UserTable, names: list[str]) -> None:
         raise refusal(f"table, {table.one(0)}", ", ".join(words), allowed)
 
 
-def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:
+def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[known.Choice, ...]]:
     """Return the codes of a column of names, and what they stand for."""
     plain = (cell.strip() if isinstance(cell, str) else cell for cell in cells)
     listed = np.fromiter(plain, dtype=object, count=len(cells))
@@ -157,12 +144,12 @@ def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:
     except TypeError:
         strange = next((cell for cell in cells if not isinstance(cell, Hashable)), cells)
         raise refusal(name, strange, "a column of names must hold texts, or materials") from None
-    read: dict[int, Choice] = {}
+    read: dict[int, known.Choice] = {}
     for i, value in enumerate(values):
         with suppress(InputError):
-            read[i] = read_choice(name, value)
-    choices = checked_choices(name, list(read.values())) if read else ()
-    place = np.full(len(values) + 1, UNREADABLE, dtype=CODE)
+            read[i] = known.read_choice(name, value)
+    choices = known.checked_choices(name, list(read.values())) if read else ()
+    place = np.full(len(values) + 1, known.UNREADABLE, dtype=known.CODE)
     place[list(read)] = np.arange(len(choices))
     return place[codes], choices
 

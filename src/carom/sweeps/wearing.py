@@ -21,14 +21,8 @@ from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted, positive
-from carom.sweeps.points import (
-    BlockSolution,
-    Codes,
-    PointStatus,
-    approaches,
-    solve_block,
-    velocities,
-)
+from carom.sweeps import points
+from carom.sweeps.points import PointStatus
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,20 +38,16 @@ STATUS = {
 
 
 class Many(NamedTuple):
-    """Impacts of one pair side by side: how they meet and how often, and what comes of each.
-
-    `rubbed` is the integral of pressure times slip rate in N m, `radii` the largest of the contact.
-    """
+    """Impacts of one pair side by side; `rubbed` in N m, `radii` the largest of the contact."""
 
     columns: dict[str, Array]
     counts: Array
-    status: Codes
+    status: points.Codes
     rubbed: Array
     radii: Array
 
     @property
     def solved(self) -> Any:
-        """Which of them are solved."""
         return self.status == PointStatus.SOLVED
 
     def part(self, which: slice) -> "Many":
@@ -90,7 +80,7 @@ def _read_columns(pair: Pair, motion: dict[str, ArrayLike | None]) -> dict[str, 
 
 def _motion_of(columns: Mapping[str, Any]) -> tuple[Any, Any]:
     """Return normal speeds and tangential motions."""
-    normal, tangential = velocities(columns)
+    normal, tangential = points.velocities(columns)
     spin2 = columns.get("spin2", np.zeros_like(normal))
     return normal, Tangential(tangential, columns["spin"], spin2)
 
@@ -115,26 +105,25 @@ def _solve_all(
 def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
     """Solve a block of impacts and write what comes of it."""
     normal, motion = _motion_of(block.columns)
-    solution = BlockSolution.blank(block.counts.size, losses is not None)
+    solution = points.BlockSolution.blank(block.counts.size, losses is not None)
     tangential, spin, spin2 = motion
     scales = pair.scales(normal)
     outcome = Outcome(pair, normal, tangential, spin, spin2, solution, scales=scales)
     block.status[:] = _status(block.columns, block.counts, outcome)
-    solve_block(outcome, losses, block.status, None)
+    points.solve_block(outcome, losses, block.status, None)
     rubbed_now = np.asarray(rubbed(outcome), dtype=np.float64)
     block.status[block.solved & ~(rubbed_now < LARGEST_WORK)] = PointStatus.BEYOND_FLOATING_POINT
     block.rubbed[block.solved] = rubbed_now[block.solved]
     block.radii[block.solved] = np.asarray(outcome.max_radius)[block.solved]
 
 
-def _status(columns: Mapping[str, Array], counts: Array, outcome: Outcome) -> Codes:
+def _status(columns: Mapping[str, Array], counts: Array, outcome: Outcome) -> points.Codes:
     """Return what is known before solving; of two faults the one that is marked later."""
     status = np.full(counts.size, PointStatus.SOLVED, dtype=np.int8)
-    status[~np.broadcast_to(outcome_fits(outcome), status.shape)] = (
-        PointStatus.BEYOND_FLOATING_POINT
-    )
+    fits = np.broadcast_to(outcome_fits(outcome), status.shape)
+    status[~fits] = PointStatus.BEYOND_FLOATING_POINT
     status[~(counts >= 0.0)] = PointStatus.OUT_OF_RANGE
-    status[~approaches(columns)] = PointStatus.NOT_APPROACHING
+    status[~points.approaches(columns)] = PointStatus.NOT_APPROACHING
     for values in (*columns.values(), counts):
         status[~np.isfinite(values)] = PointStatus.NOT_A_NUMBER
     return status
@@ -185,21 +174,18 @@ def wear_of_many(
     n : int
         Number of distances from the centre of the spot, from 2 to 100,000.
     progress : bool or callable, optional
-        Whether a progress bar is shown after two seconds, by default in a notebook and on a
-        terminal; or a function that is called with the number of impacts done and their total.
+        As for `carom.sweep`; impacts are counted.
 
     Returns
     -------
     xarray.Dataset
         Along `impact`: the given motion, counts, status (`PointStatus`) and dissipated_energy, the
         work of friction in J of one such impact. As numbers: total_friction_work, and
-        unsolved_impacts, the number of impacts that it does not contain; with a coefficient also
-        total_worn_volume. Both totals are NaN if no impact is solved. With an area also
-        spread_friction_work and spread_wear_depth. Without an area mean_friction_work and
-        mean_wear_depth along `distance`, means around the centre, and max_friction_work and
-        max_wear_depth at the deepest place, at the distance max_wear_radius. On one spot an elastic
-        impact takes some 2 ms, one with losses 0.2 s and more. The work of each viscous impact is
-        known to some 1e-7 of its energy.
+        unsolved_impacts, which it does not contain; with a coefficient also total_worn_volume; NaN
+        if no impact is solved. With an area also spread_friction_work and spread_wear_depth, else
+        mean_friction_work and mean_wear_depth along `distance`, means around the centre, and
+        max_friction_work and max_wear_depth at the distance max_wear_radius. On one spot an elastic
+        impact takes some 2 ms, one with losses 0.2 s and more.
 
     Raises
     ------
@@ -209,7 +195,6 @@ def wear_of_many(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="2 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> mill = carom.wear_of_many(

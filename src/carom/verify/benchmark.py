@@ -75,10 +75,7 @@ class Bench:
         return any(one.failure for one in self.measured)
 
     def results(self) -> str:
-        """Return the impacts with the best law as the scorer reads them.
-
-        Comments hold the bodies, the program and the law.
-        """
+        """Return the impacts with the best law as the scorer reads them, the case in comments."""
         law = self.measured[0].entry.label
         names = f"# code: {self.engine}\n# law: {law}\n"
         rows = results_csv(*self.outcomes[law])
@@ -140,8 +137,7 @@ def bench(
     time_limit : float
         Seconds for each run of the program.
     progress : bool or callable, optional
-        Whether a progress bar is shown after two seconds, by default in a notebook and on a
-        terminal; or a function that is called with the number of laws done and their total.
+        As for `carom.sweep`; laws are counted.
 
     Returns
     -------
@@ -158,7 +154,6 @@ def bench(
 
     Examples
     --------
-    >>> import carom
     >>> carom.verify.bench(carom.verify.Lammps("/nowhere/lmp"))
     Traceback (most recent call last):
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path

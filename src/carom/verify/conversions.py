@@ -9,13 +9,7 @@ from typing import NamedTuple
 
 from carom import dem
 from carom.bodies.pairs import Pair, checked_pair, checked_scales
-from carom.dem.damping import (
-    SMALLEST,
-    damped_restitution,
-    damping_ratio,
-    thornton_damping,
-    tsuji_damping,
-)
+from carom.dem import damping
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.quantities.refusals import checked_type, one_of, refusal, refuse
 from carom.quantities.units import Value, not_negative, positive
@@ -68,7 +62,6 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> k = carom.verify.stiffnesses(pair, "1 m/s")
@@ -111,7 +104,6 @@ def poisson_from_kappa(kappa: float) -> float:
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.verify.poisson_from_kappa(1.4 / 1.7), 12)
     0.3
     """
@@ -121,9 +113,9 @@ def poisson_from_kappa(kappa: float) -> float:
 
 
 CONVENTIONS: dict[str, Callable[[float], float]] = {
-    "critical": damping_ratio,  # part of critical damping, c/(2 sqrt(k m)); betan of YADE's springs
-    "lammps tsuji": tsuji_damping,  # alpha of LAMMPS, damping tsuji
-    "thornton": thornton_damping,  # betan of YADE, DAMPING_GAMMA of Kratos: no pull
+    "critical": damping.damping_ratio,  # c/(2 sqrt(k m)); betan of YADE's springs
+    "lammps tsuji": damping.tsuji_damping,  # alpha of LAMMPS, damping tsuji
+    "thornton": damping.thornton_damping,  # betan of YADE, DAMPING_GAMMA of Kratos: no pull
 }
 
 
@@ -155,12 +147,11 @@ def damping_from_restitution(restitution: float, convention: str = "critical") -
 
     Examples
     --------
-    >>> import carom
     >>> zeta = carom.verify.damping_from_restitution(0.5)
     >>> round(zeta, 4), round(carom.verify.restitution_from_damping(zeta), 12)
     (0.2155, 0.5)
     """
-    value = damped_restitution("restitution", restitution)
+    value = damping.damped_restitution("restitution", restitution)
     rule = CONVENTIONS[one_of("convention", convention, CONVENTIONS)]
     return rule(value) + 0.0  # no -0 at e = 1
 
@@ -187,7 +178,6 @@ def restitution_from_damping(value: float, convention: str = "critical") -> floa
 
     Examples
     --------
-    >>> import carom
     >>> alpha = carom.verify.damping_from_restitution(0.7, "lammps tsuji")
     >>> round(carom.verify.restitution_from_damping(alpha, "lammps tsuji"), 10)
     0.7
@@ -198,12 +188,12 @@ def restitution_from_damping(value: float, convention: str = "critical") -> floa
     wanted = not_negative("damping", value, "1")
     if convention == "critical" and wanted < 1.0:
         return exp(-pi * wanted / sqrt(1.0 - wanted**2))
-    least, most = rule(1.0), rule(SMALLEST)
+    least, most = rule(1.0), rule(damping.SMALLEST)
     if wanted <= least:
         return 1.0
     if wanted > most:
         raise refusal("damping", value, f"must be at most {most:.4g}; no restitution needs more")
-    return float(brentq(lambda e: rule(e) - wanted, SMALLEST, 1.0, xtol=1e-14))
+    return float(brentq(lambda e: rule(e) - wanted, damping.SMALLEST, 1.0, xtol=1e-14))
 
 
 def recipes(
@@ -240,7 +230,6 @@ def recipes(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> print(carom.verify.recipes(pair, 1.0)["LAMMPS Hertz"])
@@ -251,7 +240,7 @@ def recipes(
         ("mindlin", mindlin, dem.LammpsMindlin),
     ):
         checked_type(name, law, kind, f"must be a {kind.__name__}, e.g. carom.{kind.__name__}()")
-    e = damped_restitution("restitution", wanted)
+    e = damping.damped_restitution("restitution", wanted)
     k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping_from_restitution(e)
     ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio
     k_n, k_t, dashpot = k.normal, ratio * k.normal, 2.0 * zeta * sqrt(k.normal * pair.normal_mass)

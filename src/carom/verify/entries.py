@@ -26,7 +26,6 @@ class Entry(NamedTuple):
 
     Examples
     --------
-    >>> import carom
     >>> stiff = carom.verify.Entry("stiff", carom.dem.LinearSpring(1.0), "nobody")
     >>> carom.verify.rank([stiff], psi_1=[1.0]).standings[0].entry.label
     'stiff'
@@ -70,14 +69,8 @@ CATALOGUE = (
 def catalogue() -> tuple[Entry, ...]:
     """Return the contact laws that programs have, each with its parameters and its programs.
 
-    Returns
-    -------
-    tuple of Entry
-        In the order of the tables.
-
     Examples
     --------
-    >>> import carom
     >>> carom.verify.catalogue()[0].label
     'linear spring, k_t/k_n = kappa'
     """

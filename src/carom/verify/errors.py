@@ -167,7 +167,6 @@ def error_map(
 
     Examples
     --------
-    >>> import carom
     >>> errors = carom.verify.error_map(carom.dem.LinearSpring(), [1.0, 6.0], [1.4412])
     >>> errors.error.values.round(3)
     array([[0.176, 0.   ]])
@@ -183,6 +182,7 @@ def error_map(
     if not np.any(np.isfinite(psi_out)):
         met.refuse_failure(rule, psi_out)
     error = psi_out - exact
+    rms = np.sqrt(np.mean(error**2, axis=1))
     names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
     return labelled_dataset(
         {
@@ -190,11 +190,7 @@ def error_map(
             "psi_out_exact": (wide, exact, pure("psi_2 of the exact impact")),
             "error": (wide, error, pure("error in psi_2")),
             "max_error": ("chi", np.abs(error).max(axis=1), pure("largest |error in psi_2|")),
-            "rms_error": (
-                "chi",
-                np.sqrt(np.mean(error**2, axis=1)),
-                pure("root mean square of the error in psi_2"),
-            ),
+            "rms_error": ("chi", rms, pure("root mean square of the error in psi_2")),
         },
         {"chi": chis, "psi_in": psis},
         {"title": "error of a contact law", **names},
@@ -218,10 +214,8 @@ def force_error(
         A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     psi_1 : float
         Incidence psi_1.
-    chi : float
-        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
-    kappa : float, optional
-        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
+    chi, kappa : float
+        As for `rank`.
 
     Returns
     -------
@@ -235,7 +229,6 @@ def force_error(
 
     Examples
     --------
-    >>> import carom
     >>> round(carom.verify.force_error(carom.dem.LammpsMindlin("mindlin"), 0.75, 1.4412).rms, 2)
     0.16
     """
@@ -304,7 +297,6 @@ def step_error(
 
     Examples
     --------
-    >>> import carom
     >>> carom.verify.step_error(carom.dem.LammpsMindlin("mindlin"), 100) < 1e-3
     True
     """
@@ -349,7 +341,6 @@ def advised_steps(
 
     Examples
     --------
-    >>> import carom
     >>> carom.verify.advised_steps(carom.dem.LinearSpring(), 0.01).steps
     28
     """

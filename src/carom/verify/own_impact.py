@@ -66,11 +66,9 @@ class OwnImpact:
     def words(self) -> str:
         """Return what strikes how, in one line."""
         hit = self.hit
-        speeds = (
-            f"{hit.normal_speed:.4g} m/s along the normal, {hit.tangential_speed:.4g} m/s aside"
-        )
+        normal, aside = f"{hit.normal_speed:.4g} m/s", f"{hit.tangential_speed:.4g} m/s"
         numbers = f"psi_1 = {hit.psi_in:.4g}, chi = {hit.pair.chi:.4g}, e = {self.restitution:g}"
-        return f"Your impact: {speeds}; {numbers}"
+        return f"Your impact: {normal} along the normal, {aside} aside; {numbers}"
 
     def of_ranking(self, ranking: Ranking) -> str:
         """Return the table of laws with this impact, the best first."""

@@ -81,7 +81,6 @@ class Ranking(Result):
 
     Examples
     --------
-    >>> import carom
     >>> laws = [carom.dem.LinearSpring(), carom.dem.HardSphere()]
     >>> ranking = carom.verify.rank(laws, psi_1=[1.0, 6.0])
     >>> [round(one.max_error, 2) for one in ranking.standings]
@@ -97,19 +96,12 @@ class Ranking(Result):
         return _table(self)
 
     def _repr_html_(self) -> str:
-        """Return a table and a picture for a notebook."""
         rows = {s.entry.label: f"{s.max_error:.3f} at psi_1 = {s.worst:g}" for s in self.standings}
         title = f"Largest |error in psi_2| at chi = {self.chi:g}"
         return card(title, rows, self.plot())
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the ranking as what JSON can hold.
-
-        Returns
-        -------
-        dict
-            chi, kappa, psi_in and laws, a record each.
-        """
+        """Return chi, kappa, psi_in and laws, a record each, as what JSON can hold."""
         laws = [standing.to_dict() for standing in self.standings]
         return {"chi": self.chi, "kappa": self.kappa, "psi_in": list(self.psi_in), "laws": laws}
 
@@ -123,12 +115,9 @@ class Ranking(Result):
     def to_dataset(self) -> "xr.Dataset":
         """Return psi_2 of each law and of the exact impact, and all errors, as one dataset.
 
-        Returns
-        -------
-        xarray.Dataset
-            psi_out (law, psi_in), psi_out_exact (psi_in; also of the law if their restitutions
-            differ), max_error, rms_error, force_error, energy_gain and restitution (law), steps
-            (law, step_kind), -1 where none suffice; chi and kappa.
+        psi_out (law, psi_in), psi_out_exact (psi_in; also of the law if their restitutions
+        differ), max_error, rms_error, force_error, energy_gain and restitution (law), steps (law,
+        step_kind), -1 where none suffice; chi and kappa.
         """
         impacts = Impacts(np.array(self.psi_in), self.chi, self.kappa)
         psi_out = [impacts.rebound(standing.entry.law) for standing in self.standings]
@@ -137,6 +126,7 @@ class Ranking(Result):
         steps = [
             [step.steps if step else -1 for step in (s.step, s.fine_step)] for s in self.standings
         ]
+        kinds = ["below the error of the law", f"below {FINE_ERROR:g}"]
         numbers = {
             name: ("law", [getattr(s, name) for s in self.standings], pure(meaning))
             for name, meaning in MEANINGS.items()
@@ -154,11 +144,7 @@ class Ranking(Result):
             {
                 "law": ("law", [s.entry.label for s in self.standings], {}),
                 "psi_in": np.array(self.psi_in),
-                "step_kind": (
-                    "step_kind",
-                    ["below the error of the law", f"below {FINE_ERROR:g}"],
-                    {},
-                ),
+                "step_kind": ("step_kind", kinds, {}),
             },
             {"title": "contact laws against the exact impact"},
         )
@@ -200,8 +186,7 @@ def rank(
         Normal coefficient of restitution e for which all laws are damped; laws of the catalogue
         that have no damping are left out.
     progress : bool or callable, optional
-        Whether a progress bar is shown after two seconds, by default in a notebook and on a
-        terminal; or a function that is called with the number of laws done and their total.
+        As for `carom.sweep`; laws are counted.
 
     Returns
     -------
@@ -218,14 +203,9 @@ def rank(
 
     Examples
     --------
-    >>> import carom
     >>> best = carom.verify.rank(carom.verify.catalogue()[:2]).standings[0]
     >>> best.entry.label, round(best.max_error, 3)
     ('linear spring, k_t/k_n = kappa', 0.176)
-    >>> law = carom.dem.LammpsMindlin("mindlin")
-    >>> damped = carom.verify.rank(law, psi_1=[0.5, 2.0], restitution=0.7)
-    >>> round(damped.standings[0].max_error, 2)
-    0.27
     """
     impacts = Impacts.of(psi_1, chi, kappa)
     ranked = [as_entry(each) for each in listed("entries", entries)]

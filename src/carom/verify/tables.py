@@ -5,15 +5,9 @@ from typing import Any
 
 
 def text_table(columns: str, rows: Iterable[Sequence[Any]]) -> list[str]:
-    """Return the lines of a table, its head first, from the names and formats of its columns.
+    """Return the lines of a table, its head first, from names and formats like "max:7.3f steps:6d".
 
     None is a dash, ~ in a name a space; a text that a row has beyond its columns follows them.
-
-    Examples
-    --------
-    >>> from carom.verify.tables import text_table
-    >>> text_table("max:7.3f steps:6d", [(0.25, 28), (0.5, None, "no limit")])
-    ['      max  steps', '    0.250     28', '    0.500      -  no limit']
     """
     names, _, forms = zip(*(column.partition(":") for column in columns.split()), strict=True)
     lines = []

@@ -86,7 +86,6 @@ class Tuning:
 
     Examples
     --------
-    >>> import carom
     >>> tuning = carom.verify.tune([carom.dem.HardSphere(), carom.dem.LinearSpring()], chi=1.4412)
     >>> [round(one.max_error, 2) for one in tuning.advice]
     [0.07, 0.3]
@@ -119,18 +118,11 @@ class Tuning:
         return next((one.law for one in self.advice if isinstance(one.law, kind)), None)
 
     def _repr_html_(self) -> str:
-        """Return a table for a notebook."""
         rows = {called(one.law): _summary(one) for one in self.advice}
         return card(f"Closest to the exact psi_2 at chi = {self.chi:g}", rows)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the advice as what JSON can hold.
-
-        Returns
-        -------
-        dict
-            chi, kappa, psi_in (first and last) and laws, a record each.
-        """
+        """Return chi, kappa, psi_in (first, last) and laws, a record each, as JSON can hold it."""
         return {
             "chi": self.chi,
             "kappa": self.kappa,
@@ -179,17 +171,14 @@ def tune(
     laws : Law, callable, or sequence of them
         Contact laws, or functions as of `carom.dem.FunctionLaw`; only the tuned parameter is
         changed.
-    chi : float
-        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
-    kappa : float, optional
-        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
+    chi, kappa : float
+        As for `rank`.
     psi_1 : array_like, optional
         Incidences psi_1, by default 60 of them up to 4 chi, beyond which all impacts slide.
     measure : str
         Error to minimise: "max", the largest, or "rms", the root mean square.
     progress : bool or callable, optional
-        Whether a progress bar is shown after two seconds, by default in a notebook and on a
-        terminal; or a function that is called with the number of laws done and their total.
+        As for `carom.sweep`; laws are counted.
 
     Returns
     -------
@@ -205,7 +194,6 @@ def tune(
 
     Examples
     --------
-    >>> import carom
     >>> best = carom.verify.tune([carom.dem.HertzLinearHistory()], chi=1.4412).advice[0]
     >>> best.parameter, round(best.value, 2), round(best.before, 2), round(best.max_error, 2)
     ('stiffness', 0.7, 0.61, 0.17)
@@ -304,10 +292,7 @@ def setting_of(
     stop: str | None,
     restitution: str | None,
 ) -> Setting:
-    """Return what a tuning is for, from a case and angles, or from chi and psi_1.
-
-    A restitution takes the place of that of the case; without either it is 1.
-    """
+    """Return what a tuning is for, a case with angles or chi with psi_1; e is 1 by default."""
     if case is None:
         return _without_bodies(chi, kappa, start, stop, restitution)
     for name, value in (("chi", chi), ("kappa", kappa)):

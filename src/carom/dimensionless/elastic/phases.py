@@ -8,17 +8,16 @@ from enum import IntEnum
 
 import numpy as np
 
-from carom.dimensionless.elastic import integration, memory, motion as at, plates
+from carom.dimensionless.elastic import (
+    integration,
+    memory,
+    motion as at,
+    plates,
+    record as recorded,
+)
 from carom.dimensionless.elastic.integration import Run, Work
 from carom.dimensionless.elastic.motion import ORDER
-from carom.dimensionless.elastic.record import (
-    MAX_ANNULI,
-    MAX_PHASES,
-    Record,
-    note_change,
-    note_node,
-    note_stretch,
-)
+from carom.dimensionless.elastic.record import Record
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.quantities.causes import Cause
 from carom.quantities.statuses import WordedStatus
@@ -66,7 +65,6 @@ class Status(WordedStatus):
 
     Examples
     --------
-    >>> import carom
     >>> carom.status.Status(0).message
     'solved'
     """
@@ -74,7 +72,7 @@ class Status(WordedStatus):
     SOLVED = 0, "solved"
     PSI_NOT_FINITE = 1, "psi_1 must be a finite number"
     CHI_NOT_POSITIVE = 2, "chi must be positive and finite"
-    TOO_MANY_PHASES = 3, f"not solved: more than {MAX_PHASES} phases (chi is too large)"
+    TOO_MANY_PHASES = 3, f"not solved: more than {recorded.MAX_PHASES} phases (chi is too large)"
     UNRESOLVED = 4, "not solved: a phase did not end within the allowed number of steps"
     PLATE_GIVES_WAY = 5, "not solved: so thin a plate gives way like a foil (lambda above 2)"
 
@@ -106,14 +104,14 @@ def stick(run: Run, depth: int, psi_1: float) -> tuple[int, int, int]:
     """Run a stick phase; return its cause of ending, the depth of the memory, the sign of slip."""
     work, record = run.work, run.record
     s = work.series
-    note_stretch(record, work.stack, depth)
+    recorded.note_stretch(record, work.stack, depth)
     s[0, at.A] = s[0, at.B]
     event = integration.run_stretch(run, at.STICK, 0, 0.0, False)
     if event == integration.UNRESOLVED:
         return Cause.UNRESOLVED.value, depth, 0
     slowest = psi_1 * (RETRACE_EXACTLY if is_polynomial(run.chi) else RETRACE)
     if run.give == 0.0 and depth == 0 and s[0, at.V] <= slowest + 1e-15:
-        note_node(record, RETRACED, at.CONTACT, 0, 0.0, s)
+        recorded.note_node(record, RETRACED, at.CONTACT, 0, 0.0, s)
         s[0, at.B], s[0, at.V], s[0, at.PSI], s[0, at.Q] = 0.0, -1.0, -psi_1, 0.0
         return Cause.SEPARATION.value, depth, 0
     # stick ends before the turning point; only rounding passes it
@@ -128,11 +126,11 @@ def slip(run: Run, depth: int, sign: int, after_stick: bool) -> tuple[int, int]:
     work, record = run.work, run.record
     s = work.series
     depth = memory.cross_flat(work.stack, depth, sign)
-    for _ in range(MAX_ANNULI):
+    for _ in range(recorded.MAX_ANNULI):
         if depth == 0:
             return Cause.FRONT_AT_CENTRE.value, 0
         mode = memory.place_front(work.stack, depth, s)
-        note_stretch(record, work.stack, depth)
+        recorded.note_stretch(record, work.stack, depth)
         inner = memory.inner_radius(work.stack, depth)
         starts = after_stick and mode == at.LAID
         event = integration.run_stretch(run, mode, sign, inner, starts)
@@ -159,7 +157,7 @@ def gross_slip(run: Run, sign: int) -> tuple[int, int]:
     work, record, chi = run.work, run.record, run.chi
     s = work.series
     s[0, at.A] = 0.0
-    note_stretch(record, work.stack, 0)
+    recorded.note_stretch(record, work.stack, 0)
     if run.give > 0.0:
         event = plates.slide(run, sign)
         if event == integration.SLIP_STOPS:
@@ -167,7 +165,7 @@ def gross_slip(run: Run, sign: int) -> tuple[int, int]:
             return Cause.SLIP_STOPS.value, depth
         apart = event == integration.RING_CLOSES
         return Cause.SEPARATION.value if apart else Cause.UNRESOLVED.value, 0
-    note_node(record, GROSS, at.CONTACT, sign, 0.0, s)
+    recorded.note_node(record, GROSS, at.CONTACT, sign, 0.0, s)
     excess = sign * s[0, at.PSI] - s[0, at.V]
     fall = 2.0 * chi - 1.0  # of the excess, per fall in speed
     if not excess < fall * (1.0 + s[0, at.V]) - SPEED_ROUNDING:
@@ -204,8 +202,8 @@ def run_phases(
     kind = Kind.GROSS_SLIP.value if slides else Kind.STICK.value
     sign = 1 if slides else 0
     cause = Cause.FIRST_TOUCH.value
-    for _ in range(MAX_PHASES if chi <= LARGEST_CHI else 1):
-        note_change(record, kind, sign, cause, s)
+    for _ in range(recorded.MAX_PHASES if chi <= LARGEST_CHI else 1):
+        recorded.note_change(record, kind, sign, cause, s)
         slipping = 0
         if kind == Kind.STICK:
             cause, depth, slipping = stick(run, depth, psi_1)
@@ -215,7 +213,7 @@ def run_phases(
             cause, depth = gross_slip(run, sign)
         following = NEXT[kind, cause, 1 if s[0, at.V] <= 0.0 else 0]
         if following[0] == Kind.APART:
-            note_change(record, Kind.APART.value, 0, cause, s)
+            recorded.note_change(record, Kind.APART.value, 0, cause, s)
             solved = cause == Cause.SEPARATION
             return Status.SOLVED.value if solved else Status.UNRESOLVED.value
         kind = following[0]
@@ -228,5 +226,5 @@ def new_work() -> Work:
     return Work(
         series=np.zeros((ORDER + 1, at.SERIES_COLUMNS)),
         gap=np.zeros(ORDER + 1),
-        stack=np.zeros((MAX_ANNULI, memory.STACK_COLUMNS)),
+        stack=np.zeros((recorded.MAX_ANNULI, memory.STACK_COLUMNS)),
     )

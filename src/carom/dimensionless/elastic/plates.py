@@ -8,21 +8,8 @@ w the speed of the sphere's centre. The contact ends at d = 0, and the restituti
 
 import numpy as np
 
-from carom.dimensionless.elastic import motion as at
-from carom.dimensionless.elastic.integration import (
-    MAX_STEPS,
-    NOTHING,
-    RING_CLOSES,
-    SLIP_STOPS,
-    UNRESOLVED,
-    Run,
-    Work,
-    evaluate,
-    first_closing,
-    move,
-    reach,
-    write_gap,
-)
+from carom.dimensionless.elastic import integration, motion as at
+from carom.dimensionless.elastic.integration import Run, Work
 from carom.dimensionless.elastic.motion import Series
 from carom.dimensionless.elastic.record import is_full, note_node
 from carom.dimensionless.numerics.arrays import Array
@@ -31,10 +18,7 @@ from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 @kernel
 def expand(s: Series, sign: int, chi: float, give: float) -> None:
-    """Expand the state in row 0 into Taylor series where the whole contact slips.
-
-    Apart from `motion.expand`, which would lose its speed by another place that calls it.
-    """
+    """Expand as `motion.expand` in gross slip; that would be slower if it were called here, too."""
     for k in range(at.ORDER):
         s[k, at.BB] = at.product(s, at.B, at.B, k)
         s[k, at.N] = s[k, at.BB] + 1.5 * give * s[k, at.V]
@@ -49,23 +33,23 @@ def slide(run: Run, sign: int) -> int:
     """Run gross slip to its end, or to that of the contact; return which of both it is."""
     s, gap = run.work.series, run.work.gap
     s[:, at.A : at.STATE_SIZE] = 0.0
-    for _ in range(MAX_STEPS):
+    for _ in range(integration.MAX_STEPS):
         if is_full(run.record):
             break
         expand(s, sign, run.chi, run.give)
-        event, h = NOTHING, reach(s, at.STICK, run.tolerance)
-        for each in (SLIP_STOPS, RING_CLOSES):
-            write_gap(s, at.SLIDE, sign, 0.0, each, gap)
-            closing = first_closing(gap, h)
+        event, h = integration.NOTHING, integration.reach(s, at.STICK, run.tolerance)
+        for each in (integration.SLIP_STOPS, integration.RING_CLOSES):
+            integration.write_gap(s, at.SLIDE, sign, 0.0, each, gap)
+            closing = integration.first_closing(gap, h)
             if closing <= h:
                 event, h = each, closing
         note_node(run.record, at.SLIDE, at.CONTACT, sign, h, s)
-        move(s, h)
-        if event == RING_CLOSES:
+        integration.move(s, h)
+        if event == integration.RING_CLOSES:
             s[0, at.B] = 0.0
-        if event != NOTHING:
+        if event != integration.NOTHING:
             return event
-    return UNRESOLVED
+    return integration.UNRESOLVED
 
 
 @entry_point()
@@ -74,20 +58,20 @@ def normal_motion(give: float, tolerance: float, work: Work) -> tuple[float, flo
     s, gap, duration, widest = work.series, work.gap, 0.0, 0.0
     s[:] = 0.0
     s[0, at.V] = 1.0
-    for _ in range(MAX_STEPS):
+    for _ in range(integration.MAX_STEPS):
         expand(s, 0, 0.0, give)
-        h = reach(s, at.STICK, tolerance)
-        write_gap(s, at.SLIDE, 0, 0.0, RING_CLOSES, gap)
-        closing = first_closing(gap, h)
+        h = integration.reach(s, at.STICK, tolerance)
+        integration.write_gap(s, at.SLIDE, 0, 0.0, integration.RING_CLOSES, gap)
+        closing = integration.first_closing(gap, h)
         ends, h = closing <= h, min(closing, h)
         if s[0, at.V] > 0.0:
-            write_gap(s, at.STICK, 0, 0.0, 0, gap)  # psi is zero: the speed alone
-            turning = first_closing(gap, h)
+            integration.write_gap(s, at.STICK, 0, 0.0, 0, gap)  # psi is zero: the speed alone
+            turning = integration.first_closing(gap, h)
             if turning <= h:
-                widest = evaluate(s[:, at.B], turning)
+                widest = integration.evaluate(s[:, at.B], turning)
         for k in range(at.ORDER, -1, -1):
             duration += 2.0 * s[k, at.B] * h ** (k + 1) / (k + 1)
-        move(s, h)
+        integration.move(s, h)
         if ends:
             return -s[0, at.V], duration, widest * widest
     return np.nan, np.nan, np.nan

@@ -13,16 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.elastic import motion as at
-from carom.dimensionless.elastic.dense_output import (
-    elapsed,
-    gross_progress,
-    pace,
-    place,
-    position,
-    position_between,
-    reached,
-)
+from carom.dimensionless.elastic import dense_output as dense, motion as at
+from carom.dimensionless.elastic.dense_output import pace, place
 from carom.dimensionless.elastic.integration import evaluate, value_and_slope
 from carom.dimensionless.elastic.phases import GROSS, RETRACED
 from carom.dimensionless.elastic.record import MODE, SIGN, STEP, STRETCH, Steps
@@ -46,10 +38,10 @@ ALIKE_RADII = 1e-12  # radii nearer to each other are one
 def slid_in_gross_slip(steps: Steps, i: int, r: float, b: float, v: float) -> float:
     """Return the slip of a point from the start of gross slip, or from its touch, to b and v."""
     start, sign = steps.series[i, 0, at.B], steps.nodes[i, SIGN]
-    u, _w = gross_progress(steps, i, b, v)
+    u, _w = dense.gross_progress(steps, i, b, v)
     slid = u - sign * (b * b - start * start)
     if r > start:
-        touched, _w = gross_progress(steps, i, r, np.sqrt(1.0 - r**5))
+        touched, _w = dense.gross_progress(steps, i, r, np.sqrt(1.0 - r**5))
         slid -= touched - sign * (r * r - start * start)
     return float(slid)
 
@@ -62,13 +54,13 @@ def edge_at(steps: Steps, i: int, r: float, recedes: bool) -> float:
         if evaluate(steps.series[i][:, at.V], end) > 0.0:
             turning = end
         elif steps.series[i, 0, at.V] > 0.0:
-            turning = position(steps, i, at.V, 0.0, True)
+            turning = dense.position(steps, i, at.V, 0.0, True)
         low, high = (turning, end) if recedes else (0.0, turning)
-        return float(position_between(steps, i, at.B, r, recedes, low, high))
+        return float(dense.position_between(steps, i, at.B, r, recedes, low, high))
     if r < 0.8:
-        return float(position(steps, i, at.B, r, recedes))
+        return float(dense.position(steps, i, at.B, r, recedes))
     speed = np.sqrt(max(1.0 - r**5, 0.0))  # monotone where the step goes beyond the turning point
-    return float(position(steps, i, at.V, -speed if recedes else speed, True))
+    return float(dense.position(steps, i, at.V, -speed if recedes else speed, True))
 
 
 @entry_point()
@@ -80,7 +72,7 @@ def touched(steps: Steps, radii: Vector, out: Vector) -> None:
             turns = evaluate(steps.series[i][:, at.V], steps.nodes[i, STEP]) <= 0.0
             if outer >= radii[row] or turns:
                 h = edge_at(steps, i, radii[row], False)
-                out[row] = steps.times[i] + elapsed(steps, i, h)
+                out[row] = steps.times[i] + dense.elapsed(steps, i, h)
                 break
 
 
@@ -91,7 +83,7 @@ def slid_in_ring(steps: Steps, i: int, r: float, h_end: float) -> tuple[float, f
     if series[0, at.A] > r:
         if evaluate(series[:, at.A], h_end) >= r:
             return 0.0, 0.0
-        h0 = position(steps, i, at.A, r, True)
+        h0 = dense.position(steps, i, at.A, r, True)
     if series[0, at.B] < r and series[0, at.V] > 0.0:
         h0 = max(h0, edge_at(steps, i, r, False))
     mean, lateral = 0.0, 0.0
@@ -115,13 +107,10 @@ def slid_in_ring(steps: Steps, i: int, r: float, h_end: float) -> tuple[float, f
 def slid(
     steps: Steps, last: int, time: float, b: float, v: float, radii: Vector, out: Matrix
 ) -> None:
-    """Write the radial functions of the slip up to step `last`, where b and v are, for each radius.
-
-    Only points that are in contact then, r <= b, have a slip; the others get zero.
-    """
+    """Write the radial functions of the slip up to step `last` at radii r <= b, zero at others."""
     series, h_last = steps.series, 0.0
     if steps.give > 0.0:
-        h_last = reached(steps, last, time - steps.times[last])
+        h_last = dense.reached(steps, last, time - steps.times[last])
     elif steps.nodes[last, MODE] != RETRACED:
         h_last = place(steps, last, b, v)
     for row in range(radii.size):
@@ -175,10 +164,7 @@ class SlipRate(NamedTuple):
 
 @kernel
 def near_touch(rate_at: SlipRate, r: float, side: float, inner: float, outer: float) -> float:
-    """Return the work in gross slip between two radii of the contact, far from the turning point.
-
-    u^2 = b^2 - r^2 makes the integrand smooth.
-    """
+    """Return the work in gross slip between two radii; u^2 = b^2 - r^2 makes it smooth."""
     first, last = np.sqrt(max(inner * inner - r * r, 0.0)), np.sqrt(max(outer * outer - r * r, 0.0))
     total, half = 0.0, 0.5 * (last - first)
     for k in range(AROUND.size):
@@ -233,7 +219,7 @@ def slipping(steps: Steps, i: int, r: float, all_slides: bool) -> tuple[float, f
     if series[0, at.A] > r and not all_slides:
         if evaluate(series[:, at.A], high) >= r:
             return 0.0, 0.0
-        low = position(steps, i, at.A, r, True)
+        low = dense.position(steps, i, at.A, r, True)
     outer, speed = evaluate(series[:, at.B], high), evaluate(series[:, at.V], high)
     if series[0, at.B] < r:
         if series[0, at.V] <= 0.0 or (outer < r and speed > 0.0):
@@ -266,10 +252,7 @@ def room(steps: Steps, i: int, r: float, h: float, side: float, own: float) -> f
 
 @kernel
 def work_in_ring(steps: Steps, i: int, r: float, steady: bool) -> tuple[float, float]:
-    """Return the radial functions of the work per area in a step of a slip ring.
-
-    Or, if the slip is steady, that at the rate 1 all over the contact.
-    """
+    """Return the work per area in a step of a slip ring; if slip is steady, that at the rate 1."""
     low, high = slipping(steps, i, r, steady)
     length = high - low
     if length <= 0.0:
@@ -349,10 +332,7 @@ def pressed(steps: Steps, radii: Vector, out: Vector) -> None:
 
 
 def borders(steps: Steps, widest: float) -> Array:
-    """Return radii between which the work is smooth: fronts at all steps, edges where rings begin.
-
-    Steps are short where the front is about to stop, beside which the work has a steep flank.
-    """
+    """Return radii between which the work is smooth: fronts at all steps, edges of new rings."""
     nodes, series = steps.nodes, steps.series
     rings = np.flatnonzero((nodes[:, MODE] == at.LAID) | (nodes[:, MODE] == at.FLAT))
     new = np.flatnonzero(np.diff(nodes[:, STRETCH], prepend=-1.0))

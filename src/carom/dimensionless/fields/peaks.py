@@ -44,8 +44,7 @@ def extreme_principals(
 ) -> tuple[float, float]:
     """Return the largest and the smallest principal stress.
 
-    Where shear across the plane of r and z is nil by two of them, else by the angle of the
-    deviator, which is good to 1e-8 where two principal stresses are nearly the same.
+    By two where shear across the plane of r and z is nil, else by the angle of the deviator.
     """
     if rt == 0.0 and tz == 0.0:
         middle, radius = 0.5 * (rr + zz), np.hypot(0.5 * (rr - zz), rz)
@@ -130,10 +129,7 @@ def climb(
     last: float,
     best: Vector,
 ) -> None:
-    """Move the best place uphill along radius and depth until steps are smaller than the last.
-
-    No place leaves the depths between `shallow` and `deepest`.
-    """
+    """Move the best place uphill, within the depths, until steps are smaller than the last."""
     farthest = FARTHEST_CLIMB * max(1.0, shallow)
     for _ in range(MOST_STEPS):
         moved = False
@@ -158,8 +154,7 @@ def jumps(profile: Profile, shallow: float) -> Array:
 def regions(profile: Profile, shallow: float = 0.0, deepest: float = np.inf) -> list[Array]:
     """Return the places to scan, one array for each region that may have a peak of its own.
 
-    They are near the surface, those among them where the memory jumps, and deeper down. Where the
-    search begins at a depth, what pulls may lie far behind the contact.
+    Near the surface, where memory jumps, and deeper; at a depth what pulls may lie far behind.
     """
     surface = np.column_stack((ON_SURFACE, np.full(ON_SURFACE.size, shallow)))
     near = np.concatenate((surface, jumps(profile, shallow)))
@@ -203,17 +198,7 @@ def largest(
     shallow: float = 0.0,
     deepest: float = inf,
 ) -> Largest:
-    """Return the largest value of a measure of the stress below a contact at an instant.
-
-    Friction, Poisson's ratio and rim are as of `stresses`; depths are in contact radii.
-
-    >>> from carom.dimensionless.fields.peaks import VON_MISES, largest
-    >>> from carom.dimensionless.fields.profile import flat, stacked
-    >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
-    >>> peak = largest(VON_MISES, hertz, friction=0.0, poisson=0.3)
-    >>> round(peak.value, 4), round(peak.z, 4)
-    (0.62, 0.4809)
-    """
+    """Return the largest value of a measure of the stress at an instant; else as `stresses`."""
     b = profile.edges[-1]
     if b == 0.0:
         return Largest(0.0, 0.0, 0.0, 0.0)

@@ -62,10 +62,7 @@ def inverse(c: complex) -> complex:
 def normal_force(
     r: float, z: float, depth: complex, p: complex, t: complex, poisson: float
 ) -> NormalStress:
-    """Return rr, tt, zz, rz of S for a unit force into the body.
-
-    p = 1/R and t = 1/(R + zeta), zeta the depth.
-    """
+    """Return rr, tt, zz, rz of S for a unit force into the body; p = 1/R, t = 1/(R + depth)."""
     tp, ttp, zp3 = t * p, t * t * p, z * p * p * p
     soft, hard = 1.0 - 2.0 * poisson, 2.0 * poisson
     ring = hard * p + soft * t - z * tp
@@ -216,13 +213,6 @@ def stresses(
     Points have x, y and depth z >= 0 in sqrt(R* L), the last edge of the profile is the radius of
     the contact; `friction` is mu for the body that positive friction drags along +x (the second),
     -mu for the other; `rim` is the density of pressure at the edge, where stresses are infinite.
-
-    >>> from carom.dimensionless.fields.profile import flat, stacked
-    >>> from carom.dimensionless.fields.subsurface import stresses
-    >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
-    >>> axis = stresses([[0, 0, 0.48]], hertz, friction=0.0, poisson=0.3)[0]
-    >>> round(float(axis[0] - axis[2]) / 2, 4)
-    0.31
     """
     b = profile.edges[-1]
     where = np.asarray(points, dtype=np.float64)

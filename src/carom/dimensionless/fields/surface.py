@@ -17,10 +17,7 @@ ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 @kernel
 def pressure(square: float, rim: float, r: float) -> float:
-    """Return the pressure at r of a contact of radius b, b^2 = `square`: Barber (1979), (1).
-
-    sqrt(b^2 - r^2), Hertz's, and what the density at the edge adds, rim/(2 sqrt(b^2 - r^2)).
-    """
+    """Return Hertz's pressure and that of the edge, rim/(2 sqrt(b^2 - r^2)): Barber (1979), (1)."""
     if r * r > square:
         return 0.0
     root = np.sqrt(square - r * r)
@@ -150,10 +147,7 @@ def slip_shape(front: float, r: float) -> tuple[float, float]:
 def sample(
     profile: Profile, d: float, square: float, rim: float, radii: Vector, out: Matrix
 ) -> None:
-    """Write pressure, traction over mu, u_z, u_0 and u_2 for every radius.
-
-    d is the penetration, `square` that of the radius, `rim` the density of pressure at the edge.
-    """
+    """Write pressure, traction over mu, u_z, u_0, u_2 at radii; d is penetration, `square` b^2."""
     for i in range(radii.size):
         r = radii[i]
         out[i, 0], out[i, 1] = pressure(square, rim, r), traction(profile, r)

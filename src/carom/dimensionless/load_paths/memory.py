@@ -92,10 +92,7 @@ def cut(stack: Array, i: int, s: float) -> int:
 def front_at_limit(
     stack: Array, i: int, sign: int, limit: float, rounding: float
 ) -> tuple[int, float]:
-    """Return where F = l, searching inwards from annulus i: annulus and s; 0 if nowhere.
-
-    The front crosses flat memory, F = l within rounding, at once.
-    """
+    """Return annulus and s where F = l, from annulus i inwards, 0 if nowhere; over flat memory."""
     for k in range(i, 0, -1):
         inner = stack[k - 1, RIM]
         room = limit - (inner + sign * stack[k - 1, SHIFT])

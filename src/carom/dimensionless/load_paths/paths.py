@@ -217,10 +217,7 @@ def advance(stack: Array, top: int, way: Way) -> tuple[int, float, float]:
 def follow(
     stack: Matrix, depths: Vector, targets: Vector, by_force: Flags, results: Matrix
 ) -> tuple[int, int]:
-    """Follow a path from the first touch; return the top and the step that is refused, or INSIDE.
-
-    A row of results is filled for each step.
-    """
+    """Follow a path, a row of results for each step; return the top and the bad step, or INSIDE."""
     top, d, u, total = 0, 0.0, 0.0, 0.0
     for n in range(depths.size):
         cone = memory.cubes(0.0, np.sqrt(max(depths[n], 0.0)))
@@ -240,10 +237,7 @@ def follow(
 def motion_of_surfaces(
     stack: Matrix, depths: Vector, displacements: Vector, radii: Vector, out: Matrix
 ) -> None:
-    """Write U less the mean displacement u_0 of the surfaces, and u_2, where radii ask for them.
-
-    A row for each step, and in the last rows the end of the path for each radius again.
-    """
+    """Write U - u_0 and u_2 where radii ask for them, in rows of steps, and of the end for all."""
     top, d, u = 0, 0.0, 0.0
     for n in range(depths.size):
         top, u, _ = advance(stack, top, Way(d, u, depths[n], displacements[n], False))

@@ -74,10 +74,7 @@ def rings_within(h: float, edge: float) -> Rings:
 def relax(
     compliance: Matrix, pulled: Matrix, limits: Vector, traction: Matrix, settled: float
 ) -> int:
-    """Bring tractions to compliance tau = pulled, or to their limits; return the sweeps it took.
-
-    Ring by ring the energy falls (projected Gauss-Seidel).
-    """
+    """Bring tractions to tau = pulled or to limits by projected Gauss-Seidel; return its sweeps."""
     for sweep in range(MOST_SWEEPS):
         change = 0.0
         for k in range(limits.size):
@@ -256,10 +253,7 @@ def push(state: State, h: float, depth: float, wanted: Array) -> State | None:
 
 
 def first_guess(state: State, h: float, depth: float, wanted: Array) -> Array:
-    """Return the displacement to a force if springs stick, from where the first of them does.
-
-    As long as all slip, the force does not tell which way to go.
-    """
+    """Return the displacement to a force by springs that stick: in slip the force tells no way."""
     there, edge = taken(state, h, depth, state.moved, 1).corrected(), np.sqrt(depth)
     inside = (np.arange(SPRINGS) * h) ** 2 < min(depth, state.depth)
     slip = (there.springs - state.springs)[inside]

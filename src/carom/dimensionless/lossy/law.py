@@ -71,10 +71,7 @@ def checked_law(losses: Law) -> Law:
 
 
 def named(numbers: Array, loss: int, status: Any) -> LossyRebounds:
-    """Return what impacts come to, from their numbers along a last axis.
-
-    The pressure is that at the largest force.
-    """
+    """Return what impacts come to by name, from numbers along a last axis."""
     force, radius = numbers[..., layout.STRONGEST], numbers[..., layout.WIDEST]
     return LossyRebounds(
         psi_out=numbers[..., layout.PSI_OUT],
@@ -101,10 +98,7 @@ def _largest_pressure(loss: int, force: Array, radius: Array) -> Array:
 
 @kernel
 def keep_energy(speed: float, numbers: Array) -> None:
-    """Cut what an impact comes to where rounding or steps would let friction give energy.
-
-    |psi_2| is at most |psi_1|, and shear loses at most the rest of the energy.
-    """
+    """Cut errors by which friction would give energy: |psi_2| <= |psi_1|, and the shear loss."""
     out = min(max(numbers[layout.PSI_OUT], -speed), speed)
     numbers[layout.PSI_OUT] = out
     rest = 0.5 * (speed - out) * (speed + out)

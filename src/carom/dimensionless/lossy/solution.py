@@ -102,10 +102,7 @@ def outcome(
 def phases_of(
     stretches: Iterable[tuple[float, int, int]], mirror: int, shortest: float
 ) -> tuple[Phase, ...]:
-    """Return the phases that stretches of time make up: end, kind and sign of slip of each.
-
-    What is too short goes to the one before.
-    """
+    """Return the phases of stretches of time, (end, kind, sign); short ones join the one before."""
     phases: list[Phase] = []
     for end, kind, slip in stretches:
         start = phases[-1].end if phases else 0.0

@@ -70,7 +70,6 @@ class Kernel(Generic[Parameters, Result]):
         update_wrapper(self, function)
 
     def __call__(self, *args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
-        """Run the machine code."""
         return self.compiled(*args, **kwargs)
 
     @cached_property
@@ -88,7 +87,6 @@ class Kernel(Generic[Parameters, Result]):
 
     @cached_property
     def dispatcher(self) -> Any:
-        """The kernel as numba has it."""
         from carom.dimensionless.numerics.jit import dispatcher
 
         return dispatcher(self.py_func)
@@ -118,10 +116,7 @@ def kernel(function: Callable[Parameters, Result]) -> Callable[Parameters, Resul
 def entry_point(
     *floats: str,
 ) -> Callable[[Callable[Parameters, Result]], Callable[Parameters, Result]]:
-    """Mark a kernel that Python calls; its annotations are its signature.
-
-    With several types of floating-point arrays there is a C function for each.
-    """
+    """Mark a kernel that Python calls, as annotated, for each of the types of floats."""
 
     def mark(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
         if way() == "python":

@@ -82,10 +82,7 @@ def add_terms(series: Vector, place: float, size: int, terms: int, out: Vector) 
 
 
 def sections(patches: Patches, *others: float) -> tuple[Array, Array]:
-    """Return the function of the last variable at given values of the others.
-
-    The ends of its panels, shape (n + 1,), and the coefficients on each, shape (n, terms).
-    """
+    """Return panels (n + 1,) and series (n, terms) in the last variable at values of the others."""
     low, high = patches.corners[..., 0], patches.corners[..., 1]
     sides, point = high[:, :-1], np.array(others)
     beyond = (sides > point) | (sides == sides.max(axis=0))
@@ -142,11 +139,10 @@ def fitted(
 ) -> Patches:
     """Return a function of some variables on a box, cut first at some places, then where needed.
 
-    The last terms of a series, times the weight of an error, tell the error of it. Where it is too
-    large, a box is cut across the side along which its series ends worst, in the middle, or close
-    to its lower end if that is the `singular` value of the last variable. A function of one
-    variable is cut where its branch changes, and looked at between the outer nodes, where a weak
-    kink could hide.
+    The last terms of a series, times the `weight` of an error, tell its error. A box is cut across
+    the side along which its series ends worst, in the middle, or close to its lower end if that is
+    the `singular` value of the last variable. A function of one variable is cut where its branch
+    changes, and looked at between the outer nodes, where a weak kink could hide.
     """
     tree, last = _Tree(box), len(box) - 1
     asked = function if last else _remembering(function)

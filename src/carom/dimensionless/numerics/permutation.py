@@ -2,7 +2,7 @@
 
 A permutation of n points is a Feistel network on the next larger power of two, walked along its
 cycles until it falls below n (Black & Rogaway 2002). Random numbers are SplitMix64 (Steele, Lea &
-Flood 2014), which is a function of a counter. Integers of 64 bits throughout, hence the same on
+Flood 2014), a function of a counter. Integers of 64 bits throughout, hence the same on
 every machine.
 """
 
@@ -34,10 +34,7 @@ def mixed(x: np.uint64) -> np.uint64:
 
 @kernel
 def network(x: np.uint64, bits: int, secret: Whole) -> np.uint64:
-    """Permute the numbers of so many bits; each round changes one part by a hash of the other.
-
-    The hash is multiply-add-shift, pairwise independent (Dietzfelbinger 1996).
-    """
+    """Permute numbers of so many bits: a hash of a part (Dietzfelbinger 1996) changes the other."""
     high = np.uint64(bits // 2)
     low = np.uint64(bits) - high
     left, right = x >> low, x & ((ONE << low) - ONE)

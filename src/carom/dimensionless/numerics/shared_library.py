@@ -35,16 +35,10 @@ class Unusable(RuntimeError):
 
 
 def get_include() -> str:
-    """Return the folder of carom.h, the header of the functions for C and other languages.
-
-    Returns
-    -------
-    str
-        A folder, to be given to a compiler with -I.
+    """Return the folder of carom.h, the header of the functions for C, for a compiler's -I.
 
     Examples
     --------
-    >>> import carom
     >>> from pathlib import Path
     >>> Path(carom.get_include(), "carom.h").is_file()
     True
@@ -53,12 +47,7 @@ def get_include() -> str:
 
 
 def get_library() -> str:
-    """Return the shared library of the functions in carom.h, to be linked or loaded.
-
-    Returns
-    -------
-    str
-        Path of the library that was built for this processor.
+    """Return the path of the shared library of the functions in carom.h, for this processor.
 
     Raises
     ------

@@ -38,12 +38,10 @@ class Signature(NamedTuple):
         return f"{' '.join(map(_label, self.leaves()))} -> {' '.join(map(_label, self.results))}"
 
     def leaves(self) -> Iterator[Any]:
-        """Give the numbers and arrays in their order."""
         for kind in self.parameters.values():
             yield from _leaves(kind)
 
     def arrays(self) -> Iterator[ArrayType]:
-        """Give the arrays in their order."""
         return (kind for kind in self.leaves() if isinstance(kind, ArrayType))
 
 
@@ -86,11 +84,10 @@ def _label(kind: Any) -> str:
 
 
 def caller(pointer: Any, signature: Signature) -> Callable[..., Any]:
-    """Return a function of Python's that calls a C function.
+    """Return a function of Python's that calls a C function, its text written for the signature.
 
-    Its text is written for the signature, as a loop over the arguments would take longer than an
-    impact. It raises TypeError for arrays of another type, or that are not contiguous, and
-    ValueError for another number of dimensions: the C function could not tell.
+    A loop over the arguments would take longer than an impact. Arrays of another type, or not
+    contiguous, raise TypeError, another number of dimensions ValueError: C could not tell.
     """
     pointer.argtypes, pointer.restype = (ctypes.c_char_p,), ctypes.c_int
     arguments = [f"x{i}" for i in range(len(signature.parameters))]
@@ -121,7 +118,6 @@ class _Writer:
         self.names: dict[str, Any] = {}
 
     def read(self, name: str, kind: Any) -> None:
-        """Add an argument, or an item of one."""
         if isinstance(kind, Group):
             parts = [f"{name}_{i}" for i in range(len(kind.kinds))]
             self.lines.append(f"{', '.join(parts)}, = {name}")

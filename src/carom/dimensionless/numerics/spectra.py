@@ -80,7 +80,6 @@ class _Panels(NamedTuple):
         )
 
     def chosen(self, which: NDArray[np.bool_]) -> "_Panels":
-        """Return some of the panels."""
         return _Panels(*(column[which] for column in self))
 
 
@@ -143,10 +142,7 @@ class Corners(NamedTuple):
 
 
 def widest(pulse: Pulse, duration: float, most: float) -> Array:
-    """Return up to which frequency the corners of each row must be looked for, `most` at most.
-
-    A function that rises and falls by V in all has a spectrum below V/(2 pi f).
-    """
+    """Return how far, at most `most`, to look for corners; the spectrum is below V/(2 pi f)."""
     reach, variation = np.full(len(pulse.values), SEARCH_WIDTH / duration), pulse.variation()
     while True:
         highest = reach.max()

@@ -11,15 +11,7 @@ from math import inf
 
 import numpy as np
 
-from carom.dimensionless.fields.peaks import (
-    COSINE,
-    DEPTH,
-    GOLDEN,
-    MOST_STEPS,
-    PEAK_COLUMNS,
-    RADIUS,
-    VALUE,
-)
+from carom.dimensionless.fields import peaks as at
 from carom.dimensionless.fields.subsurface import C_RR, NEGLIGIBLE, P_RR, Load, stress_parts
 from carom.dimensionless.numerics.arrays import Array, Cube, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate, nodes, transform
@@ -78,7 +70,7 @@ def hardest(series: Array, limit: float) -> tuple[float, float]:
     low = limit * (place - 1) / TRIAL_DEPTHS
     high = limit * min(place + 1, TRIAL_DEPTHS) / TRIAL_DEPTHS
     for _ in range(GOLDEN_STEPS):
-        one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+        one, two = high - at.GOLDEN * (high - low), low + at.GOLDEN * (high - low)
         if pull(one, series) > pull(two, series):
             high = two
         else:
@@ -93,9 +85,9 @@ def keep_harder(r: float, series: Matrix, limit: float, best: Array) -> bool:
     is_harder = False
     for side in range(2):
         value, root = hardest(series[side], limit)
-        if value > best[VALUE]:
-            best[VALUE], best[RADIUS], best[DEPTH] = value, r, DEEPEST_FLAW * root * root
-            best[COSINE] = 1.0 - 2.0 * side
+        if value > best[at.VALUE]:
+            best[at.VALUE], best[at.RADIUS], best[at.DEPTH] = value, r, DEEPEST_FLAW * root * root
+            best[at.COSINE] = 1.0 - 2.0 * side
             is_harder = True
     return is_harder
 
@@ -120,7 +112,7 @@ def tensions(radii: Vector, friction: float, load: Load, series: Cube) -> None:
 def hardest_among(radii: Vector, series: Cube, flaw: float, best: Vector) -> None:
     """Write the hardest pull at flaws of this depth at most among radii, and where it is."""
     limit = np.sqrt(min(flaw / DEEPEST_FLAW, 1.0))
-    best[VALUE] = -np.inf
+    best[at.VALUE] = -np.inf
     for i in range(radii.size):
         keep_harder(radii[i], series[i], limit, best)
 
@@ -131,9 +123,9 @@ def climb_flaws(
 ) -> None:
     """Move along the radius to where the pull is hardest."""
     limit = np.sqrt(min(flaw / DEEPEST_FLAW, 1.0))
-    for _ in range(MOST_STEPS):
-        further = try_radius(abs(best[RADIUS] + step), limit, friction, load, series, best)
-        if further or try_radius(abs(best[RADIUS] - step), limit, friction, load, series, best):
+    for _ in range(at.MOST_STEPS):
+        further = try_radius(abs(best[at.RADIUS] + step), limit, friction, load, series, best)
+        if further or try_radius(abs(best[at.RADIUS] - step), limit, friction, load, series, best):
             continue
         step *= 0.5
         if step < last:
@@ -154,19 +146,19 @@ class _FlawSearch(Search):
         return self._hardest(time, RADII, tensions.get(key))[np.newaxis]
 
     def climbed(self, time: float, start: Array, step: float, last: float = COARSE_STEP) -> Array:
-        best, size = self.pulled(time, start[RADIUS]), self.contacts.size(time)
+        best, size = self.pulled(time, start[at.RADIUS]), self.contacts.size(time)
         if size > 0.0:
             load, series = self.contacts.load(time, self.poisson), np.empty((2, TERMS))
             problem = self.flaw / size, self.contacts.friction, load, series
-            best[VALUE] /= size**1.5
+            best[at.VALUE] /= size**1.5
             climb_flaws(step, last, *problem, best)
-            best[VALUE] *= size**1.5
+            best[at.VALUE] *= size**1.5
         return best
 
     def pulled(self, time: float, radius: float) -> Array:
         """Return the hardest pull at an instant at a radius, in radii of the contact."""
         if self.contacts.size(time) == 0.0:
-            return np.zeros(PEAK_COLUMNS)
+            return np.zeros(at.PEAK_COLUMNS)
         radii = np.array([radius])
         return self._hardest(time, radii, self._tensions(time, radii))
 
@@ -176,10 +168,10 @@ class _FlawSearch(Search):
         return series
 
     def _hardest(self, time: float, radii: Array, series: Array | None) -> Array:
-        best, size = np.zeros(PEAK_COLUMNS), self.contacts.size(time)
+        best, size = np.zeros(at.PEAK_COLUMNS), self.contacts.size(time)
         if series is not None:
             hardest_among(radii, series, self.flaw / size, best)
-            best[VALUE] *= size**1.5
+            best[at.VALUE] *= size**1.5
         return best
 
 
@@ -188,13 +180,6 @@ def intensity(contacts: Contacts, poisson: float, flaw: float = inf) -> Peak:
 
     `value` is K/(p_L sqrt(pi) (R* L)^(1/4)) and z the depth of the flaw, `flaw` at most, both in
     sqrt(R* L); otherwise as `peaks`.
-
-    >>> import carom
-    >>> from carom.dimensionless.strength.cracking import intensity
-    >>> from carom.dimensionless.strength.peaks import Contacts
-    >>> sliding = Contacts(carom.solve(9.0, 1.44), friction=0.2)
-    >>> round(intensity(sliding, 0.3, 1e-8).value / 1e-4, 3)  # 1.122 times the stress at the edge
-    0.528
     """
     peak = _FlawSearch(contacts, poisson, flaw).peak()
     return peak if peak.value > LEAST_PULL else peak._replace(value=0.0)
@@ -209,14 +194,6 @@ def cracking_width(contacts: Contacts, poisson: float, flaw: float, wanted: floa
 
     `flaw` is the depth of the deepest flaws, in any unit of length, `wanted` K_c pi R*/(2 E*
     sqrt(pi)), in that unit to the power 3/2.
-
-    >>> import carom
-    >>> from carom.dimensionless.strength.cracking import cracking_width, intensity
-    >>> from carom.dimensionless.strength.peaks import Contacts
-    >>> contacts = Contacts(carom.solve(0.5, 1.44), friction=0.2)
-    >>> width = cracking_width(contacts, 0.23, flaw=1.0, wanted=100.0)
-    >>> round(width**1.5 * intensity(contacts, 0.23, 1.0 / width).value, 2)
-    100.0
     """
     peak = intensity(contacts, poisson)
     if peak.value <= 0.0:
@@ -242,7 +219,7 @@ def _width_there(
 
     def missing(width: float) -> float:
         search = _FlawSearch(contacts, poisson, flaw / width)
-        return float(wanted - width**1.5 * search.pulled(peak.time, radius)[VALUE])
+        return float(wanted - width**1.5 * search.pulled(peak.time, radius)[at.VALUE])
 
     low = high = least
     for _ in range(MOST_TRIALS):

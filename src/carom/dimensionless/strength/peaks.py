@@ -61,7 +61,6 @@ class Contacts:
         return self._kept[time]
 
     def size(self, time: float) -> float:
-        """Return the radius of the contact at a time."""
         return float(self.at(time)[0].edges[-1])
 
     def shallow(self, time: float) -> float:
@@ -102,10 +101,7 @@ class Search(ABC):
 
     @abstractmethod
     def climbed(self, time: float, start: Array, step: float, last: float = LAST_STEP) -> Array:
-        """Return the largest value at an instant near a place, and where it is.
-
-        `step` and `last` are the first and the last of the steps to it, in contact radii.
-        """
+        """Return the largest value near a place, and where; steps end with `last` contact radii."""
 
     def peak(self) -> Peak:
         """Return the largest value through the impact."""
@@ -203,12 +199,6 @@ def peaks(
 
     `poisson` is that of the body, `measures` some of VON_MISES, SHEAR, TENSION. For each the result
     has `value` in p_L, x, y, z in sqrt(R* L), time in d_max/V_1.
-
-    >>> import carom
-    >>> from carom.dimensionless.strength.peaks import Contacts, peaks
-    >>> mises, shear, tension = peaks(Contacts(carom.solve(0.5, 1.44), friction=0.2), 0.3)
-    >>> round(mises.value, 4), round(mises.z, 2)
-    (0.6214, 0.48)
     """
     peaks = contacts.peaks
     for each in measures:

@@ -85,10 +85,7 @@ class Placed(NamedTuple):
 
 
 def placed(experiment: Experiment) -> list[Placed]:
-    """Return first bodies that touch z = 0 from above, then second spheres that do from below.
-
-    All but touch, by a hair. The centre of mass of two spheres rests; a half-space does.
-    """
+    """Return first bodies above z = 0, then second spheres below, which almost touch, by a hair."""
     pair, speed = experiment.pair, experiment.normal_speed
     share = share_of_first(pair)
     spheres = []
@@ -110,10 +107,7 @@ def share_of_first(pair: Pair) -> float:
 
 
 def outcomes_of(experiment: Experiment, states: Array) -> Outcomes:
-    """Return how bodies leave, from x, z, vx, vz, omega_y of the first ones, then the second ones.
-
-    Raises ValueError if one is missing, or some still touch.
-    """
+    """Return how bodies leave, from x, z, vx, vz, omega_y; ValueError if one still touches."""
     count, pair = len(experiment), experiment.pair
     wanted = count * len(pair.moving), 5
     if states.shape != wanted:
@@ -174,7 +168,10 @@ def data_file(experiment: Experiment) -> str:
         "Atoms",
         "\n".join(_atom(i, body, len(experiment)) for i, body in enumerate(bodies)),
         "Velocities",
-        "\n".join(_velocity(i, body) for i, body in enumerate(bodies, 1)),
+        "\n".join(
+            f"{i} {body.vx!r} 0.0 {body.vz!r} 0.0 {0.0 - body.spin!r} 0.0"
+            for i, body in enumerate(bodies, 1)
+        ),
     )
     return "\n\n".join(sections) + "\n"
 
@@ -190,7 +187,3 @@ def _atom(index: int, body: Placed, count: int) -> str:
     size, density = 2.0 * body.sphere.radius, body.sphere.material.density
     kind = 1 if index < count else 2
     return f"{index + 1} {kind} {size!r} {density!r} 0.0 {body.y!r} {body.z!r}"
-
-
-def _velocity(number: int, body: Placed) -> str:
-    return f"{number} {body.vx!r} 0.0 {body.vz!r} 0.0 {0.0 - body.spin!r} 0.0"

@@ -24,10 +24,7 @@ AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out")
 
 
 class Outcomes(NamedTuple):
-    """How the first body leaves each impact, relative to the second: m/s, m/s, rad/s; (n,).
-
-    `normal_speed` is positive when the bodies recede.
-    """
+    """How first bodies leave, relative to the second: m/s, positive apart, m/s, rad/s; (n,)."""
 
     normal_speed: Array
     tangential_speed: Array
@@ -62,7 +59,6 @@ class Experiment:
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(
@@ -83,24 +79,19 @@ class Experiment:
 
     def __post_init__(self) -> None:
         _refuse_bodies(self.pair)
-        checked_type(
-            "law", self.law, ContactLaw, "must be a contact law, e.g. carom.dem.LammpsMindlin()"
-        )
+        allowed = "must be a contact law, e.g. carom.dem.LammpsMindlin()"
+        checked_type("law", self.law, ContactLaw, allowed)
         along_the_same(tangential_speed=self.tangential_speed, spin=self.spin)
         speeds = _column("tangential_speed", self.tangential_speed)
         spins = _column("spin", self.spin) or (0.0,) * len(speeds)
         if not speeds:
             raise refusal("tangential_speed", self.tangential_speed, "give one value per impact")
         if len(spins) != len(speeds):
-            raise InputError(
-                f"spin: {len(spins)} values for {len(speeds)} of tangential_speed; "
-                "give one of each per impact"
-            )
+            counts = f"{len(spins)} values for {len(speeds)} of tangential_speed"
+            raise InputError(f"spin: {counts}; give one of each per impact")
         speed = positive("normal_speed", self.normal_speed)
-        scales, steps = (
-            checked_scales(self.pair, speed),
-            counted("steps", self.steps, 10, MOST_STEPS),
-        )
+        scales = checked_scales(self.pair, speed)
+        steps = counted("steps", self.steps, 10, MOST_STEPS)
         set_fields(self, normal_speed=speed, tangential_speed=speeds, spin=spins)
         set_fields(self, scales=scales, steps=steps)
 
@@ -154,14 +145,12 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
 def _refuse_bodies(pair: Pair) -> None:
     with_friction(pair, "without friction there is nothing to test")
     if not isinstance(pair.second, Sphere | HalfSpace):
-        raise refusal(
-            "second body", pair.second, "must be a Sphere or HalfSpace; DEM codes have no cups"
-        )
+        allowed = "must be a Sphere or HalfSpace; DEM codes have no cups"
+        raise refusal("second body", pair.second, allowed)
     for body in pair.moving:
         if not isclose(body.gyration_ratio, SOLID_GYRATION_RATIO):
-            raise refusal(
-                "sphere", body, "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
-            )
+            allowed = "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
+            raise refusal("sphere", body, allowed)
 
 
 def _column(name: str, values: Any) -> tuple[float, ...]:

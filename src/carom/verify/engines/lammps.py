@@ -119,10 +119,7 @@ def plugin_supports(law: ContactLaw) -> bool:
 
 
 def plugin_lines(experiment: Experiment) -> str:
-    """Return what the script says of the law: like bodies with the E* and kappa of the pair.
-
-    kappa = 2 (1 - nu)/(2 - nu), E = 2 (1 - nu^2) E*.
-    """
+    """Return the script's law: kappa = 2 (1 - nu)/(2 - nu), E = 2 (1 - nu^2) E* of like bodies."""
     law, pair = experiment.law, experiment.pair
     assert isinstance(law, ExactContactLaw)
     poisson = (2.0 - 2.0 * pair.kappa) / (2.0 - pair.kappa)
@@ -169,7 +166,6 @@ class Lammps(Engine):
 
     Examples
     --------
-    >>> import carom
     >>> engine = carom.verify.Lammps()
     >>> engine.supports(carom.dem.LinearSpring()), engine.supports(carom.dem.ThorntonLaw())
     (True, False)

@@ -34,7 +34,6 @@ class Liggghts(Engine):
 
     Examples
     --------
-    >>> import carom
     >>> engine = carom.verify.Liggghts()
     >>> hertz = carom.dem.LiggghtsHertz(restitution=0.9)
     >>> engine.supports(hertz), engine.supports(carom.dem.LammpsMindlin())

@@ -132,7 +132,6 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(
@@ -142,22 +141,6 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     >>> carom.verify.run(carom.verify.Lammps("/nowhere/lmp"), experiment)
     Traceback (most recent call last):
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
-
-    Here another program stands in for LAMMPS. It lets each body keep its tangential speed.
-
-    >>> import sys
-    >>> import numpy as np
-    >>> from carom.verify.engines.experiments import Outcomes
-    >>> class Smooth(carom.verify.Lammps):
-    ...     def executable(self):
-    ...         return sys.executable
-    ...     def command(self, folder):
-    ...         return [sys.executable, "-c", "open('out', 'w').write('0.01 0.005 0.0')"]
-    ...     def outcomes(self, folder, experiment):
-    ...         return Outcomes(*np.loadtxt(folder / "out", unpack=True, ndmin=2))
-    >>> result = carom.verify.run(Smooth(), experiment)
-    >>> result.outcomes.tangential_speed, result.version
-    (array([0.005]), 'unknown')
     """
     limit = positive("time_limit", time_limit)
     if not engine.supports(experiment.law):
@@ -235,9 +218,8 @@ def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
 def _crash(engine: Engine, folder: Path, code: int) -> EngineError:
     missing = re.search(MISSING_LIBRARY, _printed(folder))
     if missing:
-        return EngineError(
-            f"{engine.name} does not start: {missing[1]} is missing; {engine.advice}"
-        )
+        cure = f"{missing[1]} is missing; {engine.advice}"
+        return EngineError(f"{engine.name} does not start: {cure}")
     reason = f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
     return _failure(engine, folder, f"has crashed ({reason})")
 

@@ -40,7 +40,6 @@ class Yade(Engine):
 
     Examples
     --------
-    >>> import carom
     >>> engine = carom.verify.Yade()
     >>> mindlin = carom.dem.YadeMindlin(restitution=0.9)
     >>> engine.supports(mindlin), engine.supports(carom.dem.LammpsMindlin("mindlin"))
@@ -102,11 +101,9 @@ def _law(experiment: Experiment) -> tuple[str, str]:
     """Return YADE's words for what a contact is made of, and for its law."""
     if isinstance(experiment.law, LinearSpring):
         normal, tangential, _ = arrangement.spring(experiment)
-        stiffnesses = f"kn={_matched(normal)}, ks={_matched(tangential)}"
-        return (
-            f"Ip2_FrictMat_FrictMat_FrictPhys({stiffnesses})",
-            "Law2_ScGeom_FrictPhys_CundallStrack()",
-        )
+        springs = f"kn={_matched(normal)}, ks={_matched(tangential)}"
+        physics = f"Ip2_FrictMat_FrictMat_FrictPhys({springs})"
+        return physics, "Law2_ScGeom_FrictPhys_CundallStrack()"
     e = arrangement.restitution(experiment)
     damping = "" if e == 1.0 else f"en={_matched(e)}, es={_matched(e)}"
     return f"Ip2_FrictMat_FrictMat_MindlinPhys({damping})", MINDLIN

@@ -17,13 +17,7 @@ from carom.verify.pack.writing import PROGRAMS, experiment_of
 
 
 def collect(folder: str | Path) -> Path:
-    """Write results.csv of a folder in which a program has run, and return its path.
-
-    Raises
-    ------
-    InputError
-        If the folder is not one of the pack's, or the program has left no results.
-    """
+    """Write results.csv of a folder of the pack in which a program has run, or raise InputError."""
     place = Path(folder).resolve()
     if place.name not in PROGRAMS:
         raise refusal("folder", str(folder), f"must be one of {', '.join(PROGRAMS)} in a set")

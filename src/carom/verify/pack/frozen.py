@@ -48,7 +48,6 @@ class DecimalTable:
         return f'{{"notes": {notes},\n "columns": {{\n{inside}\n}}}}\n'
 
     def numbers(self, name: str) -> Array:
-        """Return a column as numbers."""
         return np.array([float(cell) for cell in self.columns[name]])
 
 

@@ -54,7 +54,6 @@ def write_pack(folder: str | Path) -> tuple[str, ...]:
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> import carom
     >>> with TemporaryDirectory() as folder:
     ...     files = carom.verify.write_pack(folder + "/bench")
     >>> "wall/reference.csv" in files

@@ -77,23 +77,18 @@ def score(
     chi : float, optional
         For psi_1 and psi_2 if there is no column of that name; for a law 1.4412 by default.
     restitution : float, optional
-        Normal coefficient of restitution of the exact impact, if the contact is damped; by default
-        that of the case, or 1.
+        e of the exact impact, if the contact is damped; by default that of the case, or 1.
     tolerance : float
-        Largest |error in psi_2| that passes. It is also the limit of the findings of the audit in
-        units of psi, of the errors of forces in units of mu P_max and P_max, and of the relative
-        error of the duration.
+        Largest |error in psi_2| that passes, and the limit of the findings of the audit in units of
+        psi, of errors of forces in mu P_max and P_max, and of the relative error of the duration.
     columns : mapping or str, optional
         Quantities by the heads of columns that have other names, e.g. {"omega": "spin_out"} or
         {"w": "spin_out [rpm]"}; or a TOML file with them in a table [columns].
-    sheet : str, optional
-        The sheet of a spreadsheet, if several could be meant.
-    decimal : str, optional
-        "," or ".", the decimal sign of a file where numbers such as 1,234 leave it open.
+    sheet, decimal : str, optional
+        As in `carom.Table`.
     code, law : str, optional
-        What the program and its contact law are called in reports and figures; by default the
-        columns of these names, up to eight different ones, else the comments "# code:" and "# law:"
-        of the file.
+        Names of the program and its contact law; by default the columns of these names, up to eight
+        different ones, else the comments "# code:" and "# law:" of the file.
 
     Returns
     -------
@@ -111,13 +106,10 @@ def score(
 
     Examples
     --------
-    >>> import carom
     >>> psi = [0.5, 1.0, 2.0, 4.0]
     >>> result = carom.verify.score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
     >>> result.passed, round(result.max_error, 3)
     (False, 0.075)
-    >>> result.groups[0].name
-    'stick, slip -, gross slip -'
     >>> round(carom.verify.score(carom.dem.LammpsMindlin("mindlin")).max_error, 3)
     0.576
     """

@@ -31,10 +31,7 @@ WRONG_SIGN = (
 
 @dataclass(frozen=True)
 class ScoredCase:
-    """The bodies, perhaps their motion, as a user gives them; the restitution of the exact impact.
-
-    Without bodies there may be a chi.
-    """
+    """The bodies, perhaps their motion, as a user gives them, or chi; and the exact restitution."""
 
     case: Any
     restitution: float = 1.0
@@ -134,12 +131,7 @@ class LawResults(NamedTuple):
 
 
 def results_of(law_or_function: Any, case: Any, chi: Any, restitution: Any) -> LawResults:
-    """Return the results of a law, or of a function, for the bodies of a case or for a chi.
-
-    A function sees the bodies of the case if it has none of its own.
-
-    Raises InputError if it is no law, or leaves an impact unsolved.
-    """
+    """Return the results of a law or function for a case or chi, or raise InputError."""
     law, kappa = as_law(law_or_function), None
     scored = scored_case(case, None, None, restitution)
     if case is None:

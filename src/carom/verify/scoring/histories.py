@@ -32,11 +32,7 @@ NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
 
 
 class Samples(NamedTuple):
-    """Forces at times since the first touch, with the instants without force at either end.
-
-    `rows` are the places in the results, -1 for an instant that was added; `touch` is the first
-    touch in the time of the results.
-    """
+    """Forces since the first `touch`, with zeros at either end, whose places in `rows` are -1."""
 
     time: Array
     normal_force: Array
@@ -46,13 +42,10 @@ class Samples(NamedTuple):
 
 
 def contact_samples(results: UserTable, hit: Impact) -> Samples:
-    """Return the forces while the bodies touch.
+    """Return the forces while the bodies touch, or raise InputError if the record is not whole.
 
     The first touch lies between the last row without force and the first with one, as long before
     as the exact impact takes to that force; so does the last.
-
-    Raises InputError if the record has no such part, starts late, ends early, has too few rows in
-    it, or is in another unit.
     """
     time, force = results["time"], results["normal_force"]
     falls = np.concatenate([[False], np.diff(time) <= 0.0])

@@ -40,8 +40,8 @@ def origins_of(
 ) -> tuple[Origins, tuple[str, ...]]:
     """Return the origins of the rows of a table, and notes on columns that do not tell them.
 
-    Names that are given count for all rows; else columns do, and else comments of the file. Names
-    that differ are left out if there are more than `most`; with one, all rows are one impact.
+    Given names count for all rows, else columns, else comments; names that differ are left out if
+    there are more than `most`; with one, all rows are one impact.
     """
     rows = len(table.rows)
     columns = {name: _names(name, names[name], table) for name in NAMES}

@@ -109,10 +109,7 @@ def compared(
     energy_change: Array,
     results: UserTable,
 ) -> Points:
-    """Return results beside the exact rebounds of Maw, Barber & Fawcett (1976), or with losses.
-
-    Raises InputError for a row of which the exact rebound is not known.
-    """
+    """Return results beside the exact rebounds, or raise InputError where these are not known."""
     exact, status, codes = _solved(psi_in, chi, restitution)
     if (status != Status.SOLVED).any():
         bad = status != Status.SOLVED
@@ -154,10 +151,7 @@ def _with_losses(
 def _sequences(
     psi: Array, chi: Array, codes: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], tuple[str, ...]]:
-    """Return the place of each point's sequence of phases in a tuple of their names.
-
-    Signs are those of an impact with positive psi_1. One impact is solved for each code.
-    """
+    """Return places in a tuple of names of sequences, of psi_1 > 0; one impact for each code."""
     _, first, inverse = np.unique(codes, return_index=True, return_inverse=True)
     maps = [regime_map([abs(float(psi[i]))], [float(chi[i])]) for i in first]
     sequences = [str(each["sequence_name"].values[0]) for each in maps]
@@ -217,10 +211,7 @@ def restitution_audit(points: Points, restitution: Array, limit: float) -> Findi
 
 
 def notes_on(points: Points) -> tuple[str, ...]:
-    """Return what may be wrong with all points: the sign of psi_2, or chi.
-
-    Who slips throughout loses 2 (1 + e) chi of psi_1: that tells the chi of the results.
-    """
+    """Return what may be wrong with all points: the sign of psi_2, or chi, by sliding impacts."""
     notes = []
     if 2.0 * np.linalg.norm(points.psi_out + points.exact) < np.linalg.norm(points.error):
         notes.append("does psi_2 have the opposite sign? Count psi_1 and psi_2 along the same axis")

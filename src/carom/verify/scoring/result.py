@@ -48,7 +48,6 @@ class Score(Result):
 
     Examples
     --------
-    >>> import carom
     >>> psi = [0.5, 1.0, 2.0]
     >>> score = carom.verify.score({"psi_1": psi, "psi_2": carom.rebound(psi, 1.44)}, chi=1.44)
     >>> score.passed, score.max_error
@@ -125,11 +124,8 @@ class Score(Result):
     def to_dict(self) -> dict[str, Any]:
         """Return the score as what JSON can hold.
 
-        Returns
-        -------
-        dict
-            passed, tolerance, failures, kind, restitution, max_error, rms_error, mean_error, points
-            by column, phases, laws by code and name, audit, notes.
+        It has passed, tolerance, failures, kind, restitution, max_error, rms_error, mean_error,
+        points by column, phases, laws by code and name, audit and notes.
         """
         points = self.points
         columns = {points.word: points.rows, "psi_in": points.psi_in, "psi_out": points.psi_out}
@@ -153,7 +149,6 @@ class Score(Result):
         }
 
     def _repr_html_(self) -> str:
-        """Return a table and a picture for a notebook."""
         rows = {group.name: f"{group.max_error:.3g}" for group in (self.overall, *self.groups)}
         findings = "\n".join(f"{MARKS[f.holds]} {f.name} = {f.value:.3g}" for f in self.audit)
         return card(verdict(self), rows, self.plot(), findings)
@@ -165,14 +160,10 @@ class Score(Result):
     def to_dataset(self) -> xr.Dataset:
         """Return the score as one dataset: points along `point`, a history along `time`.
 
-        Returns
-        -------
-        xarray.Dataset
-            Along `point`: psi_in, psi_out, psi_out_exact, error, chi, sequence and energy_change
-            (in J, a pure number for psi), code and law where they are known; audit_name,
-            audit_value, audit_limit, audit_holds and audit_verdict (audit); tolerance, passed and
-            the errors as numbers. Exact curves along `curve` where chi are few; forces of a history
-            in N along `time` in s.
+        Along `point`: psi_in, psi_out, psi_out_exact, error, chi, sequence and energy_change (in J,
+        a pure number for psi), code and law where they are known; audit_name, audit_value,
+        audit_limit, audit_holds and audit_verdict (audit); tolerance, passed and the errors as
+        numbers. Exact curves along `curve` where chi are few; forces in N along `time` in s.
         """
         attrs = {
             "title": "results against the exact impact",

@@ -85,10 +85,7 @@ def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arra
 def march(
     psi_1: float, inertia: Inertia, solid: Solid, h: float, work: Arrays, numbers: Array
 ) -> tuple[int, float]:
-    """March an impact in steps of the clock; return their number, and the clock of the loading.
-
-    No steps are those of an impact that does not end, or needs too many springs.
-    """
+    """March an impact; return its steps, none if it does not end, and the clock of the loading."""
     now, new, turned = work.motion[0], work.motion[1], work.motion[2]
     springs, state = work.springs, work.state
     begin(psi_1, work)
@@ -354,14 +351,7 @@ def fill(
 
 
 def march_rebound(psi_1: float, inertia: Inertia, solid: Solid) -> tuple[float, float]:
-    """Return psi_2 by the march, and an estimate of its error; NaN if it is not solved.
-
-    >>> from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
-    >>> from carom.dimensionless.lossy.springs.march import march_rebound
-    >>> psi_2, error = march_rebound(0.3, Inertia(chi=4.0), ELASTIC)
-    >>> round(psi_2, 6), error < 1e-5
-    (-0.3, True)
-    """
+    """Return psi_2 by the march, and an estimate of its error; NaN if it is not solved."""
     numbers = np.empty(NUMBERS)
     _, error = run(psi_1, inertia, solid, new_work(), numbers)
     return float(numbers[layout.PSI_OUT]), error

@@ -75,10 +75,7 @@ def level(load: float, edge: float) -> float:
 def press(
     y: float, strain: float, now: Array, new: Array, turned: Array, springs: Array, laid: int
 ) -> int:
-    """Fill in what the contact and its springs bear after a step; return how many touch.
-
-    `turned` is the motion at the turning point, zero before it.
-    """
+    """Fill in what springs bear after a step, return how many touch; `turned` is 0 at first."""
     if turned[at.EDGE] > 0.0:
         parted = turned[at.DEPTH] - new[at.DEPTH]
         for j in range(laid + 1):
@@ -109,10 +106,7 @@ def bear(y: float, strain: float, now: Array, new: Array, springs: Array, count:
 
 @kernel
 def turn(now: Array, springs: Array, count: int) -> None:
-    """Remember what springs bear as unloading begins, the one at the edge, too.
-
-    The edge recedes by b^2 as the spring at the centre lets go, at about e: steps are that long.
-    """
+    """Remember what springs bear at turning; steps are those in which the centre lets go."""
     for j in range(count + 1):
         springs[of.PRESSED, j] = springs[of.NEXT, j]
     e = np.sqrt(stored(now[at.EDGE], springs, count))

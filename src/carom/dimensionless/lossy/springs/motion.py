@@ -27,10 +27,7 @@ STATE = 8
 
 
 class Inertia(NamedTuple):
-    """The inverse mass at the contact: chi, what couples both motions, and the same across.
-
-    Springs have two components if `across` is positive.
-    """
+    """The inverse mass at the contact: chi, coupling of both motions, the same `across`, if any."""
 
     chi: float
     eps: float = 0.0
@@ -100,10 +97,7 @@ def braking(inertia: Inertia, load: float, state: Array) -> tuple[float, float]:
 
 @kernel
 def drift(inertia: Inertia, h: float, now: Array, state: Array, new: Array) -> float:
-    """Fill in time, depth and, to first order, speed after a step; return which part of it is made.
-
-    That is 1 unless the bodies turn at its end.
-    """
+    """Fill in time, depth and speed after a step; return its share, below 1 if the bodies turn."""
     v, b, part = now[SPEED], now[EDGE], 1.0
     rate = slowing(inertia, now[LOAD], state) + 1.25 * now[DRAG] * v
     dt = 2.0 * b * h * now[PACE]

@@ -58,7 +58,6 @@ class Frames:
         return np.asarray((1.0 - part) * values[i] + part * values[i + 1])
 
     def edge(self, time: float) -> float:
-        """Return the radius of the contact."""
         return float(np.sqrt(self._mixed(self.edges**2, time)))
 
     def profile(self, time: float, scale: float = 1.0) -> Profile:
@@ -84,7 +83,6 @@ class Frames:
 
     @cached_property
     def _laid(self) -> int:
-        """How many springs there are."""
         return int(np.argmax(self.places))
 
     def _behind(self, i: int, radii: Array) -> Array:
@@ -244,10 +242,7 @@ def _phases(rows: Array, mirror: int) -> tuple[Phase, ...]:
 
 
 def _stretches(rows: Array) -> Iterator[tuple[float, int, int]]:
-    """Give the end, kind and sign of slip of every run of steps that do the same.
-
-    Stick that seems to begin while unloading is a ring too thin for springs: it goes to the next.
-    """
+    """Give end, kind and sign of runs of equal steps; stick while unloading is a ring too thin."""
     kinds = [_kind(row) for row in rows[1:-1]]
     for i in range(len(kinds) - 2, -1, -1):
         if kinds[i][0] == Kind.STICK and rows[i + 1, layout.AT_V] < 0.0:

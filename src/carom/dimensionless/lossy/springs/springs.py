@@ -49,10 +49,7 @@ def share(near: float, far: float) -> float:
 
 @kernel
 def lay(springs: Array, count: int, edge: float) -> None:
-    """Place a spring at the edge, beside so many.
-
-    The weights integrate what is linear in x^2 between springs and zero at the edge.
-    """
+    """Place a spring at the edge; weights integrate what is linear in x^2 and zero at the edge."""
     springs[:, count] = 0.0
     springs[X, count], springs[S, count] = edge, edge * edge
     if count > 0:
@@ -120,11 +117,7 @@ def faded(time: float, relaxation: float) -> tuple[float, float, float]:
 
 @kernel
 def lowest(start: float, slope: float, end: float) -> float:
-    """Return the least value, its start apart, of a parabola on [0, 1].
-
-    Slip that stops within a step leaves the springs at the limit of that moment; without it the
-    error would depend on where in the step slip stops.
-    """
+    """Return the least value of a parabola on [0, 1], its start apart: there slip stops."""
     curvature = end - start - slope
     if slope < 0.0 and -slope < 2.0 * curvature:
         return start - slope * slope / (4.0 * curvature)
@@ -252,10 +245,7 @@ def stretch_both(
 def move(
     springs: Array, j: int, step: Step, psi: complex, moved: complex, relaxing: complex
 ) -> None:
-    """Move a spring of two components on: it sticks, slips, or stops within the step.
-
-    A complex number holds both, its imaginary part that across.
-    """
+    """Move a spring of two components, one complex number: it sticks, slips or stops on the way."""
     g, limit, limit_end = step.extra, springs[LIMIT, j], springs[NEXT, j]
     m = complex(springs[RELAXING, j], springs[RELAXING_ACROSS, j])
     u = complex(springs[U, j], springs[U_ACROSS, j])

@@ -20,10 +20,7 @@ from carom.dimensionless.numerics.kernels import kernel
 
 @kernel
 def press(y: float, now: Array, new: Array, turned: Array, springs: Array, laid: int) -> int:
-    """Fill in what the contact and its springs bear after a step; return how many touch.
-
-    `turned` is the motion at the turning point, zero before it.
-    """
+    """Fill in what springs bear after a step, return how many touch; `turned` is 0 at first."""
     d, shrunk = new[at.DEPTH], 0.0
     edge, load = np.sqrt(max(d, 0.0)), 0.0
     if turned[at.EDGE] > 0.0:
@@ -40,10 +37,7 @@ def press(y: float, now: Array, new: Array, turned: Array, springs: Array, laid:
 
 @kernel
 def bear(y: float, now: Array, new: Array, shrunk: float, springs: Array, count: int) -> None:
-    """Fill in what springs bear before and after a step, and its rate before.
-
-    shrunk is 1/rho while unloading, else 0.
-    """
+    """Fill in what springs bear before and after, and its rate; shrunk is 1/rho, 0 in loading."""
     for j in range(count):
         springs[of.LIMIT, j] = springs[of.NEXT, j]
         springs[of.RATE, j] = (1.0 - springs[of.SOFTER, j]) * now[at.SPEED]
@@ -66,10 +60,7 @@ def capped(y: float, w: float) -> tuple[float, float]:
 
 @kernel
 def turn(now: Array, springs: Array, count: int, state: Array) -> None:
-    """Put springs to what they bear as unloading begins.
-
-    The pressure becomes that of an elastic contact at once, which may cut springs in shear.
-    """
+    """Put springs to the elastic pressure of unloading at once, which may cut springs in shear."""
     shrunk = now[at.LOAD] / now[at.EDGE] ** 3
     state[at.FORCE], state[at.FORCE_ACROSS] = 0.0, 0.0
     now[at.PACE] = now[at.EDGE] ** -2.5  # 1/(rho e), as the edge recedes faster on a flatter sphere

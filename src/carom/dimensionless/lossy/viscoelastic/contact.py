@@ -94,11 +94,7 @@ def opposite(table: Cube, n: int, row: int, level: float, low: float, high: floa
 def left_force(
     sign: int, r0: float, r1: float, level0: float, level1: float, moment: float
 ) -> float:
-    """Return the force, for T = 0, between radii at which slip has left these levels.
-
-    `moment` is the integral of r over the levels: errors of r count little, as the level hardly
-    changes.
-    """
+    """Return the force for T = 0 of left levels, by the integral of r: errors of r count little."""
     return sign * (level1 * r1 - level0 * r0 - moment - cubes(r0, r1))
 
 

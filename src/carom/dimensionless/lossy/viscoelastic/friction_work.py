@@ -49,7 +49,6 @@ class Panel(NamedTuple):
     loss: float
 
     def at(self, row: int, x: Array) -> Array:
-        """Return a row of the record at places of the panel."""
         return np.asarray(chebyshev.chebval(x, self.series[row]))
 
     def window(self, radii: Array, *, all_of_it: bool) -> tuple[Array, Array]:
@@ -73,7 +72,6 @@ class Panel(NamedTuple):
         return low, np.maximum(low, high)
 
     def pressure(self, x: Array, radii: Array) -> Array:
-        """Return the pressure at radii."""
         edge, speed = self.at(layout.AT_B, x), self.at(layout.AT_V, x)
         root = np.sqrt(np.maximum((edge - radii) * (edge + radii), EDGE_ROUNDING))
         return np.asarray(root + 0.5 * self.loss * np.maximum(speed, 0.0) / root)

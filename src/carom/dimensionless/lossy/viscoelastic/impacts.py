@@ -40,10 +40,7 @@ class Solid(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """How a panel is to be solved: its length, its clock, and what lies at either end of it.
-
-    `change` is what happens at its end, 0 if nothing does.
-    """
+    """How to solve a panel: its length, clock and ends, and the `change` that ends it, if any."""
 
     length: float
     clock: int
@@ -125,10 +122,7 @@ def unload(work: Arrays, motion: Motion, pieces: int) -> int:
 def solved_panel(
     work: Arrays, motion: Motion, number: int, pieces: int, plan: Plan, tolerance: float
 ) -> tuple[Plan, float]:
-    """Solve the next panel, cut at the first event; return how, and its error.
-
-    The error is negative if it cannot be solved.
-    """
+    """Solve the next panel, cut at the first event; return how, and the error or a negative one."""
     before = Panel(number, EVEN, 0.0, pieces)
     for _ in range(MOST_TRIALS):
         h, ends = cut_to_stage(work, motion, plan.clock, plan.length)

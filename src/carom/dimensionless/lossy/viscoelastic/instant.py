@@ -104,10 +104,7 @@ class Instant:
         return self._profile(read, 0.0)
 
     def rates(self) -> tuple[float, Profile]:
-        """Return the rate of slip just outside the front, and how it changes from there outwards.
-
-        Both as rates of springs, sigma (g - h).
-        """
+        """Return the slip rate of springs just outside the front, and its change outwards."""
         slipping = [part for part in self.stretches if part.sign]
         if not slipping:
             return 0.0, stacked([], [])

@@ -153,10 +153,7 @@ def until_stage_end(motion: Motion, b: float, v: float) -> float:
 
 @kernel
 def cut_to_stage(work: Arrays, motion: Motion, kind: int, h: float) -> tuple[float, bool]:
-    """Solve for the normal motion on a panel, cut at the end of its stage.
-
-    Return its length, and whether it was cut.
-    """
+    """Solve the normal motion on a panel; return its length, and whether its stage cuts it."""
     b, v, last = work.values[at.RADIUS], work.values[at.SPEED], NODES - 1
     ahead = until_stage_end(motion, b[0], v[0])
     if ahead > 0.0:  # far beyond the end of a stage its equations mean nothing
@@ -200,14 +197,9 @@ def restitution(alpha: float, work: Arrays) -> float:
     return np.nan
 
 
-@lru_cache(256)
+@lru_cache(4096)
 def viscous_loss(wanted: float) -> float:
-    """Return alpha, loss time in d_max/V_1, that gives a restitution 0 < e <= 1, to 1e-12 or so.
-
-    >>> from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
-    >>> round(viscous_loss(0.9), 10)
-    0.0576035799
-    """
+    """Return alpha, the loss time in d_max/V_1 that gives a restitution 0 < e <= 1, to 1e-12."""
     from scipy.optimize import brentq
 
     work = at.new_work()

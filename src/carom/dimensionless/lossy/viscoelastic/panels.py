@@ -150,10 +150,7 @@ def correct(work: Arrays, panel: Panel, psi0: float) -> float:
 
 @kernel
 def factorise(work: Arrays, panel: Panel, alpha: float) -> None:
-    """Write I - h S diag(-(15/2) chi b X) (h S diag(2 b) + alpha) as L R, S being the integral.
-
-    alpha is the retardation time in shear.
-    """
+    """Write I - h S diag(-(15/2) chi b X) (h S diag(2 b) + alpha) as L R; S integrates."""
     s, h, b = at.INTEGRALS[panel.clock], panel.length, work.values[at.RADIUS]
     matrix = work.matrix
     for i in range(NODES):

@@ -14,15 +14,7 @@ from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.viscoelastic import contact, normal, work as at
 from carom.dimensionless.lossy.viscoelastic.contact import Fading, Front, Mode, Ring, cubes
 from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage
-from carom.dimensionless.lossy.viscoelastic.work import (
-    NODES,
-    PLACES,
-    Arrays,
-    Panel,
-    State,
-    evaluate,
-    integrate,
-)
+from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, State
 from carom.dimensionless.numerics.arrays import Array, CodePairs, Cube
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -56,7 +48,7 @@ def passed_moments(
             break
         oldest = fading.time - LAYERS[layer] * fading.alpha
         low = x0
-        if evaluate(table, n, at.TIME, x0) < oldest:
+        if at.evaluate(table, n, at.TIME, x0) < oldest:
             low = max(x0, min(high, at.place(table, n, at.TIME, oldest, x0, high)))
         half = 0.5 * (high - low)
         for k in range(ABSCISSAS.size):
@@ -78,15 +70,15 @@ def passed_moments(
 @kernel
 def front_at(work: Arrays, n: int, x: float) -> float:
     """Return where the front was at a place of a panel."""
-    return float(np.sqrt(max(evaluate(work.series, n, at.FRONT, x), 0.0)))
+    return float(np.sqrt(max(at.evaluate(work.series, n, at.FRONT, x), 0.0)))
 
 
 @kernel
 def slope_of_left(work: Arrays, n: int, fading: Fading, x: float) -> float:
     """Return the derivative of h by the place where its spring was passed."""
     table, alpha, sign = work.series, fading.alpha, fading.sign
-    ago = evaluate(table, n, at.TIME, x) - fading.time
-    excess = sign * evaluate(table, n, at.PSI, x) - evaluate(table, n, at.SPEED, x)
+    ago = at.evaluate(table, n, at.TIME, x) - fading.time
+    excess = sign * at.evaluate(table, n, at.PSI, x) - at.evaluate(table, n, at.SPEED, x)
     change = sign * at.slope(table, n, at.PSI, x) - at.slope(table, n, at.SPEED, x)
     return float(np.exp(ago / alpha) * (change + excess * at.slope(table, n, at.TIME, x) / alpha))
 
@@ -111,10 +103,7 @@ def entry_moments(
 
 @kernel
 def gap_end(work: Arrays, i: int, ring: Ring, front: float) -> float:
-    """Return where what the front jumped ends, from the end of an entry to the next.
-
-    Where it arrives is known to rounding of levels, which is much of a thin ring.
-    """
+    """Return where what the front jumped ends; rounding of levels is much of a thin ring."""
     if i < ring.depth - 1:
         return float(work.passed[i + 1, contact.R_OUTER])
     if ring.mode == Mode.RETREATS:
@@ -187,7 +176,7 @@ def square_of_u(
     limit = normal.limit(motion, b, now.speed)
     slips = ring.sign * (limit * (b - a) - cubes(a, b))
     laid = rows[layout.AT_Q, j] - contact.moved(motion, now) * a - slips
-    total = u * u * a + 2.0 * u * laid + squares_of_c(work, panel, PLACES[j], border)
+    total = u * u * a + 2.0 * u * laid + squares_of_c(work, panel, at.PLACES[j], border)
     total += squares(depth, a, b)
     return float(total - 2.0 * alpha * (depth * h.plain - h.weighted) + alpha * alpha * h.square)
 
@@ -209,7 +198,7 @@ def squares_of_c(work: Arrays, panel: Panel, x: float, border: Front) -> float:
     if ring.mode == Mode.RETREATS:
         total += square_of_piece(work, whole, border.radius, border.place)
     elif ring.mode == Mode.STICKS:
-        total += evaluate(work.series, panel.number, at.LAID_SQUARE, x)
+        total += at.evaluate(work.series, panel.number, at.LAID_SQUARE, x)
     elif ring.mode == Mode.RETURNS:
         total += square_left(work, panel.number, ring.sign, -1.0, x)
     return float(total)
@@ -227,7 +216,7 @@ def square_of_piece(work: Arrays, i: int, r1: float, x1: float) -> float:
         return square_left(work, n, sign, pieces[i, at.X0], x1)
     last = pieces[i, at.S1]
     if x1 != pieces[i, at.X1]:
-        last = evaluate(work.series, n, at.LAID_SQUARE, x1)
+        last = at.evaluate(work.series, n, at.LAID_SQUARE, x1)
     return float(last - pieces[i, at.S0])
 
 
@@ -237,8 +226,8 @@ def square_left(work: Arrays, n: int, sign: int, x0: float, x1: float) -> float:
     total, half = 0.0, 0.5 * (x1 - x0)
     for k in range(ABSCISSAS.size):
         x = x0 + half * (1.0 + ABSCISSAS[k])
-        r = evaluate(work.series, n, at.LAID_RADIUS, x)
-        c = evaluate(work.series, n, contact.row_of(sign), x) - r * r
+        r = at.evaluate(work.series, n, at.LAID_RADIUS, x)
+        c = at.evaluate(work.series, n, contact.row_of(sign), x) - r * r
         total += WEIGHTS[k] * half * at.slope(work.series, n, at.LAID_RADIUS, x) * c * c
     return total
 
@@ -253,20 +242,20 @@ class Trace(NamedTuple):
 def new_record(wanted: bool) -> Trace:
     """Return an empty record."""
     room = at.MAX_PANELS if wanted else 0
-    return Trace(np.zeros((room, layout.ROWS, NODES)), np.zeros((room, 2), dtype=np.int8))
+    return Trace(np.zeros((room, layout.ROWS, at.NODES)), np.zeros((room, 2), dtype=np.int8))
 
 
 @kernel
 def note_numbers(work: Arrays, motion: Motion, panel: Panel, numbers: Array) -> None:
     """Add a solved panel to what an impact comes to."""
-    values, rates, last = work.values, work.rates, NODES - 1
+    values, rates, last = work.values, work.rates, at.NODES - 1
     b, v = values[at.RADIUS], values[at.SPEED]
-    for j in range(NODES):
+    for j in range(at.NODES):
         rates[0, j] = 2.0 * b[j]
         rates[1, j] = 2.0 * b[j] * v[j]
-    integrate(panel.clock, numbers[layout.TIME], panel.length, rates[0], rates[2])
+    at.integrate(panel.clock, numbers[layout.TIME], panel.length, rates[0], rates[2])
     numbers[layout.TIME] = rates[2, last]
-    integrate(panel.clock, numbers[layout.PENETRATION], panel.length, rates[1], rates[2])
+    at.integrate(panel.clock, numbers[layout.PENETRATION], panel.length, rates[1], rates[2])
     numbers[layout.PENETRATION] = rates[2, last]
     numbers[layout.DEEPEST] = max(numbers[layout.DEEPEST], numbers[layout.PENETRATION])
     numbers[layout.WIDEST] = max(numbers[layout.WIDEST], b[last])
@@ -278,11 +267,11 @@ def note_numbers(work: Arrays, motion: Motion, panel: Panel, numbers: Array) -> 
 def strongest(work: Arrays, motion: Motion, panel: Panel) -> float:
     """Return the largest normal force in a panel, by bisection between its nodes."""
     values, best, largest = work.values, 0, -np.inf
-    for j in range(NODES):
+    for j in range(at.NODES):
         force = normal.normal_force(motion, values[at.RADIUS, j], values[at.SPEED, j])
         if force > largest:
             best, largest = j, force
-    low, high = PLACES[max(best - 1, 0)], PLACES[min(best + 1, NODES - 1)]
+    low, high = at.PLACES[max(best - 1, 0)], at.PLACES[min(best + 1, at.NODES - 1)]
     series, n = work.series, panel.number
     for _ in range(TERNARY_STEPS):
         near, far = (2.0 * low + high) / 3.0, (low + 2.0 * high) / 3.0
@@ -296,7 +285,7 @@ def strongest(work: Arrays, motion: Motion, panel: Panel) -> float:
 @kernel
 def force_at(motion: Motion, series: Array, n: int, x: float) -> float:
     """Return the normal force at a place of a panel."""
-    b, v = evaluate(series, n, at.RADIUS, x), evaluate(series, n, at.SPEED, x)
+    b, v = at.evaluate(series, n, at.RADIUS, x), at.evaluate(series, n, at.SPEED, x)
     return normal.normal_force(motion, b, v)
 
 
@@ -305,18 +294,18 @@ def keep_normal(work: Arrays, motion: Motion, panel: Panel, numbers: Array, rows
     """Keep the normal motion of a panel, U and psi at its nodes, before the numbers are added."""
     values, rates, h = work.values, work.rates, panel.length
     b, v = values[at.RADIUS], values[at.SPEED]
-    for j in range(NODES):
+    for j in range(at.NODES):
         rates[0, j], rates[1, j] = 2.0 * b[j], 2.0 * b[j] * v[j]
         rates[2, j] = normal.loss_rate(motion, b[j], v[j])
-    integrate(panel.clock, numbers[layout.TIME], h, rates[0], rows[layout.AT_TIME])
-    integrate(panel.clock, numbers[layout.PENETRATION], h, rates[1], rows[layout.AT_D])
-    integrate(panel.clock, numbers[layout.LOST], h, rates[2], rows[layout.AT_LOST])
-    for j in range(NODES):
+    at.integrate(panel.clock, numbers[layout.TIME], h, rates[0], rows[layout.AT_TIME])
+    at.integrate(panel.clock, numbers[layout.PENETRATION], h, rates[1], rows[layout.AT_D])
+    at.integrate(panel.clock, numbers[layout.LOST], h, rates[2], rows[layout.AT_LOST])
+    for j in range(at.NODES):
         rows[layout.AT_B, j], rows[layout.AT_V, j] = b[j], v[j]
         rows[layout.AT_U, j], rows[layout.AT_PSI, j] = values[at.MOVED, j], values[at.PSI, j]
         rows[layout.AT_P, j] = normal.normal_force(motion, b[j], v[j])
         rows[layout.AT_STORED, j] = normal.stored(b[j], rows[layout.AT_D, j])
-    numbers[layout.LOST] = rows[layout.AT_LOST, NODES - 1]
+    numbers[layout.LOST] = rows[layout.AT_LOST, at.NODES - 1]
 
 
 @kernel
@@ -326,8 +315,8 @@ def note_shear(work: Arrays, motion: Motion, panel: Panel, numbers: Array, recor
     rows = record.rows[panel.number] if wanted else work.values
     if wanted:
         keep_normal(work, motion, panel, numbers, rows)
-    for j in range(NODES):
-        x, now = PLACES[j], at.state_at_node(work, j)
+    for j in range(at.NODES):
+        x, now = at.PLACES[j], at.state_at_node(work, j)
         border = contact.front(work, motion, panel, now)
         h = ring_moments(work, motion, panel, x, now, border)
         rates[0, j] = loss_rate(motion, now, ring, border, h)
@@ -335,10 +324,10 @@ def note_shear(work: Arrays, motion: Motion, panel: Panel, numbers: Array, recor
             rows[layout.AT_Q, j] = contact.force(work, motion, panel, x, now, border)
             rows[layout.AT_STUCK, j] = border.radius
             rows[layout.AT_SQUARE, j] = square_of_u(work, motion, panel, j, border, h, rows)
-    integrate(panel.clock, numbers[layout.SHEAR_LOST], panel.length, rates[0], rates[2])
-    numbers[layout.SHEAR_LOST] = rates[2, NODES - 1]
+    at.integrate(panel.clock, numbers[layout.SHEAR_LOST], panel.length, rates[0], rates[2])
+    numbers[layout.SHEAR_LOST] = rates[2, at.NODES - 1]
     if wanted:
-        for j in range(NODES):
+        for j in range(at.NODES):
             rows[layout.AT_SHEAR_LOST, j] = rates[2, j]
         kind = Kind.SLIP.value
         if ring.mode == Mode.STICKS or ring.mode == Mode.RETRACES:

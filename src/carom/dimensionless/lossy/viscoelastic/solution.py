@@ -33,7 +33,6 @@ class ViscoelasticSolution(LossySolution):
 
     Examples
     --------
-    >>> import carom
     >>> s = carom.solve(1.5, 1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> round(s.psi_out, 6), round(s.restitution, 10)
     (-0.366922, 0.9)
