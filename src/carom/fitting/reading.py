@@ -57,11 +57,11 @@ FAR_OFF = 30.0  # times: a contact time in another unit
 def read_rebounds(data: Any, **how: Any) -> UserTable:
     """Return the cells of a table, which may have one column if that is times of bounces."""
     try:
-        return read_table(data, **how)
+        return read_table(data, lenient=True, **how)
     except InputError:
         if isinstance(data, str | Path) and os.path.isfile(data):  # it can be read again
             with suppress(InputError):
-                table = read_table(data, fewest=1, **how)
+                table = read_table(data, lenient=True, fewest=1, **how)
                 if len(table.names) == 1 and base(table.names[0]) in (INTERVAL, TIME):
                     return table
         raise
@@ -97,8 +97,8 @@ def read_measurements(
 
     `more` are names of columns that are read as well.
     """
-    names = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more))
-    table, later = parted(table, faults)
+    names, faults = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more)), faults or Faults()
+    table, later = parted(table.told(faults), faults)
     ignored = tuple(name for name in others(table, names, faults) if name != TRACK)
     gaps = (*OBSERVABLES, *RECORDED, DURATION)
     may_miss = [name for name in gaps if name not in NEVER_MISSING]

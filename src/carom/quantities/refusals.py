@@ -3,7 +3,8 @@
 Of a file all faults are said in one message, instead of one a run.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 from reprlib import Repr
 from typing import Any, Self, TypeVar
@@ -45,7 +46,7 @@ def refuse(*faults: object) -> None:
     carom.InputError: speed: must be positive
     """
     if messages := list(map(str, filter(None, faults))):
-        raise InputError(_together(messages))
+        raise InputError(together(messages))
 
 
 def heading(text: str) -> str:
@@ -133,22 +134,32 @@ class Faults:
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self._collecting = False
-        if isinstance(error, InputError) and str(error) != _together(self._messages):
+        if isinstance(error, InputError) and str(error) != together(self._messages):
             self._messages.append(str(error))
         if self._messages and (error is None or isinstance(error, Exception)):
-            raise InputError(_together(self._messages)) from None
+            raise InputError(together(self._messages)) from None
 
-    def add(self, message: str) -> None:
-        """Collect a fault; outside of the context raise InputError."""
-        refuse(not self._collecting and message)
-        self._messages.append(message)
+    def add(self, *messages: str) -> None:
+        """Collect faults; outside of the context raise InputError."""
+        if not self._collecting:
+            refuse(*messages)
+        self._messages += messages
+
+    @contextmanager
+    def catching(self) -> Iterator[None]:
+        """Add an InputError that is raised inside, as of one column, and go on after it."""
+        try:
+            yield
+        except InputError as error:
+            self.add(str(error))
 
     def settle(self) -> None:
         """Raise InputError if there are faults so far, before costly work."""
         refuse(*self._messages)
 
 
-def _together(faults: Iterable[str]) -> str:
+def together(faults: Iterable[str]) -> str:
+    """Return one message with all faults, each once."""
     messages = list(dict.fromkeys(faults))
     if len(messages) == 1:
         return messages[0]
