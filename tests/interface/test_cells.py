@@ -116,6 +116,52 @@ def test_all_faults_are_said_at_once_with_the_options_that_mend_them(stored):
     assert "speed: no value in cell C3" in line
 
 
+FAULTY = """Winkel [°];speed [m/s];speed;spin_out [rpm];normal_restitution;rebound_angle [Ohm];spin2
+10;1,5;1;-200;0,9;3;1,234
+20;1,5;1;-300;fast;4;2,345
+30;1,5;1;-400
+40;;1;-400;0,9;5;3.5
+50;"1,5
+6";1;-500;0,8;5;1,000
+60;1;1;"3"0;0,7;1;2,000
+70;1;1;2;0,7;1;2,000;9
+80;1;1
+"""
+FAULTS = (
+    "it is not CSV; a text in quotes extends over several lines, from line 6 on",
+    "it is not CSV; line 8: ';' expected after",
+    "lines 4 and 10 have 4 values, line 7 has 6 values, line 9 has 8 values, the header has 7",
+    "columns: 'w' cannot be used; results has no column of that name",
+    "'speed': two columns, B and C, have this name",
+    'add --column "Winkel [°]=angle"',
+    "normal_restitution: not a number in cell E3; 'fast' cannot be used",
+    "rebound_angle: 'Ohm' cannot be used; unit 'Ohm' is not known",
+    "speed: no value in cell B5",
+    "spin2: 1,234 in cell G2 and 3.5 in cell G5 have different decimal signs",
+    "angle: column missing; speed needs it",
+)
+
+
+def test_a_file_with_one_of_each_fault_has_them_all_in_one_message(stored):
+    """Of its rows, its heads, the options, its units and its cells; by all who read tables."""
+    file = stored(FAULTY.replace("80;1;1", "80;1;1;"))
+    line = refused(f"^{len(FAULTS)} faults: ", carom.fit, file, pair=PAIR, columns={"w": "spin"})
+    assert not [words for words in FAULTS if words not in line]
+    for call in (carom.verify.score, carom.Table, read_table):
+        line = refused("", call, file)
+        assert not [words for words in (*FAULTS[:3], FAULTS[4]) if words not in line]
+
+
+def test_a_table_with_faults_is_none_to_whoever_asks_for_a_column(stored):
+    table = read_table(stored("psi_1;psi_2\n1;2\n3\n4;5\n"), lenient=True)
+    assert table.names == ("psi_in", "psi_out")
+    assert table.rows.tolist() == [2, 4]
+    words = "line 3 has 1 values, the header has 2 names"
+    refused(words, table.column, "psi_in")
+    refused(words, in_units, table, ["psi_in"])
+    refused(words, in_units, table, ["angle"])
+
+
 UNITS_SAID = {  # in the head, by --column, and the factor to SI units, 0 where both cannot be true
     ("1/min", "spin_out [rpm]"): np.pi / 30.0,
     ("min^-1", "spin_out [rad/s]"): 0.0,

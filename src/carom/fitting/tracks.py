@@ -129,7 +129,8 @@ def track(
                 frames = read_track(each, how, rate, scale)
                 found.append(_measured(frames, steepest, downwards, down))
             except InputError as error:
-                faults.add(f"{error}; this is track {name}" if len(names) > 1 else str(error))
+                which = f"; this is track {name}" if len(names) > 1 else ""
+                faults.add(*(fault + which for fault in error.faults))
     return _dataset(names, found)
 
 

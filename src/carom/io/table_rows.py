@@ -17,7 +17,7 @@ from carom.io.heads import parts_of
 from carom.io.progress import advancing
 from carom.io.rows import ERROR_CELL, Column, is_blank, is_missing, letter_of, named
 from carom.io.user_table import UserTable
-from carom.quantities.refusals import InputError, refusal, refuse, together
+from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.texts import is_unit
 
 BLOCK_ROWS = 1 << 16  # rows that are texts at a time, before their numbers are
@@ -94,7 +94,7 @@ def read_rows(source: RowSource, fewest: int, decimal: str) -> tuple[list[Column
     try:
         head = _head_of(source, fewest)
     except InputError as error:
-        raise InputError(together([*source.wrong, str(error)])) from None
+        raise InputError(*source.wrong, *error.faults) from None
     columns, start = [Cells(decimal) for _ in head.heads], head.above
     numbers: list[array[int]] = []
     odd: dict[int, list[int]] = {}
@@ -166,12 +166,12 @@ def _text(cell: Any) -> str:
 
 
 def _is_title(row: Sequence[Any], below: Sequence[Sequence[Any]]) -> bool:
-    """Tell whether a row is blank, or one text above rows of several cells."""
-    cells = [cell for cell in row if not is_blank(cell)]
+    """Tell whether a row is blank, or one text, or a few, above rows of several cells."""
+    cells, *others = ([cell for cell in each if not is_blank(cell)] for each in (row, *below))
     if len(cells) != 1 or is_number(cells[0]):
         return not cells
-    following = next((each for each in below if not all(map(is_blank, each))), ())
-    return sum(not is_blank(cell) for cell in following) > 1
+    longer = (each for each in others if len(each) > 1 or any(map(is_number, each)))
+    return len(next(longer, ())) > 1
 
 
 def _units(heads: list[str], below: Sequence[Sequence[Any]]) -> list[tuple[str, str]]:
