@@ -94,7 +94,7 @@ def _frames(table: UserTable, rate: float | None, scale: float | None, faults: F
     seen = np.isfinite(time) & np.isfinite(x) & np.isfinite(y)
     if np.any(np.diff(time[seen]) <= 0.0):
         faults.add("time: it does not grow from row to row; give one track a file")
-    return Frames(*(each[seen] for each in (time, x, y, mark)), notes=table.notes)
+    return Frames(time[seen], x[seen], y[seen], mark[seen], table.notes)
 
 
 def _missing(table: UserTable, rate: float | None) -> list[str]:

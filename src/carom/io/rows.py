@@ -12,7 +12,7 @@ Mask = NDArray[np.bool_]
 GAP = "-"
 NOT_AVAILABLE = ("#n/a", "#nv", "#n/d")  # in cells of spreadsheets, English, German, Spanish
 MISSING = ("", GAP, "\N{EN DASH}", "\N{EM DASH}", "nan", "na", "n/a", *NOT_AVAILABLE)
-ERROR_CELL = re.compile(r"#(?:N/A|NV|N/D|[^\W\d_]{2}\S*[!?])|Err:\d")  # #DIV/0!, of any language
+ERROR_CELL = re.compile(r'#(?:N/A|NV|N/D|[A-ZÄÖÜ/0-9]{2,}[!?])(?=$|["\t,;])|Err:\d')  # #DIV/0!
 MISSING_TYPES = ("NAType", "NaTType", "MaskedConstant")  # of pandas, of NumPy
 MOST_NAMED_ROWS = 5  # that a message names
 LETTERS = 26

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import accumulate, chain, islice
+from itertools import chain, islice
 from operator import itemgetter
 from typing import Any, NamedTuple
 
@@ -153,11 +153,10 @@ def _of_points(rows: Sequence[Sequence[Any]]) -> tuple[list[str], int]:
         last = 1
     if not last:
         return heads, 1
-    points, axes = ([_text(cell) for cell in row] for row in rows[last - 1 : last + 1])
-    filled = accumulate(points, lambda before, point: point or before)
-    joined = [
-        f"{point}.{axis}" if point else axis for point, axis in zip(filled, axes, strict=False)
-    ]
+    joined, point = [], ""
+    for name, axis in zip(*rows[last - 1 : last + 1], strict=False):
+        point = _text(name) or point
+        joined.append(f"{point}.{_text(axis)}" if point else _text(axis))
     return ["frame", *joined[1:]] if heads[0] else joined, last + 1
 
 

@@ -34,7 +34,7 @@ def read_table(
 ) -> UserTable:
     """Return the cells of a file, columns by name, a data frame, a structured array, a dataset.
 
-    A file is CSV, .xlsx, .xls or .ods, and has a header and at least so many columns. `columns`
+    A file is CSV, .xlsx or .ods, and has a header and at least so many columns. `columns`
     tells what heads stand for, {"omega [rpm]": "spin_out"}, or names a TOML file that tells it.
     `sheet` is one of a spreadsheet, as in "lab.xlsx:Sheet2"; `decimal` is "," or "." where numbers
     may be read in both ways. A table that was read is returned as it is.
