@@ -82,6 +82,10 @@ def _place(called: str) -> tuple[int, int]:
     return int(number) - 1, column - 1
 
 
+def _column(cell: Element, place: int) -> int:
+    return _place(cell.attrib["r"])[1] if "r" in cell.attrib else place
+
+
 def _of_xlsx(file: IO[bytes]) -> Marks:
     marks, height, width = [], 0, 0
     for _, element in iterparse(file):
@@ -91,15 +95,16 @@ def _of_xlsx(file: IO[bytes]) -> Marks:
             marks.append(Mark(top, left, bottom - top + 1, right - left + 1))
         if _kind(element) != "row":
             continue
-        height, column = int(element.get("r", height + 1)), -1
-        for cell in element:
-            column = _place(cell.attrib["r"])[1] if "r" in cell.attrib else column + 1
-            parts = {_kind(part): part.text or "" for part in cell}
-            if cell.get("t") == "e":
-                marks.append(Mark(height - 1, column, 1, 1, parts["v"]))
-            elif "f" in parts and not parts.get("v") and cell.get("t") != "str":  # of texts ""
-                marks.append(Mark(height - 1, column, 1, 1, _no_result(f"={parts['f']}")))
-        width = max(width, column + 1)
+        height = int(element.get("r", height + 1))
+        for place, cell in enumerate(element):
+            is_formula = len(cell) and _kind(cell[0]) == "f"
+            text = cell.get("t") == "e" and cell.findtext("{*}v")
+            if is_formula and not cell.findtext("{*}v") and cell.get("t") != "str":  # of texts ""
+                text = _no_result(f"={cell[0].text or ''}")
+            if text:
+                marks.append(Mark(height - 1, _column(cell, place), 1, 1, text))
+        if len(element):
+            width = max(width, _column(element[-1], len(element) - 1) + 1)
         element.clear()
     return Marks(marks, height, width)
 
