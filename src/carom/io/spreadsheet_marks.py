@@ -27,7 +27,7 @@ class Mark(NamedTuple):
     column: int
     rows: int
     columns: int
-    text: str = ""
+    text: str
 
 
 class Marks(NamedTuple):
@@ -87,12 +87,12 @@ def _column(cell: Element, place: int) -> int:
 
 
 def _of_xlsx(file: IO[bytes]) -> Marks:
-    marks, height, width = [], 0, 0
+    marks, height, width = list[Mark](), 0, 0
     for _, element in iterparse(file):
         if _kind(element) == "mergeCell":
             first, _, last = element.get("ref", "").partition(":")
             (top, left), (bottom, right) = _place(first), _place(last or first)
-            marks.append(Mark(top, left, bottom - top + 1, right - left + 1))
+            marks.append(Mark(top, left, bottom - top + 1, right - left + 1, ""))
         if _kind(element) != "row":
             continue
         height = int(element.get("r", height + 1))
@@ -133,11 +133,11 @@ def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
                 text = shown
             elif formula and not kinds:
                 text = _no_result(formula)
-            spans = [int(own.get(f"number-{each}-spanned", 1)) for each in ("rows", "columns")]
             if text:
                 marks.append(Mark(row, column, rows, columns, text))
-            elif spans != [1, 1]:
-                marks.append(Mark(row, column, *spans))
+            elif {"number-rows-spanned", "number-columns-spanned"} & {*own}:
+                down, along = (int(own.get(f"number-{n}-spanned", 1)) for n in ("rows", "columns"))
+                marks.append(Mark(row, column, down, along, ""))
             column += columns
             if text or kinds or shown:
                 height, width = row + rows, max(width, column)
