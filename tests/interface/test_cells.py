@@ -353,6 +353,13 @@ def test_a_number_of_merged_cells_is_that_of_none_beside(stored):
     refused(words, carom.fit, stored(workbook(*rows, merged=["A3:A4"])), pair=PAIR)
     rows[2:] = [({"numberrowsspanned": 2}, 20.0), 1.0, -400.0], [({"covered": 1}, ""), 1.0, -420.0]
     refused(words, carom.fit, stored(document(*rows)), pair=PAIR)
+    beyond = ["A9:B9", "C2:E3", "A2:A90"]
+    table = read_table(stored(workbook(*ROWS_OF_FIVE, merged=beyond)))
+    assert [column.cells[1] for column in table.cells.values()] == [
+        "merged with A2",
+        1.0,
+        "merged with C2",
+    ]
     titled = [["Versuche", None, None], *ROWS_OF_FIVE]
     table = read_table(stored(workbook(*titled, merged=["A1:C1"])))
     assert table.rows.tolist() == [3, 4, 5]

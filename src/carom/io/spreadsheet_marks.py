@@ -40,16 +40,16 @@ class Marks(NamedTuple):
     def put(self, values: list[list[Any]]) -> list[list[Any]]:
         """Return rows of values with the marks; cells merged with that of a number say so."""
         height, width = max(self.height, len(values)), max([self.width, *map(len, values)])
-        blank: list[list[Any]] = [[] for _ in range(height - len(values))]
-        full = [[*row, *[""] * (width - len(row))] for row in values + blank]
+        full = [[*row, *[""] * (width - len(row))] for row in values]
+        full += [[""] * width for _ in range(height - len(values))]
         for row, column, rows, columns, text in self.marks:
-            value = full[row][column]
-            if not text and not is_number(value):
-                continue
-            for each in full[row : row + rows]:
-                beside = f"merged with {letter_of(column)}{row + 1}"
-                each[column : column + columns] = [text or beside] * columns
-            full[row][column] = text or value
+            is_inside = row < height and column < width  # not all that is merged
+            value = text or (full[row][column] if is_inside else "")
+            if text or is_number(value):
+                beside = text or f"merged with {letter_of(column)}{row + 1}"
+                for each in full[row : row + rows]:
+                    each[column : column + columns] = [beside] * min(columns, width - column)
+                full[row][column] = value
         return full
 
 
