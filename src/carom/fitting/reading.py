@@ -215,13 +215,8 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
             f"friction: missing; {min(scaled)} is in units of it, so give that of the bodies"
         )
     _check_sizes(rows, bodies)
-    _check_before(rows, before, responses)
+    _check_before(rows, before, responses, is_plate=bodies.thickness is not None)
     faults.settle()
-    if bodies.thickness is not None and not {*WHY_POSITIVE} & {*before}:
-        raise InputError(
-            "speed: column missing; how far a plate gives way depends on the speed, so add speed "
-            "and angle, or normal_speed"
-        )
     problem = FitProblem(
         pair=bodies,
         before=before,
@@ -303,10 +298,13 @@ def _check_sizes(rows: UserTable, pair: Pair) -> None:
         rows.refuse(name, np.abs(rows[name]) > most.get(unit, LARGEST), "check its unit")
 
 
-def _check_before(rows: UserTable, before: Mapping[str, Array], responses: Collection[str]) -> None:
+def _check_before(
+    rows: UserTable, before: Mapping[str, Array], responses: Collection[str], *, is_plate: bool
+) -> None:
     """Raise InputError if the motion before is missing, said twice, or out of range."""
     ways = [name for name in observables.INCIDENCE if name in before]
     needing = sorted(observables.SCALED & {*before, *responses})
+    needing += ["a plate"] * is_plate  # which gives way the more the faster it is struck
     if not ways and "speed" in before:
         head_on = "call the speeds of head-on impacts normal_speed"
         raise InputError(f"angle: column missing; speed needs it; {head_on}")

@@ -114,7 +114,7 @@ def _no_result(formula: str) -> str:
 
 
 def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
-    marks, row, height, width = [], 0, 0, 0
+    marks, row, height, width = list[Mark](), 0, 0, 0
     for _, element in iterparse(file):
         own = _by_name(element)
         if _kind(element) == "table":

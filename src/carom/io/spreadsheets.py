@@ -108,7 +108,3 @@ class _Sheet(RowSource):
             if not (is_text and self.is_comment(cells[0])):
                 self.numbers.append(number)
                 yield [cell if isinstance(cell, str | float | int) else str(cell) for cell in row]
-
-    def commented_head(self) -> list[str]:
-        """Return no head: in a sheet it is no comment."""
-        return []

@@ -55,7 +55,7 @@ class RowSource:
         raise NotImplementedError
 
     def commented_head(self) -> list[str]:
-        """Return the cells of the last comment before the first row."""
+        """Return the cells of the last comment before the first row, if that may be a head."""
         return []
 
     def is_comment(self, text: str) -> bool:
