@@ -1,10 +1,13 @@
 """Tracks of known impacts with pixel noise: the truth, and errors that are those of the noise."""
 
+import io
 import json
+import re
 import runpy
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pandas as pd
 import pytest
 from tests.checks import refused
@@ -62,6 +65,63 @@ def test_exports_give_the_impact_within_three_errors(name):
     assert len(names) == (4 if "tracker" in name else 6)
     off = values(motions, names=names) - truth(hit, names)
     assert np.all(np.abs(off) < 3.0 * values(motions, "_error", names))
+
+
+def rows_of(text):
+    """Return the cells of an export, with numbers as numbers."""
+    between = "\t" if "\t" in text else ","
+    rows = [line.split(between) for line in text.splitlines()]
+    return [[float(c) if re.fullmatch(r"[-+.\dE]+", c) else c for c in row] for row in rows]
+
+
+def german(rows):
+    """Return them as German Excel exports them, with a comment and a frame without a position."""
+    texts = [[str(c).replace(".", ",") if isinstance(c, float) else c for c in r] for r in rows]
+    last = rows[-1][0] + 1.0 if isinstance(rows[-1][0], float) else rows[-1][0]
+    texts += [[str(last).replace(".", ","), *["-"] * (len(rows[0]) - 1)]]
+    lines = ["# Kugel in der Höhe", *map(";".join, texts[:9]), ";" * 9, *map(";".join, texts[9:])]
+    return "\r\n".join(lines).encode("cp1252")
+
+
+def workbook(rows):
+    """Return them as the second of two sheets with numbers, with its title above them."""
+    book, file = openpyxl.Workbook(), io.BytesIO()
+    for sheet, start in ((book.active, 5), (book.create_sheet("Versuch 2"), 0)):
+        for row in rows[start:] if start else [["Flug"], [], *rows]:
+            sheet.append(row)
+    book.save(file)
+    return file.getvalue()
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_exports_stored_by_a_spreadsheet_are_the_same_to_the_last_bit(name, tmp_path):
+    """As .xlsx, of which the sheet is named, and as German CSV, of which the encoding is told."""
+    text = (EXAMPLES / "data" / name).read_text(encoding="utf-8")
+    wanted = carom.track(EXAMPLES / "data" / name, **FILES[name])
+    csv, book = tmp_path / "lab.csv", tmp_path / "lab.xlsx"
+    csv.write_bytes(german(rows_of(text)))
+    book.write_bytes(workbook(rows_of(text)))
+    for source, more in ((csv, {}), (book, {"sheet": "Versuch 2"}), (f"{book}:Versuch 2", {})):
+        motions = carom.track(source, **FILES[name], **more)
+        for each in wanted:
+            assert motions[each].values.tolist() == wanted[each].values.tolist()
+        (about,) = json.loads(motions.attrs["tracks"])
+        assert any("Latin-1" in note for note in about["notes"]) == (source == csv)
+
+
+def test_all_faults_of_all_tracks_are_told_with_their_cells(tmp_path):
+    paths = [tmp_path / name for name in ("one.csv", "two.csv")]
+    paths[0].write_text("x [px];y;t\n1,5;2;0\n1,x;2;1\n1;2\n")
+    paths[1].write_text("a;y [mm];frame\n1;2;3\n")
+    line = refused("^5 faults: ", carom.track, [*map(str, paths)], pixels_per_mm=1)
+    for words in (
+        r"line 4 has 2 values, the header has 3 names.*; this is track .*one.csv",
+        r"x: not a number in cell A3; '1.x' cannot",
+        r"y: it is in mm; leave the scale",
+        r"x: column missing; the columns are a, y, frame",
+        r"frame_rate: missing.*; this is track .*two.csv",
+    ):
+        assert re.search(words, line), words
 
 
 def test_files_of_the_examples_are_what_their_script_writes(tmp_path):

@@ -8,6 +8,9 @@ from datetime import datetime
 import numpy as np
 import openpyxl
 import pytest
+from odf.opendocument import OpenDocumentSpreadsheet
+from odf.table import CoveredTableCell, Table, TableCell, TableRow
+from odf.text import P
 from tests.checks import PAIR, refused
 
 import carom
@@ -118,6 +121,52 @@ def test_all_faults_are_said_at_once_with_what_mends_them(stored):
     assert "speed: no value in cell C3" in line
 
 
+FAULTY = """Winkel [°];speed [m/s];speed;spin_out [rpm];normal_restitution;rebound_angle [Ohm];spin2
+10;1,5;1;-200;0,9;3;1,234
+20;1,5;1;-300;fast;4;2,345
+30;1,5;1;-400
+40;;1;-400;0,9;5;3.5
+50;"1,5
+6";1;-500;0,8;5;1,000
+60;1;1;"3"0;0,7;1;2,000
+70;1;1;2;0,7;1;2,000;9
+80;1;1
+"""
+FAULTS = (
+    "it is not CSV; a text in quotes extends over several lines, from line 6 on",
+    "it is not CSV; line 8: ';' expected after",
+    "lines 4 and 10 have 4 values, line 7 has 6 values, line 9 has 8 values, the header has 7",
+    "columns: 'w' cannot be used; results has no column of that name",
+    "'speed': two columns, B and C, have this name",
+    'add --column "Winkel [°]=angle"',
+    "normal_restitution: not a number in cell E3; 'fast' cannot be used",
+    "rebound_angle: 'Ohm' cannot be used; unit 'Ohm' is not known",
+    "speed: no value in cell B5",
+    "spin2: 1,234 in cell G2 and 3.5 in cell G5 have different decimal signs",
+    "angle: column missing; speed needs it",
+)
+
+
+def test_a_file_with_one_of_each_fault_has_them_all_in_one_message(stored):
+    """Of its rows, its heads, the options, its units and its cells; by all who read tables."""
+    file = stored(FAULTY.replace("80;1;1", "80;1;1;"))
+    line = refused(f"^{len(FAULTS)} faults: ", carom.fit, file, pair=PAIR, columns={"w": "spin"})
+    assert not [words for words in FAULTS if words not in line]
+    for call in (carom.verify.score, carom.Table, read_table):
+        line = refused("", call, file)
+        assert not [words for words in (*FAULTS[:3], FAULTS[4]) if words not in line]
+
+
+def test_a_table_with_faults_is_none_to_whoever_asks_for_a_column(stored):
+    table = read_table(stored("psi_1;psi_2\n1;2\n3\n4;5\n"), lenient=True)
+    assert table.names == ("psi_in", "psi_out")
+    assert table.rows.tolist() == [2, 4]
+    words = "line 3 has 1 values, the header has 2 names"
+    refused(words, table.column, "psi_in")
+    refused(words, in_units, table, ["psi_in"])
+    refused(words, in_units, table, ["angle"])
+
+
 UNITS_SAID = {  # in the head, by --column, and the factor to SI units, 0 where both cannot be true
     ("1/min", "spin_out [rpm]"): np.pi / 30.0,
     ("min^-1", "spin_out [rad/s]"): 0.0,
@@ -222,9 +271,124 @@ def test_a_percentage_of_a_sheet_is_not_taken_for_a_ratio_of_one(stored):
     )
 
 
+def document(*rows):
+    """Return an .ods of rows of numbers, texts, or attributes of a cell and what it shows."""
+    book, sheet, file = OpenDocumentSpreadsheet(), Table(name="A"), io.BytesIO()
+    for cells in rows:
+        row = TableRow()
+        for cell in cells:
+            own, shown = cell if isinstance(cell, tuple) else ({}, cell)
+            if isinstance(shown, float):
+                own, shown = {"valuetype": "float", "value": shown, **own}, f"{shown:g}"
+            elif shown and not own:
+                own = {"valuetype": "string"}
+            extended = own.pop("extended", None)
+            element = (CoveredTableCell if own.pop("covered", 0) else TableCell)(**own)
+            if extended:  # as LibreOffice marks errors
+                element.setAttrNS(CALCEXT, "value-type", extended)
+            element.addElement(P(text=shown))
+            row.addElement(element)
+        sheet.addElement(row)
+    book.spreadsheet.addElement(sheet)
+    book.write(file)
+    return file.getvalue()
+
+
+def workbook(*rows, merged=()):
+    """Return an .xlsx of rows of cells; a text that begins with # is an error, with = a formula."""
+    book = openpyxl.Workbook()
+    for cells in rows:
+        book.active.append(cells)
+        for cell in book.active[book.active.max_row]:
+            cell.data_type = "e" if str(cell.value).startswith("#") else cell.data_type
+    for cells in merged:
+        book.active.merge_cells(cells)
+    return of_book(book)
+
+
+CALCEXT = "urn:org:documentfoundation:names:experimental:calc:xmlns:calcext:1.0"
+HEADS = ["angle [deg]", "speed [m/s]", "spin_out [rpm]"]
+DIVIDED = {"formula": "of:=1/0", "valuetype": "string", "stringvalue": "", "extended": "error"}
+OLD_ERROR = {"formula": "of:=1/0", "valuetype": "float", "value": 0.0}  # of OpenOffice
+NO_RESULT = {"formula": "of:=-[.A5]*9.5"}
+DATE = {"valuetype": "date", "datevalue": "2026-05-01"}
+TRUE = {"valuetype": "boolean", "booleanvalue": "true"}
+ODD_CELLS = [  # in a column of spins of .xlsx and .ods, and what is said of it
+    ("#N/A", (DIVIDED, "#N/A"), "missing"),
+    ("#N/A", (DIVIDED, "#NV"), "missing"),
+    ("#DIV/0!", (DIVIDED, "#DIV/0!"), "'#DIV/0!' cannot be used"),
+    ("#REF!", (OLD_ERROR, "#REF!"), "'#REF!' cannot be used"),
+    ("#VALUE!", (DIVIDED, "#WERT!"), "' cannot be used"),
+    ("#NUM!", (OLD_ERROR, "Err:502"), "' cannot be used"),
+    ("=-A5*9.5", (NO_RESULT, ""), "has no result; store the file in a spreadsheet program"),
+    (datetime(2026, 5, 1), (DATE, "1. Mai"), "'2026-05-01' cannot be used"),
+    (True, (TRUE, "WAHR"), "True cannot be used"),
+    ("rund 500", "rund 500", "'rund 500' cannot be used"),
+]
+
+
+@pytest.mark.parametrize(("excel", "other", "words"), ODD_CELLS)
+def test_cells_without_a_value_are_never_silently_missing(excel, other, words, stored):
+    """An error, a formula that no program has calculated: told by its cell; #N/A is counted."""
+    rows = [[10.0 * i, 1.0, -200.0 * i] for i in (1, 2, 3)]
+    for cell, make in ((excel, workbook), (other, document)):
+        file = stored(make(HEADS, *rows, [40.0, 1.0, cell], [50.0, 1.0, -800.0]))
+        if words == "missing":
+            result = carom.fit(file, pair=PAIR, fixed={"restitution": 1.0})
+            assert "1 value missing: spin_out in cell C5" in result.notes
+        else:
+            line = refused("^spin_out: not a number in cell C5; ", carom.fit, file, pair=PAIR)
+            assert words in line
+
+
+def test_errors_at_the_edges_of_a_sheet_are_found(stored):
+    """In the last row and column, where no cell has a value; in cells that are repeated."""
+    rows = [*HEADS, "spin"], [10.0, 1.0, -200.0, "=A2"], [20.0, 1.0, "#NUM!", "=A3"]
+    line = refused("^2 faults: ", carom.fit, stored(workbook(*rows)), pair=PAIR)
+    assert "spin_out: not a number in cell C3; '#NUM!'" in line
+    assert "spin: not a number in every row of column D; '=A2 has no result" in line
+    twice = {**DIVIDED, "numbercolumnsrepeated": 2}
+    table = read_table(stored(document(["a", "b", "c"], [1.0, (twice, "#DIV/0!")], [1.0] * 3)))
+    assert [column.cells[0] for column in table.cells.values()] == [1.0, "#DIV/0!", "#DIV/0!"]
+
+
+def test_a_number_of_merged_cells_is_that_of_none_beside(stored):
+    """Nor is it missing there: an angle over three rows has to be written into each."""
+    rows = [HEADS, [10.0, 1.0, -200.0], [20.0, 1.0, -400.0], [None, 1.0, -420.0]]
+    words = "angle: not a number in cell A4; 'merged with A3' cannot be used"
+    refused(words, carom.fit, stored(workbook(*rows, merged=["A3:A4"])), pair=PAIR)
+    rows[2:] = [({"numberrowsspanned": 2}, 20.0), 1.0, -400.0], [({"covered": 1}, ""), 1.0, -420.0]
+    refused(words, carom.fit, stored(document(*rows)), pair=PAIR)
+    beyond = ["A9:B9", "C2:E3", "A2:A90"]
+    table = read_table(stored(workbook(*ROWS_OF_FIVE, merged=beyond)))
+    assert [column.cells[1] for column in table.cells.values()] == [
+        "merged with A2",
+        1.0,
+        "merged with C2",
+    ]
+    titled = [["Versuche", None, None], *ROWS_OF_FIVE]
+    table = read_table(stored(workbook(*titled, merged=["A1:C1"])))
+    assert table.rows.tolist() == [3, 4, 5]
+
+
+ROWS_OF_FIVE = [HEADS, *([10.0 * i, 1.0, -200.0 * i] for i in (1, 2, 3))]
+
+
+def test_percentages_of_a_sheet_are_ratios(stored):
+    rows = [["normal_speed", "normal_restitution"], [1.0, 0.95], [2.0, 0.93], [3.0, 0.92]]
+    book = openpyxl.load_workbook(io.BytesIO(workbook(*rows)))
+    for cell in book.active["B"]:
+        cell.number_format = "0%"
+    rows[1:] = [[a, ({"valuetype": "percentage", "value": e}, "95 %")] for a, e in rows[1:]]
+    for content in (of_book(book), document(*rows)):
+        table = read_table(stored(content))
+        assert table.cells["normal_restitution"].cells.tolist() == [0.95, 0.93, 0.92]
+
+
 BROKEN = {
     b"PK\x03\x04" + b"x" * 100: "it is no spreadsheet",
     b"\xd0\xcf\x11\xe0" + b"\0" * 600: "it is no spreadsheet",
+    b"\xd0\xcf\x11\xe0" + b"\0" * 9: "of Excel before 2007, or has a password; store it as .xlsx",
     sheets(A=[]): "it is empty",
     sheets(A=[["a"]]): "it is not a table; give columns, at least 2",
     sheets(A=[["a", "b"]]): "no rows",

@@ -17,6 +17,7 @@ from odf.text import P
 
 import carom
 from carom.cli import main
+from carom.fitting.template import TEMPLATE
 from carom.io.tables import read_table
 from carom.io.user_table import in_units
 
@@ -260,6 +261,24 @@ def test_a_data_frame_is_read_with_what_else_it_holds():
     with_none = frame().astype({"spin_out (rpm)": object}).replace({np.nan: None})
     assert is_the_table(in_units(read_table(with_none), NAMES, ("spin_out",)))
     assert is_the_table(in_units(read_table(frame().convert_dtypes()), NAMES, ("spin_out",)))
+
+
+def test_the_empty_table_may_be_stored_as_a_workbook(tmp_path):
+    """Filled in there it gives the fit of the same numbers as CSV, with its units and bodies."""
+    lines = TEMPLATE.splitlines()
+    values = zip(ANGLES, SPINS, strict=True)
+    rows = [[angle, SPEED, 0.95, None, spin] for angle, spin in values if spin is not None]
+    texts = [",".join("-" if cell is None else str(cell) for cell in row) for row in rows]
+    (tmp_path / "filled.csv").write_text("\n".join([*lines, *texts]), encoding="utf-8")
+    book = openpyxl.Workbook()
+    for row in [*([line] for line in lines[:-1]), lines[-1].split(","), *rows]:
+        book.active.append(row)
+    book.save(tmp_path / "filled.xlsx")
+    csv, excel = (carom.fit(tmp_path / f"filled.{end}").to_dict() for end in ("csv", "xlsx"))
+    assert csv["parameters"] == excel["parameters"]
+    table = read_table(tmp_path / "filled.xlsx")
+    assert table.case["first"] == {"radius": "10 mm", "material": "steel"}
+    assert table.rows[0] == len(lines) + 1
 
 
 def test_commands_read_files_in_one_way_and_store_it(tmp_path, capsys, monkeypatch):

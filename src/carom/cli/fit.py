@@ -190,7 +190,7 @@ def _joint_fit(
     pairs = []
     with Faults() as faults:
         for (name, source), case in zip(sets.items(), own, strict=True):
-            with faults.of(name):
+            with faults.catching(name):
                 pairs.append(_pair(case, thickness, source, how))
     return carom.joint_fit(sets, share=share, pair=pairs, **how._asdict(), **options)
 

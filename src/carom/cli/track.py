@@ -5,12 +5,13 @@ import json
 import typer
 
 import carom
-from carom.cli.cases import check_outputs, named_values, stored
+from carom.cli.cases import check_outputs, stored
 from carom.cli.options import described, file_argument
+from carom.cli.tables import table_format_of
 
 OPTIONS = {
     "data": file_argument(
-        "Tracks, one impact a file: CSV, or an export of Tracker, DeepLabCut or SLEAP."
+        "Tracks, one impact a file: CSV, a spreadsheet, an export of Tracker, DeepLabCut or SLEAP."
     ),
     "frame_rate": "Frames per second, where the frames are counted, e.g. '1000 Hz'.",
     "pixels_per_mm": "Scale of positions in pixels.",
@@ -36,6 +37,10 @@ def track_command(
     gravity: str = "9.80665 m/s^2",
     y_down: bool | None = None,
     column: list[str] | None = None,
+    columns: str | None = None,
+    sheet: str | None = None,
+    decimal: str | None = None,
+    save_columns: str | None = None,
     output: str | None = None,
     as_json: bool = False,
 ) -> None:
@@ -52,6 +57,7 @@ def track_command(
     Many impacts: carom track 10deg.csv 20deg.csv 30deg.csv --frame-rate 1000 --pixels-per-mm 12
     """
     check_outputs({"output": output}, **{f"track {i}": each for i, each in enumerate(data)})
+    how = table_format_of(column, columns, sheet, decimal, save_columns, "'ball x=x [px]'")
     motions = carom.track(
         data,
         frame_rate=frame_rate,
@@ -61,7 +67,7 @@ def track_command(
         plate_angle=plate_angle,
         gravity=gravity,
         y_down=y_down,
-        columns=named_values("column", column, "'ball x=x [px]'"),
+        **how._asdict(),
     )
     if output is not None:
         stored(carom.save(motions, output))

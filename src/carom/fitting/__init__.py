@@ -199,7 +199,7 @@ def joint_fit(
     alone: list[tuple[Settled, Options]] = []
     with Faults() as faults:
         for (name, each), own in zip(sets.items(), pairs, strict=True):
-            with faults.of(name):
+            with faults.catching(name):
                 alone.append(_settled(each, own, vary, fixed, limited, how))
     return jointly_assembled([*sets], alone, read_shared(share, [o.free for _, o in alone]), level)
 

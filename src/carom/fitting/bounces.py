@@ -40,7 +40,7 @@ def _long(name: str) -> str:
     return ends.get(match[1], f"rebound_height_{match[1]}") + (match[2] or "")
 
 
-def parted(table: UserTable, faults: Faults | None) -> tuple[UserTable, Mapping[str, Array]]:
+def parted(table: UserTable, faults: Faults) -> tuple[UserTable, Mapping[str, Array]]:
     """Return the table without the columns of later bounces, and these in SI units."""
     short = {name: _long(name) for name in table.names}
     if {"drop_height", "rebound_height"} <= {*short.values()} - {*table.names}:
@@ -49,14 +49,14 @@ def parted(table: UserTable, faults: Faults | None) -> tuple[UserTable, Mapping[
     for name in filter(NUMBERED.fullmatch, table.names):
         first, whole = base(name), name.removesuffix(ERROR)
         if whole not in table.names:
-            (faults or Faults()).add(f"{name}: its column {whole!r} is missing")
+            faults.add(f"{name}: its column {whole!r} is missing")
             continue
         both = {first.removesuffix(ERROR): table.cells[whole], first: table.cells[name]}
         try:
             alone = replace(table, cells=both)
             later[name] = in_units(alone, (first,), gaps=AFTERWARDS, whole=True)[first]
         except InputError as fault:
-            (faults or Faults()).add(str(fault).replace(first, name))
+            faults.add(str(fault).replace(first, name))
     kept = {name: cells for name, cells in table.cells.items() if not NUMBERED.fullmatch(name)}
     return replace(table, cells=kept), later
 

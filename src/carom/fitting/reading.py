@@ -60,11 +60,11 @@ FAR_OFF = 30.0  # times: a contact time in another unit
 def read_rebounds(data: Any, **how: Any) -> UserTable:
     """Return the cells of a table, which may have one column if that is times of bounces."""
     try:
-        return read_table(data, **how)
+        return read_table(data, lenient=True, **how)
     except InputError:
         if isinstance(data, str | Path) and os.path.isfile(data):  # it can be read again
             with suppress(InputError):
-                table = read_table(data, fewest=1, **how)
+                table = read_table(data, lenient=True, fewest=1, **how)
                 if len(table.names) == 1 and base(table.names[0]) in (INTERVAL, TIME):
                     return table
         raise
@@ -100,8 +100,8 @@ def read_measurements(
 
     `more` are names of columns that are read as well.
     """
-    names = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more))
-    table, later = parted(table, faults)
+    names, faults = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more)), faults or Faults()
+    table, later = parted(table.told(faults), faults)
     ignored = tuple(n for n in others(table, (*names, GROUP), faults) if n != TRACK)
     gaps = (*OBSERVABLES, *RECORDED, DURATION)
     may_miss = [name for name in gaps if name not in NEVER_MISSING]
@@ -218,13 +218,8 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
             f"friction: missing; {min(scaled)} is in units of it, so give that of the bodies"
         )
     _check_sizes(rows, bodies)
-    _check_before(rows, before, responses)
+    _check_before(rows, before, responses, is_plate=bodies.thickness is not None)
     faults.settle()
-    if bodies.thickness is not None and not {*WHY_POSITIVE} & {*before}:
-        raise InputError(
-            "speed: column missing; how far a plate gives way depends on the speed, so add speed "
-            "and angle, or normal_speed"
-        )
     places = rows.columns.get(PLACE)
     problem = FitProblem(
         pair=bodies,
@@ -309,10 +304,13 @@ def _check_sizes(rows: UserTable, pair: Pair) -> None:
         rows.refuse(name, np.abs(rows[name]) > most.get(unit, LARGEST), "check its unit")
 
 
-def _check_before(rows: UserTable, before: Mapping[str, Array], responses: Collection[str]) -> None:
+def _check_before(
+    rows: UserTable, before: Mapping[str, Array], responses: Collection[str], *, is_plate: bool
+) -> None:
     """Raise InputError if the motion before is missing, said twice, or out of range."""
     ways = [name for name in observables.INCIDENCE if name in before]
     needing = sorted(observables.SCALED & {*before, *responses})
+    needing += ["a plate"] * is_plate  # which gives way the more the faster it is struck
     if not ways and "speed" in before:
         head_on = "call the speeds of head-on impacts normal_speed"
         raise InputError(f"angle: column missing; speed needs it; {head_on}")

@@ -15,13 +15,14 @@ from carom.fitting.estimates import significant
 from carom.fitting.parabolas import FEWEST, Motion, at_impact, parabolas, parted
 from carom.fitting.track_files import Frames, read_track
 from carom.impacts.validity import GRAVITY
+from carom.io.heads import table_format
 from carom.io.labels import labelled_dataset
 from carom.io.user_table import ERROR
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, flag, refusal, refuse
+from carom.quantities.refusals import Faults, InputError, flag, refusal, refuse
 from carom.quantities.units import Value, finite, or_none, positive
 
 if TYPE_CHECKING:
@@ -47,7 +48,9 @@ def track(
     plate_angle: Value = 0.0,
     gravity: Value = GRAVITY,
     y_down: bool | None = None,
-    columns: Mapping[str, str] | None = None,
+    columns: Mapping[str, str] | str | Path | None = None,
+    sheet: str | None = None,
+    decimal: str | None = None,
 ) -> "xr.Dataset":
     """Return the motion before and after an impact from positions in a video, for `carom.fit`.
 
@@ -58,10 +61,10 @@ def track(
     Parameters
     ----------
     source : str, mapping, data frame or list of these
-        A file, or columns by name: x and y of the centre, time or frame, and for spins mark_x and
-        mark_y of a mark, or mark_angle, counterclockwise. Exports of Tracker, and of DeepLabCut and
-        SLEAP with points ball and mark, are read as they are. Frames without a position are left
-        out. Of a list each is an impact.
+        A file, CSV or a spreadsheet, or columns by name: x and y of the centre, time or frame, and
+        for spins mark_x and mark_y of a mark, or mark_angle, counterclockwise. Exports of Tracker,
+        and of DeepLabCut and SLEAP with points ball and mark, are read as they are. Frames without
+        a position are left out. Of a list each is an impact.
     frame_rate : float or str, optional
         Frames per second, where the frames are counted: "1000 Hz".
     pixels_per_mm, pixels_per_diameter : float, optional
@@ -74,8 +77,13 @@ def track(
         Acceleration downwards in the picture; "fit" finds it from the paths, 0 makes them straight.
     y_down : bool, optional
         Whether y is counted downwards, as in pixels; by default as the ball flies.
-    columns : mapping, optional
-        Names by the heads of columns that have other ones, e.g. {"t (s)": "time"}.
+    columns : mapping or str, optional
+        Names by the heads of columns that have other ones, e.g. {"t (s)": "time"}; or a TOML file
+        with them in a table [columns].
+    sheet : str, optional
+        The sheet of a spreadsheet, if several could be meant.
+    decimal : str, optional
+        "," or ".", the decimal sign of a file where numbers such as 1,234 leave it open.
 
     Returns
     -------
@@ -110,13 +118,19 @@ def track(
     rate = None
     if frame_rate is not None:
         rate = _within("frame_rate", positive("frame_rate", frame_rate), RATES)
-    found = [
-        _measured(read_track(each, columns, rate, scale), steepest, downwards, down)
-        for each in sources
-    ]
+    how = table_format(columns, sheet, decimal)
     names = [
         str(each) if isinstance(each, str | Path) else f"{i}" for i, each in enumerate(sources)
     ]
+    found = []
+    with Faults() as faults:
+        for name, each in zip(names, sources, strict=True):
+            try:
+                frames = read_track(each, how, rate, scale)
+                found.append(_measured(frames, steepest, downwards, down))
+            except InputError as error:
+                which = f"; this is track {name}" if len(names) > 1 else ""
+                faults.add(*(fault + which for fault in error.faults))
     return _dataset(names, found)
 
 
@@ -171,7 +185,7 @@ def _measured(
         "time": motion.origin + instant,
         "frames": [motion.split, len(frames.time) - motion.split],
         "position_error": float(np.sqrt(motion.squares / motion.freedom)),
-        "notes": [*_doubts(upright, motion, gravity), *notes],
+        "notes": [*frames.notes, *_doubts(upright, motion, gravity), *notes],
     }
     return row, about
 

@@ -52,26 +52,29 @@ class _CsvFile(RowSource):
         super().__init__(what, path)
         self.text = text
         self.separator = self.encoding = ""
-        self.reader: Any = None
 
     def rows(self) -> Iterator[list[str]]:
-        """Return the cells of each line that has any."""
+        """Yield the cells of each line that has any, none of one that is no CSV."""
         lines = self._lines()
         first = list(islice(lines, HEAD_ROWS))
         self.separator = self.separator or self._likely_separator(first)
-        how: dict[str, Any] = {"skipinitialspace": True, "strict": True}
-        self.reader = csv.reader(chain(first, lines), delimiter=self.separator, **how)
-        return iter(self.reader)
+        for place, line in enumerate(chain(first, lines)):
+            try:
+                yield _cells(line, self.separator)
+            except csv.Error as error:
+                where, open_ended = f"line {self.numbers[place]}", line.count('"') % 2
+                words = f"a text in quotes extends over several lines, from {where} on"
+                self._refuse(f"it is not CSV; {words if open_ended else f'{where}: {error}'}")
+                yield []
 
     def commented_head(self) -> list[str]:
         """Return the cells of the last comment before the first row."""
-        text = self.comment.lstrip("#% ")
-        return [cell.strip() for cell in next(csv.reader([text], delimiter=self.separator), [])]
+        return [cell.strip() for cell in _cells(self.comment.lstrip("#% "), self.separator)]
 
-    def check(self, count: int) -> None:
-        """Raise InputError if the rows that were taken, so many, are not of one line each."""
-        if self.reader.line_num != count:
-            raise self.refusal("it is not CSV; a text in quotes extends over several lines")
+    def _refuse(self, words: str) -> None:
+        """Say once what is wrong, and go on."""
+        if (message := str(self.refusal(words))) not in self.wrong:
+            self.wrong.append(message)
 
     def _lines(self) -> Iterator[str]:
         """Yield the lines that are neither empty nor comments."""
@@ -112,7 +115,7 @@ class _CsvFile(RowSource):
             words = "its text is not in UTF-8 and was read as Latin-1 (Windows-1252)"
             self.notes.append(f"{words}; look at letters such as ° and µ")
         if own != (self.encoding or own):
-            raise self.refusal("its lines are in two encodings; store it in UTF-8")
+            self._refuse("its lines are in two encodings; store it in UTF-8")
         self.encoding = own
         return line
 
@@ -147,3 +150,11 @@ class _CsvFile(RowSource):
         alike = Counter(len(row) for row in rows if len(row) > 1)
         numbers = sum(map(is_number, cells)) / max(len(cells), 1)
         return max(alike.values(), default=0), numbers
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    """Return the cells of a line, of which those with separators are in quotes."""
+    if '"' not in line:
+        return [cell.lstrip(" ") for cell in line.rstrip("\n").split(separator)]
+    how: dict[str, Any] = {"skipinitialspace": True, "strict": True}
+    return next(csv.reader([line], delimiter=separator, **how))

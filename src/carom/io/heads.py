@@ -3,23 +3,16 @@
 import json
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from math import isclose, pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from carom.io.files import read_text
+from carom.io.rows import Column
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import (
-    InputError,
-    checked_type,
-    heading,
-    hint,
-    nearest,
-    refusal,
-    refuse,
-)
+from carom.quantities.refusals import InputError, checked_type, heading, hint, nearest, refusal
 from carom.quantities.texts import LONGEST_TEXT, UNCHANGED, is_unit
 from carom.quantities.units import factor_of, two_units
 
@@ -101,30 +94,33 @@ def spelled(name: str) -> str:
     return SPELLINGS.get(name, name)
 
 
-def renamed(heads: list[str], columns: Mapping[str, str], what: str) -> list[tuple[str, str]]:
-    """Return names and units of heads, users' names replaced by Carom's.
+def renamed(
+    columns: Sequence[Column], names: Mapping[str, str], what: str, wrong: list[str]
+) -> list[tuple[str, Any]]:
+    """Return names and units of columns, users' names replaced by Carom's.
 
-    Raises InputError for names that no column has, and for a unit that is told otherwise.
+    Adds to what is wrong names that no column has, and a unit that is told otherwise.
     """
-    left, new = dict(columns), []
-    for head in heads:
-        own, unit = parts_of(head)
-        wanted = left.pop(head, None) or left.pop(own, None)
-        words = (head if wanted is None else wanted).strip()
+    left, new = dict(names), list[tuple[str, Any]]()
+    for column in columns:
+        own, unit = parts_of(column.head)
+        wanted = left.pop(column.head, None) or left.pop(own, None)
+        words = (column.head if wanted is None else wanted).strip()
         name, new_unit = parts_of(ALIASES.get(words, words))
-        if wanted is not None and not is_open(ALIASES.get(name, name), unit, new_unit):
-            new_unit = one_unit(own, unit, new_unit)
-        new.append((ALIASES.get(name, name), new_unit))
-    missing = (
-        refusal("columns", name, f"{what} has no column of that name; {_there(name, heads)}")
-        for name in left
-    )
-    refuse(*missing)
+        name = ALIASES.get(name, name)
+        try:
+            if wanted is not None and not is_open(name, unit, new_unit):
+                new_unit = one_unit(own, unit, new_unit)
+            new.append((name, one_unit(name, new_unit, column.unit)))
+        except InputError as error:
+            wrong.append(str(error))
+            new.append((name, new_unit))
+    heads = [column.head for column in columns]
+    for name in left:
+        near = nearest(name, heads) or f"its columns are {', '.join(heads)}"
+        allowed = f"{what} has no column of that name; {near}"
+        wrong.append(str(refusal("columns", name, allowed)))
     return new
-
-
-def _there(name: str, heads: list[str]) -> str:
-    return nearest(name, heads) or f"its columns are {', '.join(heads)}"
 
 
 def parts_of(head: str) -> tuple[str, str]:

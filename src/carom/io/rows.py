@@ -1,5 +1,6 @@
 """Rows and cells of a table: what they are called, which cells are empty, and what a column is."""
 
+import re
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
@@ -9,7 +10,9 @@ from numpy.typing import NDArray
 Mask = NDArray[np.bool_]
 
 GAP = "-"
-MISSING = ("", GAP, "\N{EN DASH}", "\N{EM DASH}", "nan", "na", "n/a", "#n/a")
+NOT_AVAILABLE = ("#n/a", "#nv", "#n/d")  # in cells of spreadsheets, English, German, Spanish
+MISSING = ("", GAP, "\N{EN DASH}", "\N{EM DASH}", "nan", "na", "n/a", *NOT_AVAILABLE)
+ERROR_CELL = re.compile(r'#(?:N/A|NV|N/D|[A-ZÄÖÜ/0-9]{2,}[!?])(?=$|["\t,;])|Err:\d')  # #DIV/0!
 MISSING_TYPES = ("NAType", "NaTType", "MaskedConstant")  # of pandas, of NumPy
 MOST_NAMED_ROWS = 5  # that a message names
 LETTERS = 26

@@ -1,10 +1,8 @@
-"""The sheets of a user's spreadsheet, .xlsx, .xls or .ods, of which one holds the table."""
+"""The sheets of a user's spreadsheet, .xlsx or .ods, of which one holds the table."""
 
 import io
-import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from functools import reduce
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -13,17 +11,16 @@ from zipfile import ZipFile
 from carom.io.decimals import is_number
 from carom.io.extras import extra
 from carom.io.remedies import REMEDIES
-from carom.io.rows import Column, is_blank
+from carom.io.rows import Column, is_blank, letter_of
+from carom.io.spreadsheet_marks import Marks, read_marks
 from carom.io.table_rows import RowSource, read_rows
 from carom.io.user_table import UserTable
-from carom.quantities.refusals import nearest, refusal, refuse
+from carom.quantities.refusals import InputError, nearest, refusal, refuse
 
-STARTS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # of zip archives, of older files of Microsoft's
+OLD = b"\xd0\xcf\x11\xe0"  # begins what Excel stored before 2007, or stores with a password
+STARTS = (b"PK\x03\x04", OLD)
 LARGEST = 1 << 28  # bytes
 MOST_CELLS = 20_000_000
-DIMENSION = re.compile(rb'<dimension ref="[A-Z]+[0-9]+:([A-Z]+)([0-9]+)"')
-BEGINNING = 4096  # bytes of a sheet, in which its dimension stands
-SHEETS = "xl/worksheets/sheet"
 
 
 def read_spreadsheet(
@@ -38,17 +35,22 @@ def read_spreadsheet(
     content = file.read(LARGEST + 1)
     if len(content) > LARGEST:
         raise refusal(what, path, f"it has more than {LARGEST} bytes; store the table as CSV")
-    _check_size(what, path, content)
+    if content.startswith(OLD):
+        words = "it is no spreadsheet, .xlsx or .ods, but of Excel before 2007, or has a password"
+        raise refusal(what, path, f"{words}; store it as .xlsx without one")
     try:
         book = calamine.CalamineWorkbook.from_filelike(io.BytesIO(content))
-        sheets = {
-            name: book.get_sheet_by_name(name).to_python(skip_empty_area=False)
-            for name in _readable(calamine, book, sheet)
-        }
-    except calamine.PasswordError:
-        raise refusal(what, path, "it has a password; store it without") from None
-    except calamine.CalamineError as error:
-        raise refusal(what, path, f"it is no spreadsheet, .xlsx, .xls or .ods; {error}") from None
+        with ZipFile(io.BytesIO(content)) as archive:
+            marks = read_marks(archive)
+        sheets = {}
+        for name in _readable(calamine, book, sheet):
+            _check_size(what, path, marks[name])
+            values = book.get_sheet_by_name(name).to_python(skip_empty_area=False)
+            sheets[name] = marks[name].put(values)
+    except InputError:
+        raise
+    except Exception as error:  # as damaged archives and their XML make the readers raise
+        raise refusal(what, path, f"it is no spreadsheet, .xlsx or .ods; {error}") from None
     name, notes = _chosen(what, path, sheets, sheet)
     return read_rows(_Sheet(what, path, sheets[name], notes), fewest, decimal)
 
@@ -73,21 +75,11 @@ def _readable(calamine: Any, book: Any, sheet: str) -> list[str]:
     ]
 
 
-def _check_size(what: str, path: str, content: bytes) -> None:
+def _check_size(what: str, path: str, marks: Marks) -> None:
     """Raise InputError for a sheet with cells too far apart: all between them would take room."""
-    last = ""
-    with suppress(Exception), ZipFile(io.BytesIO(content)) as archive:  # as the reader tells
-        for name in filter(lambda name: name.startswith(SHEETS), archive.namelist()):
-            with archive.open(name) as part:
-                far = DIMENSION.search(part.read(BEGINNING))
-            if far and _place(far[1]) * int(far[2]) > MOST_CELLS:
-                last = f"{far[1].decode()}{far[2].decode()}"
+    last = f"{letter_of(max(marks.width - 1, 0))}{marks.height}"
     words = f"a sheet extends to {last}; delete what stands far from the table"
-    refuse(last and refusal(what, path, words))
-
-
-def _place(letters: bytes) -> int:
-    return reduce(lambda place, letter: 26 * place + letter - ord("A") + 1, letters, 0)
+    refuse(marks.width * marks.height > MOST_CELLS and refusal(what, path, words))
 
 
 def _chosen(
@@ -137,7 +129,3 @@ class _Sheet(RowSource):
             if not (is_text and self.is_comment(cells[0])):
                 self.numbers.append(number)
                 yield [cell if isinstance(cell, str | float | int) else str(cell) for cell in row]
-
-    def commented_head(self) -> list[str]:
-        """Return no head: in a sheet it is no comment."""
-        return []

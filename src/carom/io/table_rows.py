@@ -2,7 +2,9 @@
 
 import re
 from array import array
+from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import chain, islice
 from operator import itemgetter
@@ -13,7 +15,7 @@ import numpy as np
 from carom.io.decimals import Cells, is_number, sign_of
 from carom.io.heads import parts_of
 from carom.io.progress import advancing
-from carom.io.rows import Column, is_blank, is_missing, letter_of
+from carom.io.rows import ERROR_CELL, Column, is_blank, is_missing, letter_of, named
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.texts import is_unit
@@ -26,16 +28,15 @@ NO_HEAD = "put a line without # before it that names the columns, e.g. psi_1,psi
 
 
 COMMENT = re.compile(r"[#%]+\s*([A-Za-z]\w*)\s*:\s*(.*)", re.DOTALL)
-SPREADSHEET_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
-
-
 CSV = "CSV"
+DEEPLABCUT, ITS_AXES = "scorer", "coords"  # the first cells of its first row, and of the last head
 
 
 class RowSource:
     """A file while its rows are read: what it is called, the numbers of its rows, its comments.
 
-    `numbers` are those of the rows that were taken; they are called `word`.
+    `numbers` are those of the rows that were taken; they are called `word`. `wrong` is why some
+    rows are none.
     """
 
     word = "line"
@@ -46,19 +47,20 @@ class RowSource:
         self.numbers = array("q")
         self.comments: dict[str, str] = {}
         self.notes: list[str] = []
+        self.wrong: list[str] = []
         self.comment = ""  # the last before the first row
 
     def rows(self) -> Iterator[Sequence[Any]]:
-        """Yield the cells of each row that is no comment."""
+        """Yield the cells of each row that is no comment, none of one that cannot be read."""
         raise NotImplementedError
 
     def commented_head(self) -> list[str]:
-        """Return the cells of the last comment before the first row."""
+        """Return the cells of the last comment before the first row, if that may be a head."""
         return []
 
     def is_comment(self, text: str) -> bool:
         """Tell whether a text is a comment, and keep it: by its key, of which the first counts."""
-        if not text.startswith(("#", "%")) or text == "%" or text.startswith(SPREADSHEET_ERRORS):
+        if not text.startswith(("#", "%")) or text == "%" or ERROR_CELL.match(text):
             return False
         if comment := COMMENT.fullmatch(text):
             self.comments.setdefault(comment[1].lower(), comment[2].strip())
@@ -66,20 +68,17 @@ class RowSource:
             self.comment = text
         return True
 
-    def check(self, count: int) -> None:
-        """Raise InputError if the rows that were taken, so many, are not of one line each."""
-
     def refusal(self, allowed: str) -> InputError:
         """Return the error that refuses the file."""
         return refusal(self.what, self.path, allowed)
 
 
 class _Head(NamedTuple):
-    """Names of columns, how many rows are above the first below, how many were taken, and those."""
+    """Names of columns, how many rows are above the first below, how long those are, and those."""
 
     heads: list[str]
     above: int
-    taken: int
+    width: int
     rows: Iterator[Sequence[Any]]
 
 
@@ -87,21 +86,22 @@ def read_rows(source: RowSource, fewest: int, decimal: str) -> tuple[list[Column
     """Return the columns of a file by their heads, and a table of its rows, yet without them.
 
     A column is an array where all its cells are plain numbers, else a list of texts and numbers.
-    Blank rows are left out, and so are blank columns without a name.
+    Blank rows are left out, and so are blank columns without a name, and rows of another length
+    than most, which the table is told of.
 
-    Raises InputError if there are fewer columns than are allowed, or a row does not fit the head.
+    Raises InputError if there is no head, or there are fewer columns than are allowed.
     """
-    head = _head_of(source, fewest)
-    columns = [Cells(decimal) for _ in head.heads]
+    try:
+        head = _head_of(source, fewest)
+    except InputError as error:
+        raise InputError(*source.wrong, *error.faults) from None
+    columns, start = [Cells(decimal) for _ in head.heads], head.above
     numbers: list[array[int]] = []
-    start, width = head.above, 0
+    odd: dict[int, list[int]] = {}
     with advancing("reading the table", None, unit="rows") as advance:
         while block := list(islice(head.rows, BLOCK_ROWS)):
             stop = start + len(block)
-            source.check(max(stop, head.taken))
-            where, block = _without_blanks(source.numbers[start:stop], block)
-            width = width or min(len(block[0]) if block else 0, len(columns))
-            _make_even(source, where, block, width, len(columns))
+            where, block = _even(source.numbers[start:stop], block, head.width, odd)
             numbers.append(where)
             if stop - head.above > MOST_ROWS:
                 raise source.refusal(f"it has more than {MOST_ROWS} rows")
@@ -110,21 +110,23 @@ def read_rows(source: RowSource, fewest: int, decimal: str) -> tuple[list[Column
             start = stop
             advance(len(block))
     rows = np.concatenate([np.asarray(each, np.int64) for each in numbers or [array("q")]])
-    for column in columns[width:]:  # to which no row extends
+    for column in columns[head.width :]:  # to which no row extends
         column.add([""] * len(rows))
     read = _with_signs(head.heads, columns, rows)
-    return read, UserTable({}, rows, source.word, source.comments, notes=tuple(source.notes))
+    wrong = (*source.wrong, *_uneven(source, odd, head))
+    table = UserTable({}, rows, source.word, source.comments)
+    return read, replace(table, notes=tuple(source.notes), wrong=wrong)
 
 
 def _head_of(source: RowSource, fewest: int) -> _Head:
     """Return the head: the first row that is not blank, no title, and holds no numbers."""
     rows = source.rows()
     first = list(islice(rows, HEAD_ROWS))
-    source.check(len(first))
     place = next((i for i, row in enumerate(first) if not _is_title(row, first[i + 1 :])), None)
     if place is None:
         raise source.refusal("it is empty; there must be a header and numbers")
-    heads, above = [_text(cell) for cell in first[place]], place + 1
+    heads, count = _of_points(first[place:])
+    above = place + count
     if all(map(is_number, filter(None, heads))):
         commented = source.commented_head()
         if len(commented) != len(heads) or all(map(is_number, commented)):
@@ -134,7 +136,28 @@ def _head_of(source: RowSource, fewest: int) -> _Head:
         heads = [f"{head} [{unit}]" if unit else head for head, unit in units]
         above += 1
     _check_heads(source, heads, fewest)
-    return _Head(heads, above, len(first), chain(first[above:], rows))
+    lengths = Counter(len(row) for row in first[above:] if not all(map(is_blank, row)))
+    width = min(lengths.most_common(1)[0][0], len(heads)) if lengths else 0
+    return _Head(heads, above, width, chain(first[above:], rows))
+
+
+def _of_points(rows: Sequence[Sequence[Any]]) -> tuple[list[str], int]:
+    """Return the heads, and in how many rows they stand.
+
+    Above x and y Tracker names the points, once each, and so does DeepLabCut, below the scorer.
+    """
+    heads, last = [_text(cell) for cell in rows[0]], 0
+    if heads[0] == DEEPLABCUT:
+        last = next((i for i, row in enumerate(rows) if [*row[:1]] == [ITS_AXES]), 0)
+    elif not heads[0] and len(rows) > 1 and {"x", "y"} <= {*rows[1]}:
+        last = 1
+    if not last:
+        return heads, 1
+    joined, point = [], ""
+    for name, axis in zip(*rows[last - 1 : last + 1], strict=False):
+        point = _text(name) or point
+        joined.append(f"{point}.{_text(axis)}" if point else _text(axis))
+    return ["frame", *joined[1:]] if heads[0] else joined, last + 1
 
 
 def _text(cell: Any) -> str:
@@ -142,12 +165,12 @@ def _text(cell: Any) -> str:
 
 
 def _is_title(row: Sequence[Any], below: Sequence[Sequence[Any]]) -> bool:
-    """Tell whether a row is blank, or one text above rows of several cells."""
-    cells = [cell for cell in row if not is_blank(cell)]
+    """Tell whether a row is blank, or one text, or a few, above rows of several cells."""
+    cells, *others = ([cell for cell in each if not is_blank(cell)] for each in (row, *below))
     if len(cells) != 1 or is_number(cells[0]):
         return not cells
-    following = next((each for each in below if not all(map(is_blank, each))), ())
-    return sum(not is_blank(cell) for cell in following) > 1
+    longer = (each for each in others if len(each) > 1 or any(map(is_number, each)))
+    return len(next(longer, ())) > 1
 
 
 def _units(heads: list[str], below: Sequence[Sequence[Any]]) -> list[tuple[str, str]]:
@@ -173,30 +196,37 @@ def _check_heads(source: RowSource, heads: list[str], fewest: int) -> None:
     )
 
 
-def _without_blanks(
-    numbers: "array[int]", block: list[Sequence[Any]]
+def _even(
+    numbers: "array[int]", block: list[Sequence[Any]], width: int, odd: dict[int, list[int]]
 ) -> tuple["array[int]", list[Sequence[Any]]]:
-    """Return the rows with something in them, and their numbers."""
-    if all(map(itemgetter(0), block)):  # as in most files
+    """Return the rows with something in them, without blank ends, and their numbers.
+
+    Rows of another length are left out; their numbers are added to `odd`, by length.
+    """
+    if width and {*map(len, block)} == {width} and all(map(itemgetter(0), block)):  # mostly
         return numbers, block
-    kept = [i for i, row in enumerate(block) if not all(map(is_blank, row))]
-    return array("q", [numbers[i] for i in kept]), [block[i] for i in kept]
+    kept, even = array("q"), []
+    for number, row in zip(numbers, block, strict=True):
+        if all(map(is_blank, row)):
+            continue
+        if len(row) < width or not all(map(is_blank, row[width:])):
+            odd.setdefault(len(row), []).append(number)
+            continue
+        kept.append(number)
+        even.append(row[:width])
+    return kept, even
 
 
-def _make_even(
-    source: RowSource, numbers: "array[int]", block: list[Sequence[Any]], width: int, names: int
-) -> None:
-    """Cut blank cells at the ends of rows, or raise InputError for a row of another length."""
-    if {*map(len, block)} <= {width}:
-        return
-    for i, row in enumerate(block):
-        if len(row) != width and (len(row) < width or not all(map(is_blank, row[width:]))):
-            message = f"{source.word} {numbers[i]} has {len(row)} values"
-            other = f"the header has {names} names"
-            if len(row) == names:
-                other = f"the first {source.word} has {width}"
-            raise source.refusal(f"it is not {source.kind}; {message}, {other}")
-        block[i] = row[:width]
+def _uneven(source: RowSource, odd: dict[int, list[int]], head: _Head) -> list[str]:
+    """Return what is wrong with rows of another length, if there are any."""
+    lengths = [
+        f"{named(source.word, numbers)} {'has' if len(numbers) == 1 else 'have'} {length} values"
+        for length, numbers in odd.items()
+    ]
+    names = len(head.heads)
+    others = f"the others have {head.width}" if names in odd else f"the header has {names} names"
+    words = f"it is not {source.kind}; {', '.join([*lengths, others])}"
+    return [str(source.refusal(words))] if odd else []
 
 
 def _with_signs(heads: list[str], columns: list[Cells], rows: Any) -> list[Column]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from carom.io.csv_cells import read_csv
-from carom.io.heads import TableFormat, one_unit, renamed, spelled, table_format
+from carom.io.heads import TableFormat, renamed, spelled, table_format
 from carom.io.paths import accessing, checked_path, opened
 from carom.io.rows import GAP, Column, is_missing
 from carom.io.spreadsheets import STARTS, read_spreadsheet
@@ -30,16 +30,18 @@ def read_table(
     decimal: str | None = None,
     what: str = "results",
     fewest: int = 2,
+    lenient: bool = False,
 ) -> UserTable:
     """Return the cells of a file, columns by name, a data frame, a structured array, a dataset.
 
-    A file is CSV, .xlsx, .xls or .ods, and has a header and at least so many columns. `columns`
+    A file is CSV, .xlsx or .ods, and has a header and at least so many columns. `columns`
     tells what heads stand for, {"omega [rpm]": "spin_out"}, or names a TOML file that tells it.
     `sheet` is one of a spreadsheet, as in "lab.xlsx:Sheet2"; `decimal` is "," or "." where numbers
     may be read in both ways. A table that was read is returned as it is.
 
     Raises InputError, in which the table is called `what`, if it cannot be read, has no rows, too
-    many columns, or columns of one name or unequal length.
+    many columns, columns of one name, or rows or columns of unequal length. A lenient reading goes
+    on where it can, and leaves it to the table to say what is `wrong`, with what else is.
 
     Examples
     --------
@@ -57,17 +59,19 @@ def read_table(
         for name in ("sheet", "decimal"):
             refuse(getattr(how, name) and f"{name}: only a file has it; leave it out")
         source_columns, table = _of_object(what, source)
-    named = renamed([column.head for column in source_columns], how.columns, what)
+    wrong = list(table.wrong)
+    cells: dict[str, Column] = {}
     places: dict[str, list[str]] = {}
-    for (name, _), column in zip(named, source_columns, strict=True):
+    for column, (name, unit) in zip(
+        source_columns, renamed(source_columns, how.columns, what, wrong), strict=True
+    ):
         places.setdefault(name, []).append(column.letter)
-    refuse(*(_twice(name, letters) for name, letters in places.items() if len(letters) > 1))
-    refuse(not len(table) and f"{what}: no rows; give names of columns, and numbers below them")
-    cells = {
-        name: column._replace(unit=one_unit(name, unit, column.unit))
-        for (name, unit), column in zip(named, source_columns, strict=True)
-    }
-    return replace(table, cells=cells)
+        cells.setdefault(name, column._replace(unit=unit))
+    wrong += (_twice(name, letters) for name, letters in places.items() if len(letters) > 1)
+    if not len(table) and not wrong:
+        wrong = [f"{what}: no rows; give names of columns, and numbers below them"]
+    refuse(*(wrong if not lenient or not len(table) else ()))
+    return replace(table, cells=cells, wrong=tuple(wrong))
 
 
 def _twice(name: str, letters: list[str]) -> str:

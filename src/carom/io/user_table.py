@@ -18,7 +18,7 @@ from carom.io.remedies import REMEDIES
 from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import Faults, InputError, clipped, heading, nearest
+from carom.quantities.refusals import Faults, InputError, clipped, heading, nearest, refuse
 from carom.quantities.shown import Printed
 from carom.quantities.symbols import meant
 from carom.quantities.texts import UNCHANGED
@@ -49,7 +49,8 @@ class UserTable(Rows, Printed):
 
     `rows` are the numbers of the rows, `word` is what they are called, lines of a file or rows,
     and `comments` are those of a file, by key. `missing` says where columns have no value, `notes`
-    how a file was read, and `faults` collects what is wrong with it.
+    how a file was read, `wrong` what makes it no table, which whoever asks for a column is told,
+    and `faults` collects what else is wrong.
     """
 
     cells: Mapping[str, Column]
@@ -59,6 +60,7 @@ class UserTable(Rows, Printed):
     columns: Mapping[str, Array] = field(default_factory=dict)
     missing: Mapping[str, Mask] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    wrong: tuple[str, ...] = ()
     faults: Faults = field(default_factory=Faults)
 
     def __len__(self) -> int:
@@ -86,9 +88,13 @@ class UserTable(Rows, Printed):
     def column(self, name: str) -> Column:
         """Return a column as given, or raise InputError if it is none."""
         column = self.cells[name]
-        if column.fault:
-            raise InputError(f"{spelled(name)}: {column.fault}")
+        refuse(*self.wrong, column.fault and f"{spelled(name)}: {column.fault}")
         return column
+
+    def told(self, faults: Faults) -> "UserTable":
+        """Return the table as far as it could be read; what is wrong is added to the faults."""
+        faults.add(*self.wrong)
+        return replace(self, wrong=())
 
     @property
     def case(self) -> Mapping[str, Any] | None:
@@ -211,21 +217,21 @@ def in_units(
     >>> given["angle"].round(4), given["spin_out"].round(2)
     (array([0.    , 1.0472]), array([   nan, -62.83]))
     """
+    faults = faults or Faults()
+    table, missing = table.told(faults), dict[str, Mask]()
     columns = {name: np.full(len(table), nan) for name in table.names}
-    missing: dict[str, Mask] = {}
-    read = replace(table, columns=columns, missing=missing, faults=faults or Faults())
+    read = replace(table, columns=columns, missing=missing, faults=faults)
     there = {*names}.intersection(table.names)
     wanted = [name for name in table.names if name in there]
     for name in wanted:
-        try:
+        there.discard(name)
+        with faults.catching():
             gone = table.column(name).missing
             if gone.any():
                 missing[name] = gone
             _check_error_unit(name, table)
-            columns[name] = _column(name, table, gone)
-        except InputError as error:
-            read.faults.add(str(error))
-            there.remove(name)
+            columns[name] = read_column(table, name, GLOSSARY[entry(name)].unit)
+            there.add(name)
     if not whole:
         read = _without_blank_rows(read, wanted)
     for name in filter(there.__contains__, wanted):
@@ -353,15 +359,15 @@ def _check_percent(name: str, table: UserTable) -> None:
         )
 
 
-def _column(name: str, table: UserTable, gone: Mask) -> Array:
-    """Return a column in SI units, or raise InputError for what is not a number in it."""
-    _, cells, unit, _, letter = table.column(name)
-    values, reason = column_in_si(spelled(name), GLOSSARY[entry(name)].unit, unit, cells)
-    wrong = ~np.isfinite(values) & ~gone
-    if wrong.any():
-        where = table.cells_named(letter, wrong)
-        cause = reason.removeprefix(f"{spelled(name)}: ") or CORRECT_OR_DELETE
-        raise InputError(f"{spelled(name)}: not a number in {where}; {cause}")
+def read_column(table: UserTable, name: str, si: str) -> Array:
+    """Return a column in SI units, NaN where it is blank, or raise InputError for other cells."""
+    column, called = table.column(name), spelled(name)
+    values, reason = column_in_si(called, si, column.unit, column.cells)
+    wrong = ~np.isfinite(values)
+    if wrong.any() and (wrong := wrong & ~column.missing).any():
+        where = table.cells_named(column.letter, wrong)
+        cause = reason.removeprefix(f"{called}: ") or CORRECT_OR_DELETE
+        raise InputError(f"{called}: not a number in {where}; {cause}")
     return values
 
 

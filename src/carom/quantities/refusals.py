@@ -3,7 +3,7 @@
 Of a file all faults are said in one message, instead of one a run.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from reprlib import Repr
@@ -21,12 +21,23 @@ _short.maxstring = _short.maxother = _short.maxlong = LONGEST_SHOWN
 
 
 class InputError(ValueError):
-    """An input cannot be used; the message names it, its value, and what is allowed."""
+    """An input cannot be used; the message names it, its value, and what is allowed.
+
+    Of several faults it lists each once, as `faults` does.
+    """
 
     __module__ = "carom"  # the name by which users know it
 
-    def __init__(self, message: str) -> None:
+    def __init__(self, *faults: str) -> None:
+        self.faults = tuple(dict.fromkeys(faults))
+        message = self.faults[0] if len(self.faults) == 1 else _listed(self.faults)
         super().__init__(" ".join(message.splitlines()))  # one line, whatever users have named
+
+
+def _listed(faults: Sequence[str]) -> str:
+    listed = "; ".join(f"({i}) {text}" for i, text in enumerate(faults[:MOST_LISTED], 1))
+    more = f"; and {len(faults) - MOST_LISTED} more" if len(faults) > MOST_LISTED else ""
+    return f"{len(faults)} faults: {listed}{more}"
 
 
 def refusal(name: str, value: Any, allowed: str) -> InputError:
@@ -37,7 +48,7 @@ def refusal(name: str, value: Any, allowed: str) -> InputError:
 def refuse(*faults: object) -> None:
     """Raise InputError with all texts and errors among these; what is false is no fault."""
     if messages := list(map(str, filter(None, faults))):
-        raise InputError(_together(messages))
+        raise InputError(*messages)
 
 
 def heading(text: str) -> str:
@@ -113,35 +124,27 @@ class Faults:
         self._collecting = True
         return self
 
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        self._collecting = False
+        if isinstance(error, InputError):
+            self._messages += error.faults
+        if self._messages and (error is None or isinstance(error, Exception)):
+            raise InputError(*self._messages) from None
+
+    def add(self, *messages: str) -> None:
+        """Collect faults; outside of the context raise InputError."""
+        if not self._collecting:
+            refuse(*messages)
+        self._messages += messages
+
     @contextmanager
-    def of(self, name: str) -> Iterator[None]:
-        """Collect what is wrong inside this context with one of several files."""
+    def catching(self, name: str = "") -> Iterator[None]:
+        """Add an InputError that is raised inside, as of one column or one file, and go on."""
         try:
             yield
         except InputError as error:
-            self.add(f"{heading(name)}: {error}")
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        self._collecting = False
-        if isinstance(error, InputError) and str(error) != _together(self._messages):
-            self._messages.append(str(error))
-        if self._messages and (error is None or isinstance(error, Exception)):
-            raise InputError(_together(self._messages)) from None
-
-    def add(self, message: str) -> None:
-        """Collect a fault; outside of the context raise InputError."""
-        refuse(not self._collecting and message)
-        self._messages.append(message)
+            self.add(*(f"{heading(name)}: {fault}" if name else fault for fault in error.faults))
 
     def settle(self) -> None:
         """Raise InputError if there are faults so far, before costly work."""
         refuse(*self._messages)
-
-
-def _together(faults: Iterable[str]) -> str:
-    messages = list(dict.fromkeys(faults))
-    if len(messages) == 1:
-        return messages[0]
-    listed = "; ".join(f"({i}) {text}" for i, text in enumerate(messages[:MOST_LISTED], 1))
-    more = f"; and {len(messages) - MOST_LISTED} more" if len(messages) > MOST_LISTED else ""
-    return f"{len(messages)} faults: {listed}{more}"

@@ -65,7 +65,7 @@ class Table(Design):
         decimal: str | None = None,
     ) -> None:
         how: dict[str, Any] = {"sheet": sheet, "decimal": decimal, "what": "table", "fewest": 1}
-        table = read_table(source, columns, **how)
+        table = read_table(source, columns, **how, lenient=True)
         super().__init__(*_read(table), _notes=table.notes)
 
     def _doubts(self) -> tuple[str, ...]:
@@ -95,8 +95,9 @@ def _read(table: UserTable) -> tuple[known.Choices, dict[str, NDArray[Any]]]:
     choices: dict[str, tuple[known.Choice, ...]] = {}
     unknown = [name for name in table.names if name not in known.INPUTS] or [""]
     with Faults() as faults:
+        table = table.told(faults)
         for name in table.names:
-            try:
+            with faults.catching():
                 known.checked_names([name], listing=name == unknown[0])
                 _, cells, unit, *_ = table.column(name)
                 if name in known.CHOSEN:
@@ -105,8 +106,6 @@ def _read(table: UserTable) -> tuple[known.Choices, dict[str, NDArray[Any]]]:
                     key = known.leaf(name)
                     inputs[name] = column_in_si(key, GLOSSARY[key].unit, unit, cells)[0]
                     _refuse_units(table, name, inputs[name])
-            except InputError as error:
-                faults.add(str(error))
         known.refuse_contradictions(table.names)
         faults.settle()
         _refuse_words(table, [name for name in inputs if name not in known.CHOSEN])

@@ -21,7 +21,7 @@ Carom.fit = (() => {
     if (!can.fit) return panel.replaceChildren(make("p", { className: "carom-note" }, why));
     const published = Carom.config.datasets.map(({ name, title }) => make("option", { value: name, title }, name));
     parts.data = make("select", { id: "data" }, new Option("none", ""), ...published);
-    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.xls,.ods,.toml,text/csv,text/plain", hidden: true });
+    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.ods,.toml,text/csv,text/plain", hidden: true });
     parts.button = make("button", { id: "upload-button", type: "button" }, "Choose or drop a file");
     parts.drop = make("div", { id: "drop" }, parts.button, parts.input);
     const template = make("a", { id: "template", className: "carom-button", download: "template.csv", href: Carom.source.file("template.csv") }, "Empty table to fill in");

@@ -119,11 +119,12 @@ def score(
         own = results_of(results, case, chi, restitution)
         results, case, chi, restitution = own.columns, None, own.chi, own.restitution
         law, law_notes = own.name if law is None else law, own.notes
-    table = read_table(results, columns, sheet=sheet, decimal=decimal)
-    kind, names = _kind(table.names)
-    if kind != "psi" and chi is not None:
-        raise refusal("chi", chi, "it follows from the case; leave it out")
+    table = read_table(results, columns, sheet=sheet, decimal=decimal, lenient=True)
     with Faults() as faults:
+        table = table.told(faults)
+        kind, names = _kind(table.names)
+        if kind != "psi" and chi is not None:
+            raise refusal("chi", chi, "it follows from the case; leave it out")
         unused = [name for name in others(table, names, faults) if name not in NAMES]
         _refuse_nan(table, faults)
         quantities = in_units(table, names, (*AFTER, "psi_out"), faults)

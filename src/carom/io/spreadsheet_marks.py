@@ -1,0 +1,149 @@
+"""Cells of a spreadsheet that have no value: errors, formulas without results, merged ones.
+
+The reader of values gives all of them as blank, as it does what was not measured.
+"""
+
+import re
+from collections.abc import Iterator
+from functools import reduce
+from posixpath import join
+from typing import IO, Any, NamedTuple
+from xml.etree.ElementTree import Element, fromstring, iterparse
+from zipfile import ZipFile
+
+from carom.io.decimals import is_number
+from carom.io.rows import ERROR_CELL, letter_of
+
+BOOK, RELATIONS, ODS = "xl/workbook.xml", "xl/_rels/workbook.xml.rels", "content.xml"
+CALLED = re.compile(r"([A-Z]+)([0-9]+)")
+LONGEST_FORMULA = 30  # that is shown
+NO_RESULT = "{} has no result; store the file in a spreadsheet program"
+
+
+class Mark(NamedTuple):
+    """What stands in so many rows and columns from a place on, counted from 0; merged without."""
+
+    row: int
+    column: int
+    rows: int
+    columns: int
+    text: str
+
+
+class Marks(NamedTuple):
+    """The marks of a sheet, and how far it extends."""
+
+    marks: list[Mark]
+    height: int
+    width: int
+
+    def put(self, values: list[list[Any]]) -> list[list[Any]]:
+        """Return rows of values with the marks; cells merged with that of a number say so."""
+        height, width = max(self.height, len(values)), max([self.width, *map(len, values)])
+        full = [[*row, *[""] * (width - len(row))] for row in values]
+        full += [[""] * width for _ in range(height - len(values))]
+        for row, column, rows, columns, text in self.marks:
+            is_inside = row < height and column < width  # not all that is merged
+            value = text or (full[row][column] if is_inside else "")
+            if text or is_number(value):
+                beside = text or f"merged with {letter_of(column)}{row + 1}"
+                for each in full[row : row + rows]:
+                    each[column : column + columns] = [beside] * min(columns, width - column)
+                full[row][column] = value
+        return full
+
+
+def read_marks(archive: ZipFile) -> dict[str, Marks]:
+    """Return the marks of sheets by name; a damaged file raises what its readers do."""
+    if ODS in archive.namelist():
+        with archive.open(ODS) as file:
+            return dict(_of_ods(file))
+    targets = {each.get("Id"): each.get("Target", "") for each in _read(archive, RELATIONS)}
+    sheets = {}
+    for element in filter(lambda each: _kind(each) == "sheet", _read(archive, BOOK).iter()):
+        (identity,) = (value for key, value in element.items() if key.endswith("}id"))
+        with archive.open(join("xl", targets[identity]).lstrip("/")) as file:
+            sheets[element.get("name", "")] = _of_xlsx(file)
+    return sheets
+
+
+def _read(archive: ZipFile, name: str) -> Element:
+    return fromstring(archive.read(name))
+
+
+def _kind(element: Element) -> str:
+    return element.tag.rpartition("}")[2]
+
+
+def _place(called: str) -> tuple[int, int]:
+    """Return row and column of a cell that is called as C7 is."""
+    letters, number = re.fullmatch(CALLED, called).groups()  # type: ignore[union-attr]
+    column = reduce(lambda place, letter: 26 * place + ord(letter) - ord("A") + 1, letters, 0)
+    return int(number) - 1, column - 1
+
+
+def _column(cell: Element, place: int) -> int:
+    return _place(cell.attrib["r"])[1] if "r" in cell.attrib else place
+
+
+def _of_xlsx(file: IO[bytes]) -> Marks:
+    marks, height, width = list[Mark](), 0, 0
+    for _, element in iterparse(file):
+        if _kind(element) == "mergeCell":
+            first, _, last = element.get("ref", "").partition(":")
+            (top, left), (bottom, right) = _place(first), _place(last or first)
+            marks.append(Mark(top, left, bottom - top + 1, right - left + 1, ""))
+        if _kind(element) != "row":
+            continue
+        height = int(element.get("r", height + 1))
+        for place, cell in enumerate(element):
+            is_formula = len(cell) and _kind(cell[0]) == "f"
+            text = cell.get("t") == "e" and cell.findtext("{*}v")
+            if is_formula and not cell.findtext("{*}v") and cell.get("t") != "str":  # of texts ""
+                text = _no_result(f"={cell[0].text or ''}")
+            if text:
+                marks.append(Mark(height - 1, _column(cell, place), 1, 1, text))
+        if len(element):
+            width = max(width, _column(element[-1], len(element) - 1) + 1)
+        element.clear()
+    return Marks(marks, height, width)
+
+
+def _no_result(formula: str) -> str:
+    return NO_RESULT.format(formula[:LONGEST_FORMULA])
+
+
+def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
+    marks, row, height, width = list[Mark](), 0, 0, 0
+    for _, element in iterparse(file):
+        own = _by_name(element)
+        if _kind(element) == "table":
+            yield own["name"], Marks(marks, height, width)
+            marks, row, height, width = [], 0, 0, 0
+        if _kind(element) != "table-row":
+            continue
+        column, rows = 0, int(own.get("number-rows-repeated", 1))
+        for cell in element:
+            own = _by_name(cell)
+            columns = int(own.get("number-columns-repeated", 1))
+            shown = "".join("".join(part.itertext()) for part in cell if _kind(part) == "p")
+            kinds = [value for key, value in cell.items() if key.endswith("}value-type")]
+            text, formula = "", own.get("formula", "").removeprefix("of:")
+            if "error" in kinds or (formula and ERROR_CELL.match(shown)):
+                text = shown
+            elif formula and not kinds:
+                text = _no_result(formula)
+            if text:
+                marks.append(Mark(row, column, rows, columns, text))
+            elif {"number-rows-spanned", "number-columns-spanned"} & {*own}:
+                down, along = (int(own.get(f"number-{n}-spanned", 1)) for n in ("rows", "columns"))
+                marks.append(Mark(row, column, down, along, ""))
+            column += columns
+            if text or kinds or shown:
+                height, width = row + rows, max(width, column)
+        row += rows
+        element.clear()
+
+
+def _by_name(element: Element) -> dict[str, str]:
+    return {key.rpartition("}")[2]: value for key, value in element.items()}
