@@ -51,6 +51,7 @@ def read(source):
         *("sep=;\r\n" + TEXT.replace(",", ";"), TEXT.rstrip("\n")),
         '"angle [deg]","spin_out [rpm]"\n"30","-60"\n\n# remark, of no account; none\n45,-120\n',
         "angle,spin_out\n30 deg,-60 rpm\n45 deg,-120 rpm\n",
+        TEXT.replace(" [deg]", " in \N{DEGREE SIGN}").replace(" [rpm]", " in rpm"),
     ],
 )
 def test_one_table_written_in_many_ways(stored, content):
@@ -354,6 +355,8 @@ def test_rows_of_a_mapping_are_counted_from_one():
         *(("theta", "angle"), ("incident_angle_deg", "angle [deg]")),
         *(("e_t", "tangential_restitution"), ("e_t_error", "tangential_restitution_error")),
         *(("omega_rad_s", "spin_out [rad/s]"), ("rebound angel", "rebound_angle")),
+        *(("Drehzahl nachher", "spin_out"), ("Winkel nach", "rebound_angle")),
+        *(("angle_after", "rebound_angle"), ("Winkel vorher", "angle"), ("theta before", "angle")),
     ],
 )
 def test_a_misspelt_column_is_refused_and_not_ignored(name, meant):

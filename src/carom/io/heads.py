@@ -19,6 +19,7 @@ from carom.quantities.units import factor_of, two_units
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
 HEAD = re.compile(r"\s*(.*?)\s*(?:/?\s*\[(.*)\]|/?\s*\((.*)\))?\s*", re.DOTALL)  # also v / (m/s)
+SPOKEN = re.compile(r"(.*\S) in (\S+)")  # angle in deg
 EXAMPLE = "{'omega': 'spin_out'}"
 
 
@@ -124,11 +125,15 @@ def renamed(
 
 
 def parts_of(head: str) -> tuple[str, str]:
-    """Return what stands before and in the brackets of a head."""
+    """Return the name and the unit of a head: v [m/s], v (m/s), v / (m/s) or v in m/s."""
     match = HEAD.fullmatch(head) if len(head) <= LONGEST_TEXT else None
     if match is None or not match[1]:  # brackets alone are no unit of a name
         return head, ""
-    return match[1], (match[2] or match[3] or "").strip()
+    unit = (match[2] or match[3] or "").strip()
+    spoken = None if unit else SPOKEN.fullmatch(match[1])
+    if spoken and (is_unit(spoken[2]) or spoken[2].startswith("1/")):
+        return spoken[1], spoken[2]
+    return match[1], unit
 
 
 def is_open(name: str, own: str, said: str = "") -> bool:

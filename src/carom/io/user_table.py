@@ -36,6 +36,13 @@ ERROR = "_error"  # ends the name of a column of standard deviations
 CORRECT_OR_DELETE = "correct or delete it"
 HEIGHTS = ("drop_height", "rebound_height")  # which are measured in cm and mm as well
 HIGHEST_DROP = 3.0  # m, of a drop that is given without a unit
+EARLIER, LATER = ("before", "vor", "vorher"), ("after", "nach", "nachher")
+AFTERWARDS = {  # what is called like it, after an impact
+    "angle": "rebound_angle",
+    "speed": "rebound_speed",
+    "surface_angle": "surface_angle_out",
+    **{name: f"{name}_out" for name in ("spin", "normal_speed", "tangential_speed")},
+}
 LEAST_SIMILARITY = 0.8  # from which a column is taken for a misspelt one
 UNITS_IN_NAMES = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}
 ANGLES = ("angle", "rebound_angle")
@@ -271,6 +278,9 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
             if column.letter:
                 angle = hint.partition(" [")[0] in ANGLES
                 asked += " It is measured from the normal." if angle else ""
+                asked += (
+                    " It is that before the impact." if hint.partition(" [")[0] == "spin" else ""
+                )
                 remedy = REMEDIES.get().column.format(head=clipped(column.head), name=meaning)
                 asked += f" If so, {remedy}"
             faults.add(f"{heading(name)}: unknown column; {asked}")
@@ -306,9 +316,20 @@ def _likely(name: str, names: list[str]) -> str:
     plain = plain.removesuffix(unit)
     end = ERROR if plain.endswith(ERROR) else ""
     plain = plain.removesuffix(ERROR)
-    stands = meant(plain, names) or plain
+    stands = _when(plain, names) or meant(plain, names) or plain
     close = get_close_matches(stands + end, names, n=1, cutoff=LEAST_SIMILARITY)
     return spelled(close[0]) + (f" [{UNITS_IN_NAMES[unit]}]" if unit else "") if close else ""
+
+
+def _when(plain: str, names: Collection[str]) -> str:
+    """Return the known name of a quantity of which a word says that it is before or after."""
+    stem, _, when = plain.rpartition("_")
+    if not stem or when not in (*EARLIER, *LATER):
+        return ""
+    name = meant(stem, names) or stem
+    name = next((early for early, late in AFTERWARDS.items() if late == name), name)
+    name = AFTERWARDS.get(name, name) if when in LATER else name
+    return name if name in names else ""
 
 
 def _check_error_unit(name: str, table: UserTable) -> None:
