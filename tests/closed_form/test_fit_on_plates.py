@@ -278,7 +278,7 @@ OBLIQUE = {"speed": SPEEDS, "angle": ANGLES, "rebound_angle": 0.9 * ANGLES}
             {},
             "thickness: -0.003 in every row .* positive",
         ),
-        ({"angle": ANGLES, "rebound_angle": ANGLES}, {}, "speed: column missing; how far a plate"),
+        ({"angle": ANGLES, "rebound_angle": ANGLES}, {}, "speed: column missing; a plate needs"),
         ({"normal_speed": SPEEDS, "duration": SPEEDS}, {}, "duration: .* check its unit"),
         ({"normal_speed": SPEEDS, "duration": SPEEDS}, {"pair": WALL}, "no measured response"),
         ({"normal_speed": SPEEDS, "spin_out": SPEEDS}, {}, "angle: column missing"),

@@ -115,11 +115,11 @@ def test_all_faults_of_all_tracks_are_told_with_their_cells(tmp_path):
     paths[1].write_text("a;y [mm];frame\n1;2;3\n")
     line = refused("^5 faults: ", carom.track, [*map(str, paths)], pixels_per_mm=1)
     for words in (
-        r"line 4 has 2 values, the header has 3 names.*; this is track .*one.csv",
+        r"track .*one.csv: .*line 4 has 2 values, the header has 3 names",
         r"x: not a number in cell A3; '1.x' cannot",
         r"y: it is in mm; leave the scale",
         r"x: column missing; the columns are a, y, frame",
-        r"frame_rate: missing.*; this is track .*two.csv",
+        r"track .*two.csv: frame_rate: missing",
     ):
         assert re.search(words, line), words
 

@@ -182,9 +182,8 @@ def _joint_fit(
     from carom.fitting.joint_result import named_sets
 
     sets = named_sets(sources)
-    own: Sequence[str | None] = (
-        cases if len(cases) > 1 else (*cases,) * len(sets) or (None,) * len(sets)
-    )
+    one = cases[0] if cases else None
+    own: Sequence[str | None] = cases if len(cases) > 1 else [one] * len(sets)
     few = f"case: {len(cases)} for {len(sets)} files; give one for all, or one for each"
     refuse(len(own) != len(sets) and few)
     pairs = []
@@ -226,9 +225,8 @@ def _pair(
     hint += "e.g. --fix restitution=0.98"
     if "thickness" in content.get("second", {}):
         hint = "bodies on a plate are elastic so far; leave losses or thickness out"
-    for name in (*LOSSES, RATIO):
-        if name in content:
-            raise refusal(name, content[name], hint)
+    for name in filter(content.__contains__, (*LOSSES, RATIO)):
+        raise refusal(name, content[name], hint)
     friction = 0.0 if case is None else START_FRICTION  # in the data none is one that is not known
     return pair_of({"friction": friction, **content})
 
@@ -239,11 +237,8 @@ def _sampled(fit: "Fit", target: str, steps: int, seed: int) -> Path:
     samples = fit.posterior(steps, seed)
     if not samples.attrs["converged"]:
         time = samples.attrs["autocorrelation_time"]
-        typer.echo(
-            f"The chain is short: it has {steps} steps, and its autocorrelation time is {time:.0f} "
-            f"steps. Use --steps {50 * ceil(time):d}.",
-            err=True,
-        )
+        chain = f"it has {steps} steps, and its autocorrelation time is {time:.0f} steps"
+        typer.echo(f"The chain is short: {chain}. Use --steps {50 * ceil(time):d}.", err=True)
     if Path(target).suffix.lower() not in FIGURES:
         return carom.save(samples, target)
     from carom.plots.fits import plot_corner

@@ -116,7 +116,6 @@ def fit(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> angles = [f"{angle} deg" for angle in range(5, 80, 5)]
@@ -182,14 +181,13 @@ def joint_fit(
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> slow = {"angle [deg]": [20, 45, 60, 70], "impulse_ratio": [0.19, 0.21, 0.2, 0.2]}
     >>> fast = {"angle [deg]": [25, 50, 60, 75], "impulse_ratio": [0.2, 0.21, 0.19, 0.2]}
     >>> both = carom.joint_fit([slow, fast], pair=pair, share="friction", fixed={"restitution": 1})
     >>> print(both.verdict)
-    the sets agree in friction (p = 0.98)
+    the sets agree in friction (p = 0.99)
     """
     level, limited = checked_confidence(confidence), flag("robust", robust)
     sets = named_sets(data)
@@ -221,6 +219,6 @@ def _settled(
     law = STRAIGHT if problem.is_normal and not turns else EXACT
     model = Model(suited(law, problem), problem, (), options.start).freeing(options.free)
     settled = settle(with_readings(model, loss), loss, options.start)
-    if options.takes_elastic:
+    if options.taken:
         refuse_contradicted(settled.whole)
     return settled, options

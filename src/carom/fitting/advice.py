@@ -60,15 +60,13 @@ class Advice:
     def __str__(self) -> str:
         best = f"{np.degrees(self.best.angle):.0f} deg"
         alone = f"{self.best.needed} more" if self.best.needed else f"more than {WORTHWHILE}"
-        lines = [
-            f"To halve the interval of {self.parameter}, measure {alone} at {best}"
-            f" ({self.best.regime}).",
-            f"The best {len(self.places)} to measure next:",
-        ]
+        halved = f"To halve the interval of {self.parameter}, measure {alone}"
+        lines = [f"{halved} at {best} ({self.best.regime})."]
+        lines.append(f"The best {len(self.places)} to measure next:")
         for place, times in Counter(self.places).items():
             lines.append(f"  {times} at {np.degrees(place.angle):.0f} deg ({place.regime})")
-        then = f"The interval will then be {self.shorter:.2f} of what it is now."
-        return "\n".join([*lines, then])
+        lines.append(f"The interval will then be {self.shorter:.2f} of what it is now.")
+        return "\n".join(lines)
 
 
 def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
@@ -86,12 +84,8 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
     root = _joined(np.sqrt(PRIOR) * np.eye(free), best.information.all_slopes)
     now = _variance(root, place)
     needed = _needed(root, gains, place)
-    places = [
-        Incidence(
-            float(np.radians(degrees)), regime, None if need > WORTHWHILE else ceil(need - ROUNDING)
-        )
-        for degrees, regime, need in zip(ANGLES, regimes, needed, strict=True)
-    ]
+    counts = [None if need > WORTHWHILE else ceil(need - ROUNDING) for need in needed]
+    places = list(map(Incidence, np.radians(ANGLES).tolist(), regimes, counts))
     chosen = []
     for _ in range(count):
         index = int(np.argmin(_variance(_joined(root, gains), place)))
@@ -105,11 +99,8 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
 def _with_all(fit: FitRecord) -> Best:
     """Return the fit with what could not be determined free again."""
     best = fit._best
-    missing = tuple(
-        name
-        for name, each in fit.estimates.items()
-        if each.reason and name not in best.model.free and name != "chi"
-    )
+    told = (*best.model.free, "chi")
+    missing = [name for name, each in fit.estimates.items() if each.reason and name not in told]
     if not missing:
         return best
     model = best.model.freeing(missing)
@@ -149,19 +140,11 @@ def _impacts(problem: FitProblem) -> FitProblem:
     for name in ("spin", "spin2", THICKNESS):
         if name in problem.before:
             before[name] = np.full(count, float(np.median(problem.before[name])))
-    errors = {
-        name: np.full(count, float(np.median(values)))
-        for name, values in problem.before_errors.items()
-        if name in before
-    }
-    return replace(
-        problem,
-        before=before,
-        before_errors=errors,
-        measured=np.zeros((count, len(problem.responses))),
-        errors=np.full((count, len(problem.responses)), np.nan),
-        bounces=None,
-    )
+    given = {name: each for name, each in problem.before_errors.items() if name in before}
+    errors = {name: np.full(count, float(np.median(each))) for name, each in given.items()}
+    nothing = np.zeros((count, len(problem.responses)))
+    known: dict[str, Any] = {"before": before, "before_errors": errors, "measured": nothing}
+    return replace(problem, **known, errors=nothing + np.nan, bounces=None)
 
 
 def _joined(root: Array, slopes: Array) -> Array:

@@ -28,22 +28,18 @@ def taken_by_air(speeds: Mapping[str, Array], flown: Collection[str], pair: Pair
 
 
 def lost_in_flight(speed: float, pair: Pair) -> float:
-    """Return f of a flight that begins or ends at this speed."""
+    """Return f of a flight that begins or ends at this speed; drag by Schiller & Naumann (1935)."""
     v = np.linspace(0.0, speed, 201)[1:]
     area = np.pi * pair.first.radius**2
-    drag = 0.5 * drag_coefficient(reynolds(v, pair)) * DENSITY * area * v**2
+    number = reynolds(v, pair)
+    coefficient = np.maximum(24.0 * (1.0 + 0.15 * number**0.687) / number, DRAG)
+    drag = 0.5 * coefficient * DENSITY * area * v**2
     return float(2.0 * np.trapezoid(drag * v, v) / (pair.first.mass * GRAVITY * speed**2))
 
 
 def reynolds(speed: Array, pair: Pair) -> Array:
     """Return the Reynolds numbers of a ball in air."""
     return 2.0 * pair.first.radius * speed / VISCOSITY
-
-
-def drag_coefficient(number: Array) -> Array:
-    """Return 24 (1 + 0.15 Re^0.687)/Re (Schiller & Naumann 1935), at least 0.45."""
-    viscous = 24.0 * (1.0 + 0.15 * number**0.687) / np.maximum(number, 1e-300)
-    return np.maximum(viscous, DRAG)
 
 
 def about_air(rows: UserTable, named: set[str], pair: Pair) -> list[str]:

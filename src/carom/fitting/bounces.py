@@ -78,9 +78,8 @@ def with_speeds(rows: UserTable, later: Mapping[str, Array]) -> tuple[UserTable,
     way = ways[0] if ways else ""
     series = sorted((n for n in later if not n.endswith(ERROR)), key=_number)
     if any(base(name) != way for name in series) or (TIME in rows.columns and series):
-        raise InputError(
-            f"{series[0]}: give {base(series[0])}, too, and no other series of bounces"
-        )
+        only = f"give {base(series[0])}, too, and no other series of bounces"
+        raise InputError(f"{series[0]}: {only}")
     if [*map(_number, series)] != [*range(2, len(series) + 2)]:
         raise InputError(f"{series[0]}: columns of later bounces are numbered from 2 on")
     first = [name for name in ("drop_height", BEFORE) if name in columns][:1]
@@ -106,15 +105,12 @@ def _with_intervals(rows: UserTable) -> UserTable:
     """Return the columns with the intervals between times of bounces; another drop begins anew."""
     if TIME not in rows.columns:
         return rows
-    for other in (INTERVAL, "drop_height", *HEIGHTS.values()):
-        if other in rows.columns:
-            raise InputError(f"{TIME}: it needs no {other}; leave one of them out")
+    for other in filter(rows.columns.__contains__, (INTERVAL, "drop_height", BEFORE, AFTER)):
+        raise InputError(f"{TIME}: it needs no {other}; leave one of them out")
     gone = np.diff(rows[TIME], prepend=np.nan)
     columns = {**rows.columns, INTERVAL: np.where(gone > 0.0, gone, np.nan)}
-    if TIME + ERROR in columns:
-        columns[INTERVAL + ERROR] = np.hypot(
-            columns[TIME + ERROR], np.roll(columns[TIME + ERROR], 1)
-        )
+    if (error := columns.get(TIME + ERROR)) is not None:
+        columns[INTERVAL + ERROR] = np.hypot(error, np.roll(error, 1))
     return replace(rows, columns=columns)
 
 
@@ -124,8 +120,7 @@ def _refuse_twice(rows: UserTable, there: list[str], ways: list[str]) -> None:
     after = [*ways, *(n for n in ("normal_restitution",) if n in rows.columns and ways)]
     for same in (([there[0], *oblique] if oblique else []), before, after):
         if len(same) > 1:
-            words = f"it gives the same as {same[1]}; leave one of them out"
-            raise InputError(f"{same[0]}: {words}")
+            raise InputError(f"{same[0]}: it gives the same as {same[1]}; leave one of them out")
 
 
 def _check_units(rows: UserTable) -> None:

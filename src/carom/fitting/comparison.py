@@ -17,7 +17,7 @@ from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan
 from carom.fitting.intervals import profiled, settle
 from carom.fitting.least_squares import descend
 from carom.fitting.loss_laws import CONSTANT, ON_PLATE, elastic, laws_of_losses
-from carom.fitting.model import EXACT, OFFSET, FittedLaw, Model
+from carom.fitting.model import EXACT, OFFSET, Model
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.io.rows import Mask
 from carom.quantities.arrays import Array
@@ -28,6 +28,13 @@ from carom.quantities.units import or_none
 START = {"tangential_restitution": 0.4}  # of a solid sphere that sticks, about
 APART = 2.0  # difference of the criterion from which laws are told apart (Burnham & Anderson 2002)
 CLEAR = 10.0  # from which one is out of the question
+VERDICTS = (  # by how much the criterion of a rival exceeds that of the exact law at least
+    (CLEAR, "the data rule out {}"),
+    (APART, "{} is less likely than the exact law"),
+    (-APART, "the data cannot tell {} from the exact law"),
+    (-inf, "{} describes the data better than the exact law"),
+)
+TOO_FEW = "there are too few values to compare with {}"
 SQUARES = RobustLoss(inf)
 ALARM = 0.001  # probability of calling a value of a response that has none an outlier
 FEWEST, RANGE = 4, 1.2  # values; of the speeds, largest over smallest: below nothing can be told
@@ -46,9 +53,8 @@ class Standing:
     @property
     def cells(self) -> tuple[str, str]:
         """Excess and weight as they are printed."""
-        if isfinite(self.excess):
-            return f"{self.excess:.1f}", f"{self.weight:.3f}"
-        return "-", "-"
+        there = isfinite(self.excess)
+        return (f"{self.excess:.1f}", f"{self.weight:.3f}") if there else ("-", "-")
 
     def to_dict(self) -> dict[str, Any]:
         """Return excess and weight, None where they cannot be computed."""
@@ -84,21 +90,11 @@ class Comparison:
     @property
     def verdict(self) -> str:
         """What the data say of the laws, in a sentence."""
-        exact = self[EXACT.name]
-        rivals = sorted((s for s in self.standings if s is not exact), key=lambda s: s.excess)
-        parts = []
-        for rival in rivals:
+        exact, parts = self[EXACT.name], []
+        for rival in sorted(self.standings, key=lambda s: s.excess):
             gap = rival.criterion - exact.criterion
-            if not isfinite(gap):
-                parts.append(f"there are too few values to compare with {rival.law}")
-            elif gap > CLEAR:
-                parts.append(f"the data rule out {rival.law}")
-            elif gap > APART:
-                parts.append(f"{rival.law} is less likely than the exact law")
-            elif gap >= -APART:
-                parts.append(f"the data cannot tell {rival.law} from the exact law")
-            else:
-                parts.append(f"{rival.law} describes the data better than the exact law")
+            words = next((each for least, each in VERDICTS if gap >= least), TOO_FEW)
+            parts += [words.format(rival.law)] if rival is not exact else []
         return "; ".join(parts)
 
     def to_dict(self) -> dict[str, Any]:
@@ -130,15 +126,14 @@ def compare(best: Best) -> Comparison:
     Values that lie far from the law that describes the others best are left out for all laws, and
     the errors are those of the best law on what is left: none gains by the scatter that it leaves.
     """
-    rivals = (laws.suited(law, best.model.problem) for law in laws.RIVALS)
-    criteria, fits = on_common_ground([best, *(_rival(law, best) for law in rivals)])
-    numbers = zip([best, *fits[1:]], *weighed(criteria), criteria.tolist(), strict=True)
-    return Comparison(
-        tuple(
-            LawFit(each.model.law.name, excess, weight, each, own)
-            for each, excess, weight, own in numbers
-        )
-    )
+    problem, held, fits = best.model.problem, best.model.held, [best]
+    for law in (laws.suited(law, problem) for law in laws.RIVALS):
+        free = tuple(name for name in (*law.names, OFFSET) if name not in held)
+        fits.append(settle(Model(law, problem, free, held), best.loss, START | best.values).best)
+    criteria, anew = on_common_ground(fits)
+    names = (each.model.law.name for each in fits)
+    numbers = *weighed(criteria), [best, *anew[1:]], criteria.tolist()
+    return Comparison(tuple(map(LawFit, names, *numbers)))
 
 
 def weighed(criteria: Array) -> tuple[list[float], list[float]]:
@@ -156,10 +151,8 @@ def on_common_ground(fits: Sequence[Best]) -> tuple[Array, list[Best]]:
     if kept.count < LEAST_KEPT * problem.count:
         kept = problem
     models = [replace(each.model, problem=kept) for each in fits]
-    left = [
-        estimate(model, each.loss, each.at[np.newaxis])
-        for model, each in zip(models, fits, strict=True)
-    ]
+    pairs = zip(models, fits, strict=True)
+    left = [estimate(model, each.loss, each.at[np.newaxis]) for model, each in pairs]
     best = min(left, key=criterion)
     anew = [_refitted(each.model, each.at, best) for each in left]
     return np.array([criterion(each) for each in anew]), anew
@@ -206,14 +199,6 @@ def _free(best: Best) -> int:
     return len(best.model.free) + int(best.estimated.sum() + (best.scale > 1.0).sum())
 
 
-def _rival(law: FittedLaw, best: Best) -> Best:
-    """Return another law fitted to the same data."""
-    held = best.model.held
-    free = tuple(name for name in (*law.names, OFFSET) if name not in held)
-    model = Model(law, best.model.problem, free, held)
-    return settle(model, best.loss, START | best.values).best
-
-
 @dataclass(frozen=True, eq=False)
 class FitRecord:
     """What a fit found, as data: the parameters by name, rows by regime, notes, the best fit."""
@@ -235,9 +220,8 @@ class FitRecord:
         names = [name for name in best.model.free if self.estimates[name].determined]
         places = [best.model.free.index(name) for name in names]
         rows = best.information.correlations[np.ix_(places, places)].tolist()
-        return {
-            name: dict(zip(names, row, strict=True)) for name, row in zip(names, rows, strict=True)
-        }
+        named = (dict(zip(names, row, strict=True)) for row in rows)
+        return dict(zip(names, named, strict=True))
 
     @cached_property
     def comparison(self) -> Comparison:
@@ -257,11 +241,9 @@ class LossFit(Standing):
         value = self.parameter.value
         if self.law == ON_PLATE:
             return None
-        if self.parameter.name == "yield_velocity":
-            return ElasticPlastic(yield_velocity=value)
-        if self.parameter.name == "flow_stress":
-            return Metal(flow_stress=value)
-        return KelvinVoigt(**{self.parameter.name: value})
+        laws: dict[str, Any] = {"yield_velocity": ElasticPlastic, "flow_stress": Metal}
+        law: LossLaw = laws.get(self.parameter.name, KelvinVoigt)(**{self.parameter.name: value})
+        return law
 
     def restitution(self, normal_speed: Array) -> Array:
         """Return the restitution at normal speeds."""
@@ -292,13 +274,10 @@ class LossComparison:
         if close:
             names = " and ".join(each for each in (", ".join(close[:-1]), close[-1]) if each)
             return f"the data cannot tell {first.law} from {names}"
-        next_law = others[0].law
-        how = f"the data rule out {next_law}"
-        if others[0].excess <= CLEAR:
-            how = f"{next_law} is less likely"
+        how = "{} is less likely" if others[0].excess <= CLEAR else "the data rule out {}"
         varies = f"depends on the speed as in {first.law}"
         behaviour = "is the same at all speeds" if first.law == CONSTANT else varies
-        return f"the restitution {behaviour}; {how}"
+        return f"the restitution {behaviour}; {how.format(others[0].law)}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as plain numbers, by law; what cannot be computed is None."""

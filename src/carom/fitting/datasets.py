@@ -127,13 +127,10 @@ def _usual(problem: FitProblem) -> tuple[Array, IncomingMotion]:
     angles = np.linspace(max(low, -STEEPEST), min(high, STEEPEST), CURVE_POINTS)
     angles = angles[np.abs(angles) > 1e-9]
     speed = np.hypot(normal, velocity)
-    if np.std(speed) / np.median(speed) <= np.std(normal) / np.median(normal):
-        along = np.median(speed) * np.cos(angles)
-    else:
-        along = np.full(angles.size, float(np.median(normal)))
-    nothing = np.zeros(angles.size)
-    thickness = problem.motion.thickness
-    usual = None if thickness is None else np.full(angles.size, float(np.median(thickness)))
+    is_total = np.std(speed) / np.median(speed) <= np.std(normal) / np.median(normal)
+    along = np.median(speed) * np.cos(angles) if is_total else np.median(normal) + 0.0 * angles
+    nothing, thickness = np.zeros(angles.size), problem.motion.thickness
+    usual = None if thickness is None else nothing + float(np.median(thickness))
     return angles, IncomingMotion(along, along * np.tan(angles), nothing, nothing, usual)
 
 

@@ -1,5 +1,6 @@
 """What a fit found: parameters with intervals, or why there is none."""
 
+from collections import defaultdict
 from dataclasses import dataclass
 from math import floor, inf, isfinite, isnan, log10, nan
 from typing import Any
@@ -12,18 +13,12 @@ from carom.quantities.prefixes import shared
 from carom.quantities.shown import Printed
 from carom.quantities.units import or_none
 
-LIMITS = {  # what a parameter can be at all
-    "friction": (0.0, inf),
-    "kappa": (0.0, inf),
-    "chi": (0.0, inf),
-    "restitution": (0.0, 1.0),
-    "tangential_restitution": (-1.0, 1.0),
-    "spin_offset": (-inf, inf),
-    "thickness": (0.0, inf),
-    "loss_time": (0.0, inf),
-    "yield_velocity": (0.0, inf),
-    "flow_stress": (0.0, inf),
-}
+LIMITS = defaultdict(  # what a parameter can be at all
+    lambda: (0.0, inf),
+    restitution=(0.0, 1.0),
+    tangential_restitution=(-1.0, 1.0),
+    spin_offset=(-inf, inf),
+)
 
 
 @dataclass(frozen=True)
@@ -37,7 +32,6 @@ class Estimate(Printed):
 
     Examples
     --------
-    >>> from carom.fitting import Estimate
     >>> str(Estimate("friction", 0.0921, 0.0914, 0.0928))
     '0.0921 (0.0914 to 0.0928)'
     """

@@ -32,7 +32,7 @@ class Information:
     @property
     def all_slopes(self) -> Array:
         """The derivatives of all values, of shape (values, parameters)."""
-        own = self.slopes.reshape(-1, self.slopes.shape[-1])
+        own = np.concatenate(self.slopes)  # also where there are no parameters
         return own if self.elsewhere is None else np.concatenate([own, self.elsewhere])
 
     @cached_property
@@ -57,8 +57,7 @@ class Information:
     @property
     def used(self) -> Array:
         """How many of the parameters each response determines."""
-        taken = np.einsum("rjp,pq,rjq->j", self.slopes, self.covariance, self.slopes)
-        return np.asarray(taken)
+        return np.asarray(np.einsum("rjp,pq,rjq->j", self.slopes, self.covariance, self.slopes))
 
     @property
     def shares(self) -> Array:
@@ -260,8 +259,7 @@ def fitted(
     best, result = polished(model, weights, loss, at)
     total = float(np.square(model.residuals(weights, loss)(best[np.newaxis])).sum())
     elsewhere = np.empty((0, len(at))) if others is None or not len(others) else others
-    by_scatter = np.asarray(unknown.any(axis=0))
-    errors_used = weights, loss, sigma, scale, by_scatter
+    errors_used = weights, loss, sigma, scale, np.asarray(unknown.any(axis=0))
     return Best(model, best, total, *errors_used, elsewhere, result)
 
 
@@ -292,14 +290,10 @@ def _followed(
         common = scale * errors.typical_deviation(residuals, problem.present)
         scale = np.where(errors.too_small(problem.present, widened, common), widened, 1.0)
         sigma = np.where(estimated, scattered, sigma)
-        lowest = descend(
-            model.residuals(model.weights(at, sigma, scale), loss), at[np.newaxis], model.bounds
-        )
-        at = lowest.at[0]
-        if turn and all(
-            np.nanmax(np.abs(now / then - 1.0)) < 1e-3
-            for now, then in zip((sigma, scale), before, strict=True)
-        ):
+        residual = model.residuals(model.weights(at, sigma, scale), loss)
+        at = descend(residual, at[np.newaxis], model.bounds).at[0]
+        changes = zip((sigma, scale), before, strict=True)
+        if turn and all(np.nanmax(np.abs(now / then - 1.0)) < 1e-3 for now, then in changes):
             break
     weights = model.weights(at, sigma, scale)
     total = float(np.square(model.residuals(weights, loss)(at[np.newaxis])).sum())
@@ -376,22 +370,14 @@ def _levels(model: Model, name: str) -> Array:
     """Return the coordinates of a parameter in the scan."""
     if name == "restitution":
         return _likely_restitutions(model.problem, 0.35)
+    low, high = (float(end[model.free.index(name)]) for end in model.bounds)
     if name == plates.THICKNESS:
-        return np.clip(
-            -plates.give_of(_likely_restitutions(model.problem, 0.02)), *_range(model, name)
-        )
+        return np.clip(-plates.give_of(_likely_restitutions(model.problem, 0.02)), low, high)
     if name not in LEVELS:
         return np.zeros(1)
-    low, high = _range(model, name)
     if name == "friction":
         low, high = np.log(5e-3), np.log(3.0)
     return np.linspace(low, high, LEVELS[name] + 2)[1:-1]
-
-
-def _range(model: Model, name: str) -> tuple[float, float]:
-    """Return the ends of the coordinate of a parameter."""
-    place = model.free.index(name)
-    return float(model.bounds.low[place]), float(model.bounds.high[place])
 
 
 def _likely_restitutions(problem: FitProblem, least: float) -> Array:

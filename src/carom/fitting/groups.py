@@ -46,15 +46,13 @@ def by_groups(problem: FitProblem, loss: RobustLoss) -> FitProblem:
     remarks = _assumed(problem)
     for name, freedom, size in zip(problem.responses, repeats, scatter, strict=True):
         words = f"with {freedom:.0f} degrees of freedom; means over {len(labels)} groups are fitted"
-        remarks.append(
-            f"{name}: it scatters by {GLOSSARY[name].text(size, 2)} within groups, {words}"
-        )
+        width = f"it scatters by {GLOSSARY[name].text(size, 2)} within groups"
+        remarks.append(f"{name}: {width}, {words}")
     if far.any():
         remarks.append(f"outliers within groups: {problem.rows.named(far)}")
     notes = (*problem.rows.notes, *problem.rows.about_missing())
-    rows: Any = problem.rows.kept(
-        np.isin(np.arange(own.size), np.unique(own, return_index=True)[1])
-    )
+    first = np.unique(own, return_index=True)[1]
+    rows: Any = problem.rows.kept(np.isin(np.arange(own.size), first))
     return replace(
         problem,
         before={name: member @ each / sizes for name, each in problem.before.items()},
@@ -108,9 +106,8 @@ def _means(
     repeated, used = present & (counts > 1.0)[own], np.sum(counts > 0.0, axis=0, dtype=np.float64)
     measured, given = np.where(present, problem.measured, 0.0), np.nan_to_num(problem.errors)
     shown = np.ma.masked_invalid(problem.measured)
-    middle = np.array(
-        [np.ma.median(shown[own == i], axis=0).filled(0.0) for i in range(len(member))]
-    )
+    rows = (shown[own == i] for i in range(len(member)))
+    middle = np.array([np.ma.median(each, axis=0).filled(0.0) for each in rows])
     for _ in range(TURNS):
         left = np.where(present, measured - middle[own], 0.0)
         sigma = np.fmax(given, errors.scattered(problem, left, middle[own], used, loss))

@@ -67,9 +67,8 @@ def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Arr
     `rises`, of shape (2 parameters,), is what the loss may rise by, the other parameters following;
     `whatever` tells to go on beyond a better fit.
     """
-    low, high = best.model.bounds
+    (low, high), count = best.model.bounds, len(best.at)
     residuals = best.model.residuals(best.weights, best.loss)
-    count = len(best.at)
     which, sides = np.repeat(np.arange(count), 2), np.tile([-1.0, 1.0], count)
     own, place = best.at[which], (np.arange(2 * count), which)
     limits = np.where(sides < 0.0, low[which], high[which])

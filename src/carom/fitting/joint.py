@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import NamedTuple, cast
 
 import numpy as np
@@ -32,10 +33,9 @@ class JointProblem(FitProblem):
     @cached_property
     def blocks(self) -> tuple[Block, ...]:
         """Where each set is."""
-        rows = np.cumsum([0, *(len(part.measured) for part in self.parts)]).tolist()
-        columns = np.cumsum([0, *(len(part.responses) for part in self.parts)]).tolist()
-        ends = zip(rows, rows[1:], columns, columns[1:], strict=False)
-        return tuple((slice(a, b), slice(c, d)) for a, b, c, d in ends)
+        corners = np.cumsum([(0, 0), *(part.measured.shape for part in self.parts)], axis=0)
+        ends = pairwise(corners.tolist())
+        return tuple((slice(a, c), slice(b, d)) for (a, b), (c, d) in ends)
 
     @cached_property
     def least_errors(self) -> Array:
@@ -193,18 +193,12 @@ def settle_jointly(
     profile = profiled(best, confidence)
     settled = []
     for place, each in enumerate(alone):
-        weak = _of_part(groups, model.names(place))
-        part = Settled(_part(profile.best, place), weak, _part(whole, place), each.unbounded)
+        names = model.names(place)  # of groups, what is not of other sets
+        weak = (tuple(plain(name) for name in group if name in names) for group in groups)
+        told = _part(profile.best, place)
+        part = Settled(told, tuple(filter(None, weak)), _part(whole, place), each.unbounded)
         settled.append((part, _part_profile(profile, place, part.best)))
     return JointlySettled(profile.best, tuple(settled), _agreement(model, alone, whole))
-
-
-def _of_part(
-    groups: Sequence[tuple[str, ...]], names: Collection[str]
-) -> tuple[tuple[str, ...], ...]:
-    """Return groups of parameters without those of other sets, by the names of one set."""
-    own = [tuple(plain(name) for name in group if name in names) for group in groups]
-    return tuple(group for group in own if group)
 
 
 def _part(best: Best, place: int) -> Best:
@@ -260,5 +254,4 @@ def _agreement(model: JointModel, alone: Sequence[Settled], whole: Best) -> floa
     shared = descend(model.residuals(weights, whole.loss), whole.at[np.newaxis], model.bounds)
     more = len(best.at) - len(whole.at)
     rise = max(float(shared.sums[0]) - best.sum, 0.0) / best.spread / more
-    freedom = float(np.min([*best.freedom, MANY]))
-    return float(fdtrc(more, freedom, rise))
+    return float(fdtrc(more, float(np.min([*best.freedom, MANY])), rise))

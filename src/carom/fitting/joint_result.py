@@ -51,7 +51,6 @@ class JointFit(Result):
 
     Examples
     --------
-    >>> import carom
     >>> data = carom.datasets.load("kharaz2001")
     >>> joint = carom.joint_fit({"first": data, "again": data}, share="friction")
     >>> joint["first"].friction.value == joint["again"].friction.value
@@ -102,11 +101,8 @@ class JointFit(Result):
         >>> print(balls.difference("restitution", "steel", "brass"))
         0.119 (0.0966 to 0.141)
         """
-        for name in (one, other):
-            if name not in self.fits:
-                raise InputError(
-                    f"set: {name!r} is not one of them; there are {', '.join(self.fits)}"
-                )
+        unknown = f"is not one of them; there are {', '.join(self.fits)}"
+        refuse(*(f"set: {name!r} {unknown}" for name in (one, other) if name not in self.fits))
         first, second = (self.fits[name].estimates.get(parameter) for name in (one, other))
         if first is None or second is None:
             hint = nearest(parameter, NAMES) or f"the sets have {', '.join(self._parameters)}"
@@ -125,15 +121,11 @@ class JointFit(Result):
 
     def _correlation(self, parameter: str, one: str, other: str) -> float:
         """Return the correlation of the values of a parameter in two sets."""
-        if self._best is None:
-            return 0.0
         plain = "kappa" if parameter == "chi" else parameter
-        places = [list(self.fits).index(name) + 1 for name in (one, other)]
-        free = self._best.model.free
-        names = [f"{plain}_{place}" for place in places]
-        if not {*names} <= {*free}:
+        names = [f"{plain}_{[*self.fits].index(name) + 1}" for name in (one, other)]
+        if self._best is None or not {*names} <= {*self._best.model.free}:
             return 0.0
-        i, j = map(free.index, names)
+        i, j = map(self._best.model.free.index, names)
         return float(self._best.information.correlations[i, j])
 
     @property
@@ -151,11 +143,8 @@ class JointFit(Result):
     def _parameters(self) -> list[str]:
         """Names of the parameters that all sets have, and one of them determines."""
         every = [fit.estimates for fit in self.fits.values()]
-        return [
-            name
-            for name in NAMES
-            if all(name in each for each in every) and any(each[name].determined for each in every)
-        ]
+        common = [name for name in NAMES if all(name in each for each in every)]
+        return [name for name in common if any(each[name].determined for each in every)]
 
     @property
     def verdict(self) -> str:
@@ -169,10 +158,8 @@ class JointFit(Result):
             f"{name} {', '.join(GLOSSARY[each].text(values[each], 3) for each in self.shared)}"
             for name, values in self._alone.items()
         )
-        return (
-            f"the sets contradict a common {names} (p = {self.agreement:.1g}), so that the "
-            f"intervals do not hold; alone they give: {alone}"
-        )
+        apart = f"the sets contradict a common {names} (p = {self.agreement:.1g})"
+        return f"{apart}, so that the intervals do not hold; alone they give: {alone}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, texts and lists, for JSON; what is open is None.
@@ -230,10 +217,8 @@ class JointFit(Result):
     def __str__(self) -> str:
         confidence = next(iter(self.fits.values())).confidence
         wide = max(map(len, self.fits))
-        lines = [
-            f"{len(self.fits)} sets; in brackets {100.0 * confidence:g} % intervals by profile "
-            "likelihood"
-        ]
+        level = f"{100.0 * confidence:g} % intervals by profile likelihood"
+        lines = [f"{len(self.fits)} sets; in brackets {level}"]
         first, differences = next(iter(self.fits)), self.differences
         for parameter in self._parameters:
             if parameter not in differences:

@@ -55,9 +55,7 @@ def descend(
     quiet = np.zeros(len(at), dtype=np.int64)
     slopes = jacobian(residuals, at, base, bounds)
     for _ in range(ROUNDS):
-        trial = np.clip(
-            at + _steps(slopes, base, damping, movable, at, bounds), bounds.low, bounds.high
-        )
+        trial = np.clip(at + _steps(slopes, base, damping, movable, at, bounds), *bounds)
         values = residuals(trial)
         squares = np.einsum("bm,bm->b", values, values)
         better = squares < sums

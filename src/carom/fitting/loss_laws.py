@@ -13,16 +13,8 @@ from carom.bodies.strengths import yield_velocity, yielding_modulus
 from carom.dimensionless.lossy.springs import metal as springs
 from carom.dimensionless.lossy.viscoelastic.normal import restitution
 from carom.dimensionless.lossy.viscoelastic.work import new_work
-from carom.fitting import plates
-from carom.fitting.model import (
-    ANY_RESTITUTION,
-    THICK,
-    FittedLaw,
-    Parameter,
-    Values,
-    ranged,
-    untouched,
-)
+from carom.fitting import model as laws, plates
+from carom.fitting.model import FittedLaw, Parameter, Values, untouched
 from carom.fitting.problem import FitProblem
 from carom.quantities.arrays import Array
 
@@ -42,11 +34,11 @@ def laws_of_losses(problem: FitProblem) -> tuple[FittedLaw, ...]:
     loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None)
     yielding = Parameter("yield_velocity", LEAST_YIELD * speeds.min(), float(speeds.max()), None)
     zener = problem.on_plate and FittedLaw(
-        ON_PLATE, (ranged(THICK, problem),), untouched, plates.restitution
+        ON_PLATE, (laws.ranged(laws.THICK, problem),), untouched, plates.restitution
     )
     return (
         *([zener] if zener else []),
-        FittedLaw(CONSTANT, (ANY_RESTITUTION,), untouched),
+        FittedLaw(CONSTANT, (laws.ANY_RESTITUTION,), untouched),
         FittedLaw("KelvinVoigt", (loss_time,), untouched, viscous),
         FittedLaw("ElasticPlastic", (yielding,), untouched, plastic),
         FittedLaw("Metal", (_flow_stress(problem),), untouched, metal),

@@ -242,8 +242,7 @@ class Model:
 
         They are those to the motion that was measured, or to another one.
         """
-        problem = self.problem
-        before = problem.motion if motion is None else motion
+        problem, before = self.problem, self.problem.motion if motion is None else motion
         return self.law.predicted(problem.pair, before, self.values(at), problem.responses)
 
     def weights(self, point: Array, sigma: Array, scale: Array) -> Weights:

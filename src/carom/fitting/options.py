@@ -13,7 +13,7 @@ from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import FitProblem
 from carom.fitting.restrictions import ELASTIC_TAKEN
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, checked_type, clipped, nearest, refusal
+from carom.quantities.refusals import InputError, checked_type, clipped, nearest, refusal, refuse
 from carom.quantities.units import number
 
 NAMES = ("friction", "kappa", "chi", THICKNESS, "restitution", OFFSET)
@@ -25,17 +25,12 @@ WITHOUT_FRICTION = {*NORMAL, DURATION}  # responses that do not depend on it
 class Options(NamedTuple):
     """Names of free parameters, and the values of all to begin with, or to hold.
 
-    `takes_elastic` tells whether a restitution of 1 is held that nobody has given.
+    `taken` notes what is taken for granted: a restitution of 1 that nobody has given.
     """
 
     free: tuple[str, ...]
     start: Mapping[str, float]
-    takes_elastic: bool
-
-    @property
-    def taken(self) -> tuple[str, ...]:
-        """Notes on what is taken for granted."""
-        return (ELASTIC_TAKEN,) if self.takes_elastic else ()
+    taken: tuple[str, ...]
 
 
 def read_options(
@@ -49,9 +44,8 @@ def read_options(
     for name in filter(held.__contains__, wanted):
         raise InputError(f"{name}: it is both varied and fixed; leave it out of vary or of fixed")
     if OFFSET in (*wanted, *held) and not problem.has_speeds:
-        raise InputError(
-            f"{OFFSET}: it needs speeds in the data; add a column speed or normal_speed"
-        )
+        cure = "add a column speed or normal_speed"
+        raise InputError(f"{OFFSET}: it needs speeds in the data; {cure}")
     if set(wanted) & {"friction", "kappa"} and OFFSET not in wanted and problem.is_normal:
         alone = THICKNESS if problem.on_plate else "restitution"
         raise InputError(
@@ -60,11 +54,9 @@ def read_options(
         )
     if problem.on_plate and THICKNESS not in wanted:
         _refuse_foils(problem, held)
-    if not wanted:
-        cure = "fix fewer parameters"
-        if THICKNESS in problem.before:
-            cure = "these impacts on plates of known thickness do not depend on friction"
-        raise InputError(f"vary: nothing is left to fit; {cure}")
+    known = "these impacts on plates of known thickness do not depend on friction"
+    cure = known if THICKNESS in problem.before else "fix fewer parameters"
+    refuse(not wanted and f"vary: nothing is left to fit; {cure}")
     _refuse_assumed(problem, {*wanted, *held})
     pair = problem.pair
     start = {"friction": pair.friction, "kappa": pair.kappa, OFFSET: 0.0}
@@ -73,7 +65,7 @@ def read_options(
     elif THICKNESS not in problem.before:
         start[THICKNESS] = pair.thickness
     takes_elastic = "restitution" in {*start} - {*wanted, *held} and not problem.is_normal
-    return Options(tuple(wanted), {**start, **held}, takes_elastic)
+    return Options(tuple(wanted), {**start, **held}, (ELASTIC_TAKEN,) * takes_elastic)
 
 
 def _first(problem: FitProblem) -> tuple[str, ...]:
@@ -112,11 +104,8 @@ def _refuse_assumed(problem: FitProblem, named: Collection[str]) -> None:
         why["friction"] = "the bodies have none"
     for name, reason in why.items():
         if reason and name not in named:
-            example = f"fixed={{'{name}': {EXAMPLES[name]}}}"
-            raise InputError(
-                f"{name}: {reason}, but it is neither varied nor fixed; add it to vary, or fix it, "
-                f"e.g. {example}"
-            )
+            cure = f"add it to vary, or fix it, e.g. fixed={{'{name}': {EXAMPLES[name]}}}"
+            raise InputError(f"{name}: {reason}, but it is neither varied nor fixed; {cure}")
 
 
 def checked_confidence(value: Any) -> float:
@@ -147,8 +136,7 @@ def _varied(problem: FitProblem, vary: Collection[str] | str) -> list[str]:
         raise refusal("vary", vary, f"must be names of {', '.join(NAMES)}") from None
     for name in names:
         _check_name("vary", name, problem)
-    plain = ["kappa" if name == "chi" else name for name in names]
-    return list(dict.fromkeys(plain))
+    return list(dict.fromkeys("kappa" if name == "chi" else name for name in names))
 
 
 def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
@@ -166,9 +154,8 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
         own = (ranged(each, problem) for each in law.parameters if each.name == name)
         parameter = next(own, None) or offset_parameter(problem)
         if not parameter.low <= si <= parameter.high:
-            low, high = (GLOSSARY[name].text(end) for end in (parameter.low, parameter.high))
-            allowed = f"{name} must lie between {low} and {high}"
-            raise refusal(f"fixed {name}", value, allowed)
+            low, high = map(GLOSSARY[name].text, parameter[1:3])
+            raise refusal(f"fixed {name}", value, f"{name} must lie between {low} and {high}")
         held[name] = si
     return held
 

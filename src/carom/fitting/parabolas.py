@@ -76,10 +76,8 @@ def at_impact(motion: Motion, tilt: float) -> tuple[Array, Array, float]:
         normal, along = y * cosine - x * sine, x * cosine + y * sine
         time = (normal[0, 0] - normal[1, 0]) / (normal[1, 1] - normal[0, 1])
         fallen = numbers[8] * time
-        before, after = (
-            (normal[i, 1] - fallen * cosine, along[i, 1] - fallen * sine) for i in (0, 1)
-        )
-        return np.array([-before[0], before[1], after[0], after[1]]), time
+        away, onwards = normal[:, 1] - fallen * cosine, along[:, 1] - fallen * sine
+        return np.array([-away[0], onwards[0], away[1], onwards[1]]), time
 
     slopes = _slopes(lambda numbers: of(numbers)[0], motion.numbers)
     values, time = of(motion.numbers)

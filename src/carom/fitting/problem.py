@@ -101,8 +101,7 @@ class FitProblem:
     @property
     def is_normal(self) -> bool:
         """Whether every impact is a normal one, and nothing moves sideways."""
-        sideways = np.abs(self.contact_velocity) > NO_SPEED * self.motion.normal_speed
-        return not bool(sideways.any())
+        return bool(np.all(np.abs(self.contact_velocity) <= NO_SPEED * self.motion.normal_speed))
 
     @property
     def on_plate(self) -> bool:
@@ -123,17 +122,14 @@ class FitProblem:
     @cached_property
     def contact_velocity(self) -> Array:
         """Tangential velocity of the contact point before."""
-        motion = self.motion
+        _, whole, spin, spin2, _ = self.motion
         radius2 = self.pair.moving[1].radius if len(self.pair.moving) > 1 else 0.0
-        return (
-            motion.tangential_speed + self.pair.first.radius * motion.spin + radius2 * motion.spin2
-        )
+        return whole + self.pair.first.radius * spin + radius2 * spin2
 
     @cached_property
     def sizes(self) -> Array:
         """What each response is of the order of: 1, the speed, or the spin that rolls with it."""
-        motion = self.motion
-        speed = float(np.median(np.hypot(motion.normal_speed, motion.tangential_speed)))
+        speed = float(np.median(np.hypot(*self.motion[:2])))
         units = {"rad/s": speed / self.pair.first.radius, "m/s": speed}
         units["s"] = float(self.pair.scales(speed).time)
         return np.array([units.get(GLOSSARY[name].unit, 1.0) for name in self.responses])
@@ -153,11 +149,9 @@ class FitProblem:
             quantities[name] = np.clip(quantities[name], -STEEPEST, STEEPEST)
         if not self.has_speeds:
             quantities["normal_speed"] = np.ones(len(self.measured))
-        speeds = (
-            convert_observables(self.pair, known=quantities, wanted=name)
-            for name in ("normal_speed", "tangential_speed")
-        )
-        spins = (quantities.get(name, np.zeros(len(self.measured))) for name in ("spin", "spin2"))
+        names, nothing = ("normal_speed", "tangential_speed"), np.zeros(len(self.measured))
+        speeds = (convert_observables(self.pair, known=quantities, wanted=name) for name in names)
+        spins = (quantities.get(name, nothing) for name in ("spin", "spin2"))
         return IncomingMotion(*speeds, *spins)._replace(thickness=thickness)
 
     @cached_property
@@ -227,10 +221,8 @@ class RobustLoss:
         """Return the derivative of the influence."""
         if self.is_square:
             return np.ones_like(residual)
-        square = np.clip(residual, -LARGEST, LARGEST) ** 2
-        return np.asarray(
-            (self.degrees + 1.0) * (self.degrees - square) / (self.degrees + square) ** 2
-        )
+        d, square = self.degrees, np.clip(residual, -LARGEST, LARGEST) ** 2
+        return np.asarray((d + 1.0) * (d - square) / (d + square) ** 2)
 
 
 def gaussian_mean(values: Array) -> float:

@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -17,18 +17,8 @@ from carom.datasets import observables
 from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebound_tables import STORED_CHI
-from carom.fitting import plates
+from carom.fitting import bounces, plates
 from carom.fitting.air import about_air
-from carom.fitting.bounces import (
-    BOUNCES,
-    INTERVAL,
-    MOST_RESTITUTION,
-    PLACE,
-    TIME,
-    base,
-    parted,
-    with_speeds,
-)
 from carom.fitting.groups import GROUP
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import NO_SPEED, Bounces, FitProblem, IncomingMotion
@@ -37,7 +27,7 @@ from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import Faults, InputError
+from carom.quantities.refusals import Faults, InputError, refuse
 from carom.quantities.units import WHY_POSITIVE
 
 LARGEST = 1e9  # of what has no unit
@@ -49,7 +39,7 @@ START_FRICTION = 0.3  # of bodies of which none is known
 FROM_SURFACE = {"surface_angle": "angle", "surface_angle_out": "rebound_angle"}
 UNSIGNED = {"spin_out_magnitude": "spin_out"}
 NEVER_MISSING = ("surface_angle", "drop_height")
-RECORDED = (*FROM_SURFACE, *UNSIGNED, *BOUNCES)  # what is read as something else
+RECORDED = (*FROM_SURFACE, *UNSIGNED, *bounces.BOUNCES)  # what is read as something else
 NO_BODIES = (
     "pair: missing, and the data do not name the bodies; give pair=carom.Pair(...) in Python or "
     "--case FILE in a shell, or write the bodies as JSON into a comment '# case: {...}' of the file"
@@ -65,7 +55,8 @@ def read_rebounds(data: Any, **how: Any) -> UserTable:
         if isinstance(data, str | Path) and os.path.isfile(data):  # it can be read again
             with suppress(InputError):
                 table = read_table(data, lenient=True, fewest=1, **how)
-                if len(table.names) == 1 and base(table.names[0]) in (INTERVAL, TIME):
+                names = [*map(bounces.base, table.names)]
+                if names in ([bounces.INTERVAL], [bounces.TIME]):
                     return table
         raise
 
@@ -85,30 +76,22 @@ def read_problem(table: UserTable, pair: Pair | None) -> FitProblem:
         return _problem(table, pair, faults)
 
 
-class Measurements(NamedTuple):
-    """Measurements in SI units, columns that mean nothing here, what is to be said of the rest."""
-
-    rows: UserTable
-    ignored: tuple[str, ...]
-    remarks: list[str]
-
-
 def read_measurements(
     table: UserTable, faults: Faults | None = None, more: Sequence[str] = ()
-) -> Measurements:
-    """Return measurements in SI units, with what follows from angles, heights and times.
+) -> tuple[UserTable, tuple[str, ...], list[str]]:
+    """Return measurements in SI units, columns that mean nothing here, what is to be said of all.
 
     `more` are names of columns that are read as well.
     """
     names, faults = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more)), faults or Faults()
-    table, later = parted(table.told(faults), faults)
+    table, later = bounces.parted(table.told(faults), faults)
     ignored = tuple(n for n in others(table, (*names, GROUP), faults) if n != TRACK)
     gaps = (*OBSERVABLES, *RECORDED, DURATION)
     may_miss = [name for name in gaps if name not in NEVER_MISSING]
-    is_series = bool(later) or INTERVAL in table.names  # where an empty row parts two drops
+    is_series = bool(later) or bounces.INTERVAL in table.names  # where an empty row parts two drops
     rows = in_units(table, names, may_miss, faults, whole=is_series)
-    rows, remarks = with_speeds(_from_normal(rows), later)
-    return Measurements(_with_magnitudes(rows), ignored, remarks)
+    rows, remarks = bounces.with_speeds(_from_normal(rows), later)
+    return _with_magnitudes(rows), ignored, remarks
 
 
 def _from_normal(rows: UserTable) -> UserTable:
@@ -133,11 +116,9 @@ def _with_magnitudes(rows: UserTable) -> UserTable:
     """Return the columns with magnitudes of spins where there is none with a sign."""
     columns = dict(rows.columns)
     for name, whole in UNSIGNED.items():
-        for end in ("", ERROR) if name in columns else ():
-            own = columns.get(name + end)
-            if own is None:
-                continue
-            signed = columns.get(whole + end, np.full(len(rows), np.nan))
+        for end in (e for e in ("", ERROR) if name in columns and name + e in columns):
+            own = columns[name + end]
+            signed = columns.get(whole + end, np.nan * own)
             columns[whole + end] = np.where(np.isnan(signed), own, signed)
             if not end:
                 rows.refuse(name, own < 0.0, f"a magnitude is not negative; call it {whole}")
@@ -168,9 +149,8 @@ def with_signs(problem: FitProblem) -> tuple[FitProblem, list[str]]:
         rows.refuse(name, unsure, f"both signs are possible there; give {whole} with its sign")
         signs = np.where(up < down, 1.0, -1.0)
         column = np.where(own, signs * size, rows[whole])
-        place = problem.responses.index(whole)
         measured = problem.measured.copy()
-        measured[:, place] = column
+        measured[:, problem.responses.index(whole)] = column
         rows = replace(rows, columns={**rows.columns, whole: column})
         problem = replace(problem, measured=measured, rows=rows)
         there = own & (size > 0.0)
@@ -202,7 +182,7 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
         rows.refuse(THICKNESS, rows[THICKNESS] <= 0.0, "must be positive")
         faults.settle()
         bodies = plates.with_thickness(bodies, float(np.median(rows[THICKNESS])))
-    dropped = [name for name in BOUNCES if name in rows.columns]
+    dropped = [name for name in bounces.BOUNCES if name in rows.columns]
     if dropped and len(bodies.moving) > 1:
         raise InputError(
             f"{dropped[0]}: the second body flies off, too, so that bounces of the first do not "
@@ -214,13 +194,12 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
     if is_open and {*responses} <= {*NORMAL, DURATION}:  # for which the normal speed suffices
         before["tangential_speed"] = np.zeros(len(rows))
     if (scaled := {*before, *responses} & {"psi_in", "psi_out"}) and not knows_friction:
-        raise InputError(
-            f"friction: missing; {min(scaled)} is in units of it, so give that of the bodies"
-        )
+        unit = f"{min(scaled)} is in units of it, so give that of the bodies"
+        raise InputError(f"friction: missing; {unit}")
     _check_sizes(rows, bodies)
     _check_before(rows, before, responses, is_plate=bodies.thickness is not None)
     faults.settle()
-    places = rows.columns.get(PLACE)
+    places, are_times = rows.columns.get(bounces.PLACE), bounces.TIME in rows.columns
     problem = FitProblem(
         pair=bodies,
         before=before,
@@ -232,16 +211,14 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
         ignored=(*ignored, *empty),
         knows_friction=knows_friction,
         doi=table.comments.get("doi", ""),
-        bounces=None if places is None else Bounces(places.astype(np.int64), TIME in rows.columns),
+        bounces=None if places is None else Bounces(places.astype(np.int64), are_times),
         trials=len(rows),
     )
     problem, signs = with_signs(problem)
     faults.settle()
     remarks += [*signs, *about_air(rows, {*dropped, *table.names}, bodies)]
-    problem = replace(problem, remarks=tuple(remarks))
-    rows = problem.rows
-    _check_responses(bodies, rows, problem.motion, problem.contact_velocity)
-    return problem
+    _check_responses(bodies, problem.rows, problem.motion, problem.contact_velocity)
+    return replace(problem, remarks=tuple(remarks))
 
 
 def _columns_of_plates(pair: Pair | None, table: UserTable) -> tuple[str, ...]:
@@ -264,19 +241,15 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
         checked_pair(pair, plates=True)
         if own is not None and pair.thickness is not None and isinstance(own.second, HalfSpace):
             own = plates.with_thickness(own, pair.thickness)  # as its friction, of no account
-        if own is not None and not alike(pair, own):
-            raise InputError(
-                "pair: its bodies differ from those in the data; leave it, or --case, out"
-            )
+        others = "pair: its bodies differ from those in the data; leave it, or --case, out"
+        refuse(own is not None and not alike(pair, own) and others)
     bodies = own if pair is None else pair
     if bodies is None:
         raise InputError(NO_BODIES)
     least, most = STORED_CHI
-    if not least <= bodies.chi <= most:
-        raise InputError(
-            f"pair: a chi of {bodies.chi:.3g} cannot be fitted, only one from {least:.2g} to "
-            f"{most:.2g}; check radii and gyration_radius"
-        )
+    span = f"only one from {least:.2g} to {most:.2g}; check radii and gyration_radius"
+    chi = f"pair: a chi of {bodies.chi:.3g} cannot be fitted, {span}"
+    refuse(not least <= bodies.chi <= most and chi)
     rubs = bodies.friction > 0.0
     return bodies if rubs else Pair(bodies.first, bodies.second, START_FRICTION), rubs
 
@@ -286,12 +259,9 @@ def _errors(rows: UserTable, name: str) -> Array:
     if name + ERROR not in rows.columns:
         return np.full(len(rows), np.nan)
     errors, measured = rows[name + ERROR], np.isfinite(rows[name])
-    missing = measured & np.isnan(errors)
-    if missing.any():
-        rows.faults.add(
-            f"{name + ERROR}: missing in {rows.named(missing)}, where {name} was measured; give it "
-            "there, too, or leave the column out"
-        )
+    if (missing := measured & np.isnan(errors)).any():
+        where = f"{name + ERROR}: missing in {rows.named(missing)}, where {name} was measured"
+        rows.faults.add(f"{where}; give it there, too, or leave the column out")
     rows.refuse(name + ERROR, measured & (errors <= 0.0), "a standard deviation is positive")
     return np.where(measured, errors, np.nan)
 
@@ -311,19 +281,17 @@ def _check_before(
     ways = [name for name in observables.INCIDENCE if name in before]
     needing = sorted(observables.SCALED & {*before, *responses})
     needing += ["a plate"] * is_plate  # which gives way the more the faster it is struck
-    if not ways and "speed" in before:
-        head_on = "call the speeds of head-on impacts normal_speed"
-        raise InputError(f"angle: column missing; speed needs it; {head_on}")
+    head_on = (
+        "angle: column missing; speed needs it; call the speeds of head-on impacts normal_speed"
+    )
+    refuse(not ways and "speed" in before and head_on)
     if not ways:
         rows.require("angle")
-    if len(ways) > 1:
-        raise InputError(
-            f"data: {' and '.join(ways)} give the same twice; leave all but one of them out"
-        )
+    twice = f"data: {' and '.join(ways)} give the same twice; leave all but one of them out"
+    refuse(len(ways) > 1 and twice)
     if needing and not {*WHY_POSITIVE} & {*before}:
-        raise InputError(
-            f"speed: column missing; {needing[0]} needs speed and angle, or normal_speed"
-        )
+        needs = f"{needing[0]} needs speed and angle, or normal_speed"
+        raise InputError(f"speed: column missing; {needs}")
     for name in filter(before.__contains__, WHY_POSITIVE):
         rows.refuse(name, before[name] < observables.SLOWEST, "check its unit")
     for name in before:
@@ -341,14 +309,17 @@ def _check_responses(pair: Pair, rows: UserTable, motion: IncomingMotion, veloci
         rested = np.abs(basis) <= NO_SPEED * motion.normal_speed
         allowed = "the tangential velocity before is zero; write '-', or give tangential_speed_out"
         rows.refuse(name, rested & np.isfinite(rows[name]), allowed)
+    spins: Any = Tangential(*motion[1:4])  # type: ignore[arg-type]
+    turning = spins.spin_energy(pair) / (0.5 * pair.normal_mass)
+    all_energy = np.sqrt(motion.normal_speed**2 + motion.tangential_speed**2 + turning)
     most = {
         "normal_restitution": (1.0, "must lie between 0 and 1, 0.98 for 98 percent"),
         "normal_speed_out": (motion.normal_speed, NO_LARGER.format("the normal speed before")),
-        "rebound_speed": (_most_speed(pair, motion), NO_LARGER.format("the energy before allows")),
+        "rebound_speed": (all_energy, NO_LARGER.format("the energy before allows")),
     }
     for name in filter(rows.columns.__contains__, most):
         ratio = rows[name] / most[name][0]
-        rows.refuse(name, (ratio < 0.0) | (ratio > MOST_RESTITUTION), most[name][1])
+        rows.refuse(name, (ratio < 0.0) | (ratio > bounces.MOST_RESTITUTION), most[name][1])
     if DURATION in rows.columns:
         usual = hertz.DURATION * np.asarray(pair.scales(motion.normal_speed).time)  # type: ignore[arg-type]
         off = np.abs(np.log(np.maximum(rows[DURATION], 1e-300) / usual)) > np.log(FAR_OFF)
@@ -357,22 +328,12 @@ def _check_responses(pair: Pair, rows: UserTable, motion: IncomingMotion, veloci
     _check_sense(rows, motion, velocity)
 
 
-def _most_speed(pair: Pair, motion: IncomingMotion) -> Array:
-    """Return the speed of the centre that would take all of the energy before."""
-    spins: Any = Tangential(*motion[1:4])  # type: ignore[arg-type]
-    turning = spins.spin_energy(pair) / (0.5 * pair.normal_mass)
-    most: Array = np.sqrt(motion.normal_speed**2 + motion.tangential_speed**2 + turning)
-    return most
-
-
 def _check_sense(rows: UserTable, motion: IncomingMotion, velocity: Array) -> None:
     """Raise InputError if friction drove the spin on in every row: its sign is another's."""
     if "spin_out" not in rows.columns:
         return
     change = (rows["spin_out"] - motion.spin) * np.sign(velocity)
     moving = np.isfinite(change) & (np.abs(velocity) > 0.05 * motion.normal_speed)
-    if moving.sum() > 1 and np.all(change[moving] > 0.0):
-        raise InputError(
-            f"spin_out: friction would have speeded up the contact point in {rows.named(moving)}; "
-            "positive spin adds to its tangential speed, so change the signs of the spins"
-        )
+    wrong = f"spin_out: friction would have speeded up the contact point in {rows.named(moving)}"
+    cure = "positive spin adds to its tangential speed, so change the signs of the spins"
+    refuse(moving.sum() > 1 and np.all(change[moving] > 0.0) and f"{wrong}; {cure}")

@@ -87,13 +87,13 @@ class Trial(NamedTuple):
 
 def _trials(problem: FitProblem) -> Iterator[Trial]:
     """Yield what may have been mistaken in the columns that there are."""
-    if _has(problem, ANGLES):
+    if _columns(problem, ANGLES):
         turned = {"surface_angle", "surface_angle_out"} & {*problem.rows.columns}
         words = f"angles from the {'normal' if turned else 'surface'}"
         yield _changed(words, problem, ANGLES, lambda a: pi / 2.0 - a)
         if all(np.nanmax(np.abs(v)) < 0.5 * pi * DEGREE for v in _columns(problem, ANGLES)):
             yield _scaled("angles in radians", problem, ANGLES, 1.0 / DEGREE)
-    if _has(problem, SPINS):
+    if _columns(problem, SPINS):
         for words, factor in SCALES.items():
             yield _scaled(words, problem, SPINS, factor)
     yield from _swapped(problem)
@@ -102,10 +102,6 @@ def _trials(problem: FitProblem) -> Iterator[Trial]:
             names = (*problem.responses[:place], other, *problem.responses[place + 1 :])
             renamed = replace(problem, responses=names)
             yield Trial(f"{other} in the column {name}", renamed, np.ones(len(names)))
-
-
-def _has(problem: FitProblem, names: tuple[str, ...]) -> bool:
-    return any(name in names for name in (*problem.before, *problem.responses))
 
 
 def _columns(problem: FitProblem, names: tuple[str, ...]) -> list[Array]:
@@ -207,20 +203,15 @@ def as_text(fit: FitRecord) -> str:
         f"{problem.trials} row{'s' * (problem.trials != 1)}; "
         f"in brackets {100.0 * fit.confidence:g} % intervals by profile likelihood"
     )
+    told = fit.correlations
+    pairs = [f"{a} and {b} {told[a][b]:+.2f}" for a, b in combinations(told, 2)]
     lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
-    lines += _correlated(fit.correlations)
+    lines += [f"correlations: {', '.join(pairs)}"] if pairs else []
     tells = [f"note: {note}" for note in fit.notes]
     if problem.is_normal:
         return "\n".join([*lines, *tells])
     regimes = "; ".join(f"{count} {name}" for name, count in fit.regimes.items() if count)
     return "\n".join([*lines, f"rows by regime: {regimes}", *tells, str(fit.comparison)])
-
-
-def _correlated(correlations: Mapping[str, Mapping[str, float]]) -> list[str]:
-    """Return a line with the correlation of each two parameters."""
-    pairs = combinations(correlations, 2)
-    parts = [f"{one} and {other} {correlations[one][other]:+.2f}" for one, other in pairs]
-    return [f"correlations: {', '.join(parts)}"] if parts else []
 
 
 def _line(estimate: Estimate) -> str:
@@ -235,11 +226,8 @@ def notes(fit: ProfiledFit, settled: Settled, estimates: Mapping[str, Estimate])
     best, whole = fit.best, settled.whole
     problem = best.model.problem
     far = np.asarray((np.abs(best.residuals) > OUTLIER).any(axis=1))
-    lines = [
-        *_about_errors(best),
-        *about_repeats(best),
-        *([f"outliers: {problem.rows.named(far)}"] if far.any() else []),
-    ]
+    lines = [*_about_errors(best), *about_repeats(best)]
+    lines += [f"outliers: {problem.rows.named(far)}"] if far.any() else []
     lines += [*_about_regimes(fit), *_about_ranges(best)]
     if {"friction", "kappa"} <= set(whole.model.free) and problem.is_one:  # all psi_1 are one
         lines.append(ONE_INCIDENCE)
@@ -247,47 +235,41 @@ def notes(fit: ProfiledFit, settled: Settled, estimates: Mapping[str, Estimate])
     lines += _about_bounds(fit, settled.unbounded)
     lines += [*_likely_mistake(whole, estimates), *problem.remarks]
     lines += _about_plate(best, estimates)
-    if problem.ignored:
-        lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
-    lines += [*problem.rows.notes, *problem.rows.about_missing()]
+    ignored = ", ".join(problem.ignored)
+    lines += [f"columns that were not used: {ignored}"] if ignored else []
     gaps = np.asarray(~problem.present.any(axis=1))
-    if gaps.any():
-        lines.append(f"nothing was measured in {problem.rows.named(gaps)}")
-    return tuple(lines)
+    empty = [f"nothing was measured in {problem.rows.named(gaps)}"] if gaps.any() else []
+    return (*lines, *problem.rows.notes, *problem.rows.about_missing(), *empty)
 
 
 def _about_errors(best: Best) -> list[str]:
     problem, lines = best.model.problem, []
-    least = problem.least_errors
-    for place, name in enumerate(problem.responses):
+    columns = problem.errors.T, problem.present.T, best.sigma.T, best.scale, problem.least_errors
+    for place, (name, errors, there, sigma, scale, least) in enumerate(
+        zip(problem.responses, *columns, strict=True)
+    ):
+        text = GLOSSARY[name].text
         if best.estimated[place]:
-            unknown = problem.present[:, place] & ~np.isfinite(problem.errors[:, place])
-            size = float(np.median(best.sigma[unknown, place]))
-            deviation = GLOSSARY[name].text(size, 2)
+            deviation = text(float(np.median(sigma[there & ~np.isfinite(errors)])), 2)
             lines.append(f"{name}: the scatter gives a standard deviation of {deviation}")
-        elif best.scale[place] > 1.0:
-            lines.append(
-                f"{name}: the scatter is {best.scale[place]:.1f} times what the errors allow, so "
-                "they were enlarged"
-            )
-        if np.any(problem.errors[:, place] < least[place]):
-            lines.append(
-                f"{name}: errors below {GLOSSARY[name].text(least[place], 2)} were raised to that, "
-                "the accuracy of the curves that are fitted"
-            )
+        elif scale > 1.0:
+            times = f"{scale:.1f} times what the errors allow, so they were enlarged"
+            lines.append(f"{name}: the scatter is {times}")
+        if np.any(errors < least):
+            raised = "were raised to that, the accuracy of the curves that are fitted"
+            lines.append(f"{name}: errors below {text(least, 2)} {raised}")
     return lines
 
 
 def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> list[str]:
     """Return how the restitution follows, and where the theory of a plate does not hold."""
-    problem, law = best.model.problem, best.model.law
-    pair, motion = problem.pair, problem.motion
+    problem = best.model.problem
     if not problem.on_plate:
         return []
-    speeds, thickness = motion.normal_speed, estimates.get(THICKNESS)
-    of_rows = motion.thickness if thickness is None else np.full(speeds.shape, thickness.value)
-    sizes = np.asarray(of_rows)
-    e = law.restitution(pair, speeds, {THICKNESS: sizes})
+    pair, speeds, thickness = problem.pair, problem.motion.normal_speed, estimates.get(THICKNESS)
+    of_all = 0.0 * speeds + thickness.value if thickness else problem.motion.thickness
+    sizes = np.asarray(of_all)
+    e = best.model.law.restitution(pair, speeds, {THICKNESS: sizes})
     lines = [f"restitution: the plate gives {e.min():.3g} to {e.max():.3g}, the median is shown"]
     doubts = list(plates.doubtful(pair, speeds, sizes))
     lines += [f"{f.label}: {f.verdict} ({problem.rows.named(bad)})" for f, bad in doubts]
@@ -302,9 +284,8 @@ def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> list[str]:
 def _about_ranges(best: Best) -> list[str]:
     """Return which parameters lie at an end of the range in which they are searched for."""
     lines = []
-    for parameter, at, low, high in zip(
-        best.model.parameters, best.at, *best.model.bounds, strict=True
-    ):
+    coordinates = best.at, *best.model.bounds
+    for parameter, at, low, high in zip(best.model.parameters, *coordinates, strict=True):
         if parameter.name == KAPPA.name and elastic_bounds(best.model):
             continue  # told elsewhere
         ends = {parameter.low: at - low, parameter.high: high - at}
@@ -320,9 +301,9 @@ def _about_bodies(kappa: Estimate) -> list[str]:
     if not kappa.determined or kappa.low <= kappa.elastic <= kappa.high:
         return []
     differs = f"kappa: the interval excludes {kappa.elastic:.3g}, which the elastic constants give"
-    if ELASTIC_KAPPA[0] <= kappa.value <= ELASTIC_KAPPA[1]:
-        return [f"{differs}; check bodies, units and signs"]
-    return [f"{differs}, and kappa is 2/3 to 1 for elastic bodies; check bodies, units and signs"]
+    can_be = ELASTIC_KAPPA[0] <= kappa.value <= ELASTIC_KAPPA[1]
+    bounds = "" if can_be else ", and kappa is 2/3 to 1 for elastic bodies"
+    return [f"{differs}{bounds}; check bodies, units and signs"]
 
 
 def _about_bounds(fit: ProfiledFit, unbounded: Best) -> list[str]:
@@ -338,11 +319,8 @@ def _about_bounds(fit: ProfiledFit, unbounded: Best) -> list[str]:
         ends = " and ".join(text for text, there in zip(texts, cut, strict=True) if there)
         lines += [f"kappa: the interval ends at {ends}, as {why}"] if ends else []
     if not bounds[0] <= unbounded.values[KAPPA.name] <= bounds[1]:
-        shown = _shown(unbounded, unbounded.values)
-        lines.append(
-            f"kappa: {why}; other values would fit better, but not clearly: {shown}; check bodies, "
-            "units and signs"
-        )
+        better = f"would fit better, but not clearly: {_shown(unbounded, unbounded.values)}"
+        lines.append(f"kappa: {why}; other values {better}; check bodies, units and signs")
     return lines
 
 

@@ -87,11 +87,13 @@ def _written(fit: ReportedFit, path: Path, title: str, command: str) -> Path:
     problem = fit._best.model.problem
     level = f"in brackets {100.0 * fit.confidence:g} % intervals"
     rows = [(name, str(estimate)) for name, estimate in fit.estimates.items()]
+    bodies = f"{named(fit.pair.first)} on {named(fit.pair.second)}"
+    read = f"{problem.count} values in {problem.trials} rows; {bodies}."
     laws = _laws(fit)
     sections = [
         Section("Result", (), [("parameter", f"value, {level}"), *rows]),
         *_budget(fit),
-        Section("What was read", (_bodies(fit),), [*_columns(problem, fit)]),
+        Section("What was read", (read,), [*_columns(problem, fit)]),
         Section("What was neglected", (), [("", "assumption", "verdict"), *_neglected(fit)]),
         Section("Notes", fit.notes or ("none",)),
         *([Section("Laws", (), (), laws)] if laws else []),
@@ -128,20 +130,13 @@ def _budget(fit: ReportedFit) -> Iterator[Section]:
     yield Section("What the uncertainty comes from", (SHARES,), [head, *rows])
 
 
-def _bodies(fit: ReportedFit) -> str:
-    problem, pair = fit._best.model.problem, fit.pair
-    bodies = f"{named(pair.first)} on {named(pair.second)}"
-    return f"{problem.count} values in {problem.trials} rows; {bodies}."
-
-
 def _columns(problem: FitProblem, fit: ReportedFit) -> Iterator[tuple[str, ...]]:
     """Yield a head, then each column: name, how many values, from where to where, errors."""
     best = fit._best
     yield "quantity", "values", "range", "standard deviation"
     for name, values in problem.before.items():
-        yield _column(
-            problem, name, values, problem.before_errors.get(name), "none: taken as exact"
-        )
+        errors = problem.before_errors.get(name)
+        yield _column(problem, name, values, errors, "none: taken as exact")
     for place, name in enumerate(problem.responses):
         there = problem.present[:, place]
         errors = (best.scale * best.sigma)[there, place]
@@ -196,14 +191,9 @@ def _laws(fit: ReportedFit) -> str:
 def _sentence(fit: ReportedFit) -> str:
     """Return the result in a sentence for a paper."""
     problem, pair = fit._best.model.problem, fit.pair
-    determined = [
-        f"{name} {fit.estimates[name]}" for name in fit.estimates if fit.estimates[name].determined
-    ]
-    held = [
-        f"{name} {fit.estimates[name].value:.4g}"
-        for name in fit._best.model.law.names
-        if not fit.estimates[name].determined
-    ]
+    determined = [f"{name} {each}" for name, each in fit.estimates.items() if each.determined]
+    others = (each for each in map(fit.estimates.get, fit._best.model.law.names) if each)
+    held = [f"{each.name} {each.value:.4g}" for each in others if not each.determined]
     theory = "with the waves in the plate (Zener 1941)" if problem.on_plate else ""
     if not problem.is_normal:
         theory = f"by the theory of Maw, Barber & Fawcett (1976) {theory}"

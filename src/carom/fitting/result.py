@@ -40,7 +40,6 @@ class Fit(ReportedFit):
 
     Examples
     --------
-    >>> import carom
     >>> found = carom.fit(carom.datasets.load("kharaz2001"))
     >>> found.friction.low < 0.092 < found.friction.high  # that of the literature
     True
@@ -239,11 +238,10 @@ class Fit(ReportedFit):
         >>> [line for line in found.cite().splitlines() if line.startswith("@")][-2:]
         ['@software{newville2014,', '@article{kharaz2001,']
         """
-        why = PLATE if self._best.model.problem.on_plate else VISCOUS
-        lossy = (why,) if self.restitution.value < 1.0 else ()
-        keys = (*FITS, *lossy, *(SAMPLES if posterior else ()))
-        doi = self._best.model.problem.doi
-        return "\n".join([bibtex(*keys), *([with_doi(doi)] if doi else [])])
+        problem = self._best.model.problem
+        lossy = (PLATE if problem.on_plate else VISCOUS,) if self.restitution.value < 1.0 else ()
+        entries = bibtex(*FITS, *lossy, *(SAMPLES if posterior else ()))
+        return f"{entries}\n{with_doi(problem.doi)}" if problem.doi else entries
 
     def _draw(self, dataset: Any, **look: Any) -> "Figure":
         from carom.plots.fits import plot_drops, plot_fit  # which loads matplotlib
@@ -294,14 +292,13 @@ def assembled(
 def _on_plate(model: Model, thickness: Estimate | None) -> Estimate:
     """Return the restitution that follows from a plate, the median of the rows."""
     pair, motion = model.problem.pair, model.problem.motion
-    rows = motion.thickness
 
-    def median(h: float) -> float:
-        values = {THICKNESS: np.asarray(h) if rows is None else rows}
+    def median(h: Any) -> float:
+        values = {THICKNESS: np.asarray(h)}
         return float(np.median(plates.restitution(pair, motion.normal_speed, values)))
 
     if thickness is None:
-        return Estimate("restitution", median(nan))
+        return Estimate("restitution", median(motion.thickness))
     own, low, high = map(median, (thickness.value, thickness.low, thickness.high))
     return Estimate("restitution", own, low, high, thickness.reason)
 

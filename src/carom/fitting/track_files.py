@@ -60,10 +60,8 @@ def _with_points(table: UserTable) -> UserTable:
         own = [p for p in points if p.lower() in names or (len(points) == 1 and not mark)]
         ends = {"x": "x", "y": "y", "likelihood": "score", "score": "score"}
         new |= {f"{p}.{end}": mark + name for p in own[:1] for end, name in ends.items()}
-    cells = {
-        new.get(n, n) if new.get(n) not in table.names else n: c for n, c in table.cells.items()
-    }
-    return replace(table, cells=cells)
+    new = {old: name for old, name in new.items() if name not in table.names}
+    return replace(table, cells={new.get(old, old): each for old, each in table.cells.items()})
 
 
 def _frames(table: UserTable, rate: float | None, scale: float | None, faults: Faults) -> Frames:
@@ -102,11 +100,9 @@ def _missing(table: UserTable, rate: float | None) -> list[str]:
     faults = []
     if not {"x", "y"} <= {*table.cells}:
         example = "columns={'HEAD': 'x', 'HEAD': 'y', 'HEAD': 'mark_x', 'HEAD': 'mark_y'}"
-        listed = ", ".join(map(heading, table.names))
-        faults.append(
-            f"x: column missing; the columns are {listed}; say which are the centre of the ball "
-            f"and which a mark on it: {example}, or --column HEAD=x"
-        )
+        listed = f"column missing; the columns are {', '.join(map(heading, table.names))}"
+        say = "say which are the centre of the ball and which a mark on it"
+        faults.append(f"x: {listed}; {say}: {example}, or --column HEAD=x")
     if not {"time", "frame"} & {*table.cells}:
         faults.append("time: column missing; give time, or frame with the frame rate")
     elif "time" not in table.cells and rate is None:

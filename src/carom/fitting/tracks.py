@@ -99,7 +99,6 @@ def track(
 
     Examples
     --------
-    >>> import carom
     >>> time = [-0.03, -0.02, -0.01, 0.01, 0.02, 0.03]
     >>> path = {"time": time, "x": [0.5 * t for t in time],
     ...         "y": [abs(t) - 4.903325 * t * t + 1e-5 * (-1) ** i for i, t in enumerate(time)]}
@@ -115,22 +114,16 @@ def track(
     downwards = None if is_fitted else _within("gravity", finite("gravity", gravity), GRAVITIES)
     down = None if y_down is None else flag("y_down", y_down)
     scale = _metres_per_pixel(pixels_per_mm, pixels_per_diameter, radius)
-    rate = None
-    if frame_rate is not None:
-        rate = _within("frame_rate", positive("frame_rate", frame_rate), RATES)
+    read = None if frame_rate is None else positive("frame_rate", frame_rate)
+    rate = None if read is None else _within("frame_rate", read, RATES)
     how = table_format(columns, sheet, decimal)
-    names = [
-        str(each) if isinstance(each, str | Path) else f"{i}" for i, each in enumerate(sources)
-    ]
+    names = [str(e if isinstance(e, str | Path) else i) for i, e in enumerate(sources)]
     found = []
     with Faults() as faults:
         for name, each in zip(names, sources, strict=True):
-            try:
+            with faults.catching(f"track {name}" if len(names) > 1 else ""):
                 frames = read_track(each, how, rate, scale)
                 found.append(_measured(frames, steepest, downwards, down))
-            except InputError as error:
-                which = f"; this is track {name}" if len(names) > 1 else ""
-                faults.add(*(fault + which for fault in error.faults))
     return _dataset(names, found)
 
 
@@ -161,9 +154,7 @@ def _measured(
     """Return speeds and spins with their errors, and what else is to be known of a track."""
     motions = {}
     for sign in (1.0, -1.0) if down is None else (-1.0 if down else 1.0,):
-        upright = frames._replace(y=sign * frames.y)
-        motion = parted(upright, tilt, gravity)
-        if motion is not None:
+        if motion := parted(frames._replace(y=sign * frames.y), tilt, gravity):
             motions[sign] = motion
     if not motions:
         raise InputError(
@@ -176,7 +167,7 @@ def _measured(
     _check_instant(frames.time, motion.split, motion.origin + instant)
     forwards = -1.0 if values[1] < 0.0 else 1.0
     values[[1, 3]] *= forwards
-    row = {**dict(zip(SPEEDS, values.tolist(), strict=True))}
+    row = dict(zip(SPEEDS, values.tolist(), strict=True))
     row |= {n + ERROR: e for n, e in zip(SPEEDS, errors.tolist(), strict=True)}
     spins, notes = _spins(upright, motion.split, sign)
     row |= {name: forwards * value for name, (value, _) in spins.items()}
@@ -194,12 +185,10 @@ def _check_instant(time: Array, split: int, instant: float) -> None:
     """Raise InputError if the paths do not meet between the frames at which they part."""
     before, after = float(time[split - 1]), float(time[split])
     room = 0.5 * (after - before)
-    if not before - room <= instant <= after + room:
-        raise InputError(
-            f"track: the paths before and after meet at {instant:.6g} s, but part between "
-            f"{before:.6g} and {after:.6g} s; leave out frames in contact and wrong positions, or "
-            "check gravity, the scale and the frame rate"
-        )
+    seen = f"meet at {instant:.6g} s, but part between {before:.6g} and {after:.6g} s"
+    cure = "leave out frames in contact and wrong positions, or check gravity, the scale and the "
+    fault = f"track: the paths before and after {seen}; {cure}frame rate"
+    refuse(not before - room <= instant <= after + room and fault)
 
 
 def _spins(
@@ -226,14 +215,11 @@ def _spins(
     sigma = np.sqrt(squares / freedom)
     spins = {n: (s, float(sigma / np.sqrt(w))) for n, (s, w) in zip(SPINS, lines, strict=True)}
     limit = GLOSSARY["spin"].text(np.pi / step, 3)
-    notes = [f"spin: right below {limit}, half a turn of the mark from frame to frame"]
-    if largest > DOUBTFUL:
-        turned = GLOSSARY["angle"].text(largest, 3)
-        notes = [
-            f"spin: the mark turns by {turned} from frame to frame, so that its sense may be "
-            "the other one; take more frames per second"
-        ]
-    return spins, notes
+    if largest <= DOUBTFUL:
+        return spins, [f"spin: right below {limit}, half a turn of the mark from frame to frame"]
+    words = "so that its sense may be the other one; take more frames per second"
+    turned = GLOSSARY["angle"].text(largest, 3)
+    return spins, [f"spin: the mark turns by {turned} from frame to frame, {words}"]
 
 
 def _doubts(frames: Frames, motion: Motion, gravity: float | None) -> list[str]:
@@ -244,10 +230,8 @@ def _doubts(frames: Frames, motion: Motion, gravity: float | None) -> list[str]:
     if bent.freedom > 0 and more > 0 and bent.squares > 0.0:
         ratio = (motion.squares - bent.squares) / more / (bent.squares / bent.freedom)
         if fdtrc(more, bent.freedom, max(ratio, 0.0)) < SHARP:
-            notes.append(
-                "path: it is bent otherwise than by gravity; check scale, frame rate and gravity, "
-                "or that the track has one impact"
-            )
+            cure = "check scale, frame rate and gravity, or that the track has one impact"
+            notes.append(f"path: it is bent otherwise than by gravity; {cure}")
     if gravity is None:
         value, error = float(motion.numbers[8]), float(np.sqrt(motion.covariance[8, 8]))
         off = abs(value - GRAVITY)
@@ -260,9 +244,8 @@ def _doubts(frames: Frames, motion: Motion, gravity: float | None) -> list[str]:
 def _dataset(
     names: list[str], found: list[tuple[dict[str, float], dict[str, Any]]]
 ) -> "xr.Dataset":
-    columns = dict.fromkeys(name for row, _ in found for name in row)
     variables: dict[str, Any] = {}
-    for name in columns:
+    for name in dict.fromkeys(name for row, _ in found for name in row):
         values = np.array([row.get(name, np.nan) for row, _ in found])
         entry = GLOSSARY[name.removesuffix(ERROR)]
         words = "standard deviation of the " * name.endswith(ERROR) + entry.meaning
@@ -276,10 +259,9 @@ def as_records(motions: "xr.Dataset") -> list[dict[str, Any]]:
     """Return tracks as plain numbers, texts and lists; what was not measured is None."""
     details = json.loads(motions.attrs["tracks"])
     values = {str(name): motions[name].values.tolist() for name in motions.data_vars}
-    return [
-        {**about, **{key: or_none(column[i]) for key, column in values.items()}}
-        for i, about in enumerate(details)
-    ]
+    for i, about in enumerate(details):
+        about |= {key: or_none(column[i]) for key, column in values.items()}
+    return list(details)
 
 
 def as_text(motions: "xr.Dataset") -> str:

@@ -22,7 +22,6 @@ def bibtex(*keys: str) -> str:
 
     Examples
     --------
-    >>> from carom.io.citations import bibtex
     >>> print(bibtex("maw1976").splitlines()[2])
       author = {Maw, N. and Barber, J. R. and Fawcett, J. N.},
     """
@@ -34,7 +33,6 @@ def with_doi(doi: str) -> str:
 
     Examples
     --------
-    >>> from carom.io.citations import with_doi
     >>> print(with_doi("10.1000/182"), end="")
     @misc{data,
       doi = {10.1000/182},

@@ -131,7 +131,6 @@ def sign_of(column: Cells, told: set[str], cell_of: Callable[[int], str]) -> tup
 
 def _asked(shown: str, text: str, sign: str) -> str:
     less, thousand = text.replace(sign, POINT), text.replace(sign, "")
-    return (
-        f"{shown} may be {less} or {thousand}, with a separator of thousands; if it is {less}, "
-        f"{REMEDIES.get().decimal.format(sign=sign)}, else leave the separators out"
-    )
+    remedy = f"if it is {less}, {REMEDIES.get().decimal.format(sign=sign)}, else leave"
+    words = f"{shown} may be {less} or {thousand}, with a separator of thousands"
+    return f"{words}; {remedy} the separators out"

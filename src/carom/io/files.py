@@ -65,7 +65,6 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> import carom
     >>> with TemporaryDirectory() as folder:
     ...     carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.nc").name
     'curve.nc'

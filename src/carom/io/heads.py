@@ -38,9 +38,8 @@ def table_format(columns: Any, sheet: Any = None, decimal: Any = None) -> TableF
         own = _stored(columns)
         columns = own.get("columns")
     names = {} if columns is None else columns
-    if not isinstance(names, Mapping) or not all(
-        isinstance(name, str) and name.strip() for name in names.values()
-    ):
+    told = names.values() if isinstance(names, Mapping) else [None]
+    if not all(isinstance(name, str) and name.strip() for name in told):
         allowed = "must map heads of columns to names, or name a TOML file that does"
         raise refusal("columns", columns, f"{allowed}, e.g. {EXAMPLE}")
     texts = {"sheet": sheet, "decimal": decimal}
@@ -72,7 +71,6 @@ def as_toml(how: TableFormat) -> str:
 
     Examples
     --------
-    >>> from carom.io.heads import TableFormat, as_toml
     >>> print(as_toml(TableFormat({"Drehzahl [U/min]": "spin_out"}, decimal=",")))
     decimal = ","
     <BLANKLINE>
@@ -80,8 +78,8 @@ def as_toml(how: TableFormat) -> str:
     "Drehzahl [U/min]" = "spin_out"
     <BLANKLINE>
     """
-    texts = {"sheet": how.sheet, "decimal": how.decimal}
-    own = [f"{name} = {_quoted(text)}\n" for name, text in texts.items() if text]
+    texts = ("sheet", how.sheet), ("decimal", how.decimal)
+    own = [f"{name} = {_quoted(text)}\n" for name, text in texts if text]
     columns = [f"{_quoted(head)} = {_quoted(name)}\n" for head, name in how.columns.items()]
     return "".join([*own, *(["\n"] if own else []), "[columns]\n", *columns])
 
@@ -119,8 +117,7 @@ def renamed(
     heads = [column.head for column in columns]
     for name in left:
         near = nearest(name, heads) or f"its columns are {', '.join(heads)}"
-        allowed = f"{what} has no column of that name; {near}"
-        wrong.append(str(refusal("columns", name, allowed)))
+        wrong.append(str(refusal("columns", name, f"{what} has no column of that name; {near}")))
     return new
 
 

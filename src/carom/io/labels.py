@@ -52,7 +52,6 @@ class Validity(Printed):
 
     Examples
     --------
-    >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
     >>> carom.impact(pair, speed=0.1, angle="30 deg").validity.holds
@@ -109,21 +108,17 @@ def labelled_dataset(
 
     Examples
     --------
-    >>> from carom.io.labels import labelled_dataset
     >>> force = labelled_dataset({"normal_force": ("time", [0.0, 2.0])}, {"time": [0.0, 1e-6]}, {})
     >>> force.normal_force.units, force.time.long_name
     ('N', 'time since the first touch')
     """
     import xarray as xr
 
-    words = {
-        name: json.dumps(dict(value)) if isinstance(value, Mapping) else value
-        for name, value in attrs.items()
-    }
+    nested = {n: json.dumps(dict(v)) for n, v in attrs.items() if isinstance(v, Mapping)}
     return xr.Dataset(
         {name: _variable(name, entry) for name, entry in variables.items()},
         coords={name: _variable(name, entry) for name, entry in coords.items()},
-        attrs={"Conventions": CONVENTIONS, "source": f"carom {__version__}"} | words,
+        attrs={"Conventions": CONVENTIONS, "source": f"carom {__version__}", **attrs, **nested},
     )
 
 

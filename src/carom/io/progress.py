@@ -56,7 +56,6 @@ def advancing(
 
     Examples
     --------
-    >>> from carom.io.progress import advancing
     >>> with advancing("impacts", 3, lambda done, total: print(done, "of", total)) as advance:
     ...     advance(2)
     ...     advance(1)

@@ -67,7 +67,6 @@ def named(word: str, rows: Iterable[object], total: int = 0) -> str:
 
     Examples
     --------
-    >>> from carom.io.rows import named
     >>> named("line", [3]), named("row", [1, 2, 5]), named("row", [1, 2], 2)
     ('line 3', 'rows 1, 2 and 5', 'every row')
     """
@@ -86,7 +85,6 @@ def letter_of(place: int) -> str:
 
     Examples
     --------
-    >>> from carom.io.rows import letter_of
     >>> letter_of(2), letter_of(26), letter_of(701), letter_of(702)
     ('C', 'AA', 'ZZ', 'AAA')
     """

@@ -94,7 +94,7 @@ def _chosen(
         refuse(sheet not in sheets and refusal("sheet", sheet, f"{path} has no such sheet; {hint}"))
         return sheet, []
     filled = [name for name, rows in sheets.items() if not all(map(is_blank, chain(*rows)))]
-    likely = [name for name in filled if _holds_numbers(sheets[name])] or filled
+    likely = [name for name in filled if any(map(is_number, chain(*sheets[name][1:])))] or filled
     if not likely:
         raise refusal(what, path, "it is empty; there must be a header and numbers")
     if len(likely) > 1:
@@ -102,10 +102,6 @@ def _chosen(
         raise refusal(what, path, f"its sheets {_listed(likely)} may be meant; {say}")
     more = [f"the sheet {likely[0]!r} was read, not {_listed({*filled} - {*likely})}"]
     return likely[0], more if len(filled) > 1 else []
-
-
-def _holds_numbers(rows: list[Any]) -> bool:
-    return len(rows) > 1 and any(is_number(cell) for row in rows[1:] for cell in row)
 
 
 def _listed(names: Any) -> str:

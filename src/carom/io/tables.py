@@ -45,7 +45,6 @@ def read_table(
 
     Examples
     --------
-    >>> from carom.io.tables import read_table
     >>> table = read_table({"angle [deg]": [10.0, 20.0], "omega": [-2.0, -5.0]}, {"omega": "spin"})
     >>> table.names, table.word, len(table)
     (('angle', 'spin'), 'row', 2)
@@ -59,24 +58,19 @@ def read_table(
         for name in ("sheet", "decimal"):
             refuse(getattr(how, name) and f"{name}: only a file has it; leave it out")
         source_columns, table = _of_object(what, source)
-    wrong = list(table.wrong)
-    cells: dict[str, Column] = {}
-    places: dict[str, list[str]] = {}
-    for column, (name, unit) in zip(
-        source_columns, renamed(source_columns, how.columns, what, wrong), strict=True
-    ):
+    wrong, cells, places = list(table.wrong), dict[str, Column](), dict[str, list[str]]()
+    called = renamed(source_columns, how.columns, what, wrong)
+    for column, (name, unit) in zip(source_columns, called, strict=True):
         places.setdefault(name, []).append(column.letter)
         cells.setdefault(name, column._replace(unit=unit))
-    wrong += (_twice(name, letters) for name, letters in places.items() if len(letters) > 1)
+    for name, letters in places.items():
+        where = f", {' and '.join(letters)}," if all(letters) else ""
+        words = f"two columns{where} have this name; leave one of them out"
+        wrong += [f"{spelled(name)!r}: {words}"] if len(letters) > 1 else []
     if not len(table) and not wrong:
         wrong = [f"{what}: no rows; give names of columns, and numbers below them"]
     refuse(*(wrong if not lenient or not len(table) else ()))
     return replace(table, cells=cells, wrong=tuple(wrong))
-
-
-def _twice(name: str, letters: list[str]) -> str:
-    where = f", {' and '.join(letters)}," if all(letters) else ""
-    return f"{spelled(name)!r}: two columns{where} have this name; leave one of them out"
 
 
 def file_columns(
@@ -122,8 +116,8 @@ def _by_name(what: str, source: Any) -> Any:
         try:
             source = source.reset_index()
         except ValueError:
-            words = f"{what}: its index has the name of a column; leave one of them out"
-            raise InputError(words) from None
+            words = "its index has the name of a column; leave one of them out"
+            raise InputError(f"{what}: {words}") from None
     if not hasattr(source, "items"):  # which a data frame has, too
         raise refusal(what, source, "must be the name of a file, or columns by name")
     along_the_same(**{str(name): values for name, values in source.items()})

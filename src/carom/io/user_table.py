@@ -109,12 +109,8 @@ class UserTable(Rows, Printed):
         if "case" not in self.comments:
             return self._bodies or None
         try:
-            read = json.loads(
-                self.comments["case"],
-                parse_float=finite_or_text,
-                object_pairs_hook=_with_unique_keys,
-            )
-            return dict(read)
+            how: Any = {"parse_float": finite_or_text, "object_pairs_hook": _with_unique_keys}
+            return dict(json.loads(self.comments["case"], **how))
         except InputError:
             raise
         except (ValueError, TypeError, RecursionError):
@@ -131,17 +127,15 @@ class UserTable(Rows, Printed):
 
     def require(self, *names: str) -> None:
         """Raise InputError for a column that is missing, with the nearest of those there are."""
-        for name in names:
-            if name not in self.columns:
-                there = [spelled(key) for key in self.columns if key not in names]
-                near = nearest(spelled(name), there)
-                hint = near or f"found {', '.join(there) or 'no other'};"
-                needed = ", ".join(spelled(key) for key in names)
-                remedy = REMEDIES.get().column.format(head="ITS HEAD", name=name)
-                there_as = f"; if it is there by another name, {remedy}"
-                asked = there_as if self.is_of_file and not near else ""
-                words = f"column missing; {hint} needed are {needed}"
-                raise InputError(f"{spelled(name)}: {words}{asked}")
+        for name in (each for each in names if each not in self.columns):
+            there = [spelled(key) for key in self.columns if key not in names]
+            near = nearest(spelled(name), there)
+            found = near or f"found {', '.join(there) or 'no other'};"
+            remedy = REMEDIES.get().column.format(head="ITS HEAD", name=name)
+            there_as = f"; if it is there by another name, {remedy}"
+            asked = there_as if self.is_of_file and not near else ""
+            words = f"column missing; {found} needed are {', '.join(map(spelled, names))}"
+            raise InputError(f"{spelled(name)}: {words}{asked}")
 
     def require_rows(self, fewest: int) -> None:
         """Raise InputError if there are too few rows."""
@@ -154,9 +148,8 @@ class UserTable(Rows, Printed):
         """Add to the faults that a column is bad in some rows, naming them."""
         if bad.any():
             values = list(dict.fromkeys(f"{value:g}" for value in self[name][bad].tolist()))
-            some = ", ".join(values[:MOST_NAMED_VALUES]) + ", ..." * (
-                len(values) > MOST_NAMED_VALUES
-            )
+            more = ["..."] * (len(values) > MOST_NAMED_VALUES)
+            some = ", ".join([*values[:MOST_NAMED_VALUES], *more])
             where = self.cells_named(self._letter(name), bad)
             self.faults.add(f"{spelled(name)}: {some} in {where} cannot be used; {allowed}")
 
@@ -165,19 +158,16 @@ class UserTable(Rows, Printed):
 
     def about_missing(self) -> tuple[str, ...]:
         """Return a note on the values that are missing in columns that have others, if any."""
-        gaps = {
-            name: int(gone.sum())
-            for name, gone in self.missing.items()
-            if name == entry(name) and not gone.all()
-        }
-        total = sum(gaps.values())
-        listed = ", ".join(self._gaps(name, count) for name, count in gaps.items())
-        return (f"{total} {'values' if total > 1 else 'value'} missing: {listed}",) if total else ()
-
-    def _gaps(self, name: str, count: int) -> str:
-        if count > MOST_NAMED_ROWS:
-            return f"{count} of {spelled(name)}"
-        return f"{spelled(name)} in {self.cells_named(self._letter(name), self.missing[name])}"
+        total, listed = 0, []
+        for name, gone in self.missing.items():
+            count, called = int(gone.sum()), spelled(name)
+            if name != entry(name) or gone.all():
+                continue
+            where = f"{called} in {self.cells_named(self._letter(name), gone)}"
+            listed.append(f"{count} of {called}" if count > MOST_NAMED_ROWS else where)
+            total += count
+        missing = f"{total} value{'s' * (total > 1)} missing: {', '.join(listed)}"
+        return (missing,) if total else ()
 
     def kept(self, where: Mask) -> "UserTable":
         """Return a table of some of the rows."""
@@ -189,10 +179,9 @@ class UserTable(Rows, Printed):
 
 def _with_unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return an object of JSON, or raise InputError for keys that are alike: it takes the last."""
+    twice = f"it is given twice after '{CASE}'; leave one of them out"
     for name, count in Counter(name for name, _ in pairs).items():
-        if count > 1:
-            words = f"it is given twice after '{CASE}'; leave one of them out"
-            raise InputError(f"{heading(name)}: {words}")
+        refuse(count > 1 and f"{heading(name)}: {twice}")
     return dict(pairs)
 
 
@@ -217,7 +206,6 @@ def in_units(
 
     Examples
     --------
-    >>> from carom.io.user_table import in_units
     >>> from carom.io.tables import read_table
     >>> table = read_table({"angle [deg]": [0.0, 60.0], "spin_out [rpm]": ["-", -600]})
     >>> given = in_units(table, ("angle", "spin_out"), gaps=("spin_out",))
@@ -273,17 +261,15 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
     for name in unknown:
         column = table.cells[name]
         hint, meaning = suggested(name, column, names)
-        if hint:
-            asked = f"did you mean {hint!r}?"
-            if column.letter:
-                angle = hint.partition(" [")[0] in ANGLES
-                asked += " It is measured from the normal." if angle else ""
-                asked += (
-                    " It is that before the impact." if hint.partition(" [")[0] == "spin" else ""
-                )
-                remedy = REMEDIES.get().column.format(head=clipped(column.head), name=meaning)
-                asked += f" If so, {remedy}"
-            faults.add(f"{heading(name)}: unknown column; {asked}")
+        if not hint:
+            continue
+        asked = f"did you mean {hint!r}?"
+        if column.letter:
+            asked += " It is measured from the normal." * (hint.partition(" [")[0] in ANGLES)
+            asked += " It is that before the impact." * (hint.partition(" [")[0] == "spin")
+            remedy = REMEDIES.get().column.format(head=clipped(column.head), name=meaning)
+            asked += f" If so, {remedy}"
+        faults.add(f"{heading(name)}: unknown column; {asked}")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
             faults.add(f"{heading(name)}: its column {entry(name)!r} is missing")
@@ -314,10 +300,9 @@ def _likely(name: str, names: list[str]) -> str:
     plain = name.lower().replace(" ", "_").replace("-", "_")
     unit = next((end for end in UNITS_IN_NAMES if plain.endswith(end)), "")
     plain = plain.removesuffix(unit)
-    end = ERROR if plain.endswith(ERROR) else ""
-    plain = plain.removesuffix(ERROR)
-    stands = _when(plain, names) or meant(plain, names) or plain
-    close = get_close_matches(stands + end, names, n=1, cutoff=LEAST_SIMILARITY)
+    whole = entry(plain)
+    stands = (_when(whole, names) or meant(whole, names) or whole) + ERROR * (whole != plain)
+    close = get_close_matches(stands, names, n=1, cutoff=LEAST_SIMILARITY)
     return spelled(close[0]) + (f" [{UNITS_IN_NAMES[unit]}]" if unit else "") if close else ""
 
 
@@ -351,11 +336,9 @@ def _check_values(name: str, table: UserTable, open_ended: bool) -> None:
     if name in WHY_POSITIVE:
         table.refuse(name, values <= 0.0, f"must be positive{WHY_POSITIVE[name]}")
     if entry(name) in HEIGHTS:
-        cells = table.cells[name].cells
-        bare = not isinstance(cells, list) or any(
-            str(cell).strip()[-1:].isdigit() for cell in cells
-        )
-        of_file = table.cells[name].letter
+        cells, of_file = table.cells[name].cells, table.cells[name].letter
+        numbers = (str(cell).strip()[-1:].isdigit() for cell in cells)
+        bare = not isinstance(cells, list) or any(numbers)
         if bare and not unit and (of_file or np.any(np.abs(values) > HIGHEST_DROP)):
             heads = " or ".join(f"'{name} [{each}]'" for each in ("m", "cm", "mm"))
             table.faults.add(f"{name}: no unit, and heights may be in m, cm or mm; write {heads}")
@@ -374,10 +357,9 @@ def _check_percent(name: str, table: UserTable) -> None:
     numbers = [abs(cell) for cell in cells if isinstance(cell, float) and not is_missing(cell)]
     if numbers and max(numbers) <= 1.0:
         words = f"the head says {table.cells[name].unit}, but the sheet holds {max(numbers):g}"
-        table.faults.add(
-            f"{name}: {words} at most, which its format may show as {100.0 * max(numbers):g} %; "
-            "write ratios, as 0.95, and no unit into the head"
-        )
+        shown = f"which its format may show as {100.0 * max(numbers):g} %"
+        cure = "write ratios, as 0.95, and no unit into the head"
+        table.faults.add(f"{name}: {words} at most, {shown}; {cure}")
 
 
 def read_column(table: UserTable, name: str, si: str) -> Array:

@@ -77,9 +77,9 @@ def read_values(name: str, axis: ArrayLike) -> Array:
     refuse(not line and refusal(name, axis, f"{allowed}, at least one"))
     fits = np.isfinite(values) | ((key == "young") & (values == np.inf))
     refuse_where(name, values, ~fits, allowed)
-    texts = isinstance(axis, str) or any(isinstance(each, str) for each in np.atleast_1d(axis))
-    bare = key == "angle" and np.abs(values).max() > pi and not texts
-    refuse(bare and refusal(name, axis, "bare angles are in radians; write '30 deg'"))
+    if key == "angle" and np.abs(values).max() > pi:
+        texts = isinstance(axis, str) or any(isinstance(each, str) for each in np.atleast_1d(axis))
+        refuse(not texts and refusal(name, axis, "bare angles are in radians; write '30 deg'"))
     return values
 
 
