@@ -138,7 +138,7 @@ FAULTS = (
     "lines 4 and 10 have 4 values, line 7 has 6 values, line 9 has 8 values, the header has 7",
     "columns: 'w' cannot be used; results has no column of that name",
     "'speed': two columns, B and C, have this name",
-    'add --column "Winkel [°]=angle"',
+    "give columns={'Winkel [°]': 'angle'}",
     "normal_restitution: not a number in cell E3; 'fast' cannot be used",
     "rebound_angle: 'Ohm' cannot be used; unit 'Ohm' is not known",
     "speed: no value in cell B5",

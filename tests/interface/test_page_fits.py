@@ -203,7 +203,7 @@ def test_what_a_column_may_hold_is_offered_and_suggestions_are_not_used():
     rows, lists = offered(german())
     assert [row["letter"] for row in rows.values()] == [*"ABCDE"]
     assert {head: (row["name"], row["suggested"]) for head, row in rows.items()} == {
-        "Winkel zur Platte [\N{DEGREE SIGN}]": ("", False),
+        "Winkel zur Platte [\N{DEGREE SIGN}]": ("surface_angle", True),
         "Drehzahl": ("spin_out", True),
         "Vorher": ("", False),
         "v_in": ("speed", True),

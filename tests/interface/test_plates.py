@@ -188,7 +188,7 @@ def test_what_cannot_be_is_refused_in_one_line(call, words) -> None:
 
 
 LAW = carom.dem.LinearSpring()
-TAKING = {"impact", "collide", "fit", "convert_observables"}
+TAKING = {"impact", "collide", "fit", "joint_fit", "convert_observables"}
 OTHERS = {  # all else that takes a pair, but for what `bench` returns
     "bearable_speeds": lambda: carom.bearable_speeds(PAIR),
     "bench": lambda: carom.verify.bench(carom.verify.Lammps(), [LAW], pair=PAIR),

@@ -23,6 +23,7 @@ from carom.fitting.groups import GROUP
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import NO_SPEED, Bounces, FitProblem, IncomingMotion
 from carom.io.heads import TableFormat
+from carom.io.remedies import REMEDIES
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
@@ -170,12 +171,7 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
     responses = tuple(name for name in measured if np.isfinite(rows[name]).any())
     if not responses:
         faults.settle()
-        raise InputError(
-            f"data: there is no value in {', '.join(measured)}; '-' means not measured"
-            if measured
-            else f"data: no measured response among the columns {', '.join(table.names)}; there "
-            f"must be one or more of {', '.join(possible)}, or drop_height and rebound_height"
-        )
+        raise _unmeasured(table, measured, possible)
     empty = (f"{name} (no value in it)" for name in measured if name not in responses)
     bodies, knows_friction = _bodies(pair, table.case)
     if of_plates and THICKNESS in rows.columns:
@@ -216,9 +212,25 @@ def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
     )
     problem, signs = with_signs(problem)
     faults.settle()
+    if "spin_out" not in responses and np.any(before.get("spin", 0.0)):
+        remarks.append("spin: taken as that before the impact; that after it is spin_out")
     remarks += [*signs, *about_air(rows, {*dropped, *table.names}, bodies)]
     _check_responses(bodies, problem.rows, problem.motion, problem.contact_velocity)
     return replace(problem, remarks=tuple(remarks))
+
+
+def _unmeasured(table: UserTable, measured: Sequence[str], possible: Sequence[str]) -> InputError:
+    """Return the error that refuses data without a response."""
+    if measured:
+        return InputError(
+            f"data: there is no value in {', '.join(measured)}; '-' means not measured"
+        )
+    remedy = REMEDIES.get().column.format(head="HEAD", name="spin_out")
+    return InputError(
+        f"data: no measured response among the columns {', '.join(table.names)}; there must be one "
+        f"or more of {', '.join(possible)}, drop_height and rebound_height, bounce_interval or "
+        f"bounce_time; if one has another name, {remedy}"
+    )
 
 
 def _columns_of_plates(pair: Pair | None, table: UserTable) -> tuple[str, ...]:

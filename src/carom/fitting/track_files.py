@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.io.heads import TableFormat
+from carom.io.remedies import REMEDIES
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, read_column
 from carom.quantities.arrays import Array
@@ -99,10 +100,10 @@ def _missing(table: UserTable, rate: float | None) -> list[str]:
     """Return what is wrong where positions, times or the frame rate are missing."""
     faults = []
     if not {"x", "y"} <= {*table.cells}:
-        example = "columns={'HEAD': 'x', 'HEAD': 'y', 'HEAD': 'mark_x', 'HEAD': 'mark_y'}"
         listed = f"column missing; the columns are {', '.join(map(heading, table.names))}"
-        say = "say which are the centre of the ball and which a mark on it"
-        faults.append(f"x: {listed}; {say}: {example}, or --column HEAD=x")
+        say = "say which are x and y of the ball, and mark_x and mark_y of a mark on it"
+        remedy = REMEDIES.get().column.format(head="HEAD", name="x")
+        faults.append(f"x: {listed}; {say}: {remedy}")
     if not {"time", "frame"} & {*table.cells}:
         faults.append("time: column missing; give time, or frame with the frame rate")
     elif "time" not in table.cells and rate is None:
