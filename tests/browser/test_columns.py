@@ -62,9 +62,10 @@ def test_a_german_export_is_read_by_lists_and_stored(visit, tmp_path, monkeypatc
     assert "did you mean 'spin_out'? If so, choose it in the list of the column" in said
     assert "--" not in said
     assert seen.page.locator("#fit-bodies").count() == 0
-    assert holding(seen, GERMAN) == holding(seen, "Notiz") == "not used"
+    assert holding(seen, GERMAN) == "angle of incidence from the surface · surface_angle"
+    assert holding(seen, "Notiz") == "not used"
     assert holding(seen, "Drehzahl [U/min]") == "spin of the first body after · spin_out"
-    assert seen.page.locator("#fit-columns").get_by_text("suggested").count() == 1
+    assert seen.page.locator("#fit-columns").get_by_text("suggested").count() == 3
     assert "82,0 · 74,0 · 66,0" in seen.page.inner_text("#fit-columns")
     for head, quantity in (GERMAN, "angle of incidence from the s"), ("Tempo [m/s]", "speed of a"):
         holds(seen, head).focus()
