@@ -19,6 +19,7 @@ from carom.quantities.units import whole
 if TYPE_CHECKING:
     from carom.bodies.pairs import Pair
     from carom.fitting import Fit, JointFit
+    from carom.fitting.advice import Advice
     from carom.io.heads import TableFormat
 
 ONE_SET = "it is of one set of data; give one file"
@@ -117,21 +118,14 @@ def fit_command(
     if template:
         _tell_template(data[0] if data else dataset, as_json)
         return
-    from carom.fitting.advice import MOST_LISTED
-    from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
-
-    sources = _sources(data, dataset)
-    if about is not None and advice is None:
-        raise refusal("for", about, "it has no effect without --advice; give that, too")
-    count = None if advice is None else whole("advice", advice, 1, MOST_LISTED)
-    sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
+    sources, cases = _sources(data, dataset), case or []
+    count, sampling = _checked_numbers(advice, about, steps, seed)
     outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
-    check_outputs(
-        outputs, **_numbered("data", sources), **_numbered("case", [*dict.fromkeys(case or [])])
-    )
+    inputs = {**_numbered("data", sources), **_numbered("case", [*dict.fromkeys(cases)])}
+    check_outputs(outputs, **inputs)
     how = table_format_of(column, columns, sheet, decimal, save_columns)
     options: dict[str, Any] = {
-        "vary": None if vary is None else [name.strip() for name in vary.split(",")],
+        "vary": None if vary is None else _names(vary),
         "fixed": named_values("fix", fix, "restitution=0.98"),
         "robust": not squares,
         "confidence": confidence,
@@ -139,13 +133,13 @@ def fit_command(
     if len(sources) > 1:
         alone = {"advice": advice, "posterior": posterior, "report": report}
         refuse(*(text and refusal(name, text, ONE_SET) for name, text in alone.items()))
-        joint = _joint_fit(sources, case or [], thickness, _names(share), how, options)
+        joint = _joint_fit(sources, cases, thickness, _names(share or ""), how, options)
         store(joint, output, plot)
-        typer.echo(json.dumps(joint.to_dict(), indent=2) if as_json else str(joint))
+        _print(joint, None, as_json)
         return
     many = "of one file; give several files, or leave it out"
-    refuse(share and refusal("share", share, many), case and case[1:] and f"case: {many}")
-    pair = _pair(case[0] if case else None, thickness, sources[0], how)
+    refuse(share and refusal("share", share, many), cases[1:] and f"case: {many}")
+    pair = _pair(cases[0] if cases else None, thickness, sources[0], how)
     fit = carom.fit(sources[0], pair=pair, **how._asdict(), **options)
     advised = None if count is None else fit.advice(count, about)
     store(fit, output, plot)
@@ -154,6 +148,26 @@ def fit_command(
         stored(fit.report(report, f"Rebounds of {Path(sources[0]).name}", command))
     if posterior is not None:
         stored(_sampled(fit, posterior, *sampling))
+    _print(fit, advised, as_json)
+
+
+def _checked_numbers(
+    advice: str | None, about: str | None, steps: str, seed: str
+) -> tuple[int | None, tuple[int, int]]:
+    """Return how many measurements are advised; and steps and seed of the posterior."""
+    from carom.fitting.advice import MOST_LISTED
+    from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
+
+    if about is not None and advice is None:
+        raise refusal("for", about, "it has no effect without --advice; give that, too")
+    count = None if advice is None else whole("advice", advice, 1, MOST_LISTED)
+    return count, (
+        whole("steps", steps, FEWEST_STEPS, MOST_STEPS),
+        whole("seed", seed, 0, MOST_SEED),
+    )
+
+
+def _print(fit: "Fit | JointFit", advised: "Advice | None", as_json: bool) -> None:
     if as_json:
         extra = {} if advised is None else {"advice": advised.to_dict()}
         typer.echo(json.dumps(fit.to_dict() | extra, indent=2))
@@ -161,8 +175,8 @@ def fit_command(
         typer.echo("\n".join(str(part) for part in (fit, advised) if part is not None))
 
 
-def _names(text: str | None) -> list[str]:
-    return [name.strip() for name in (text or "").split(",") if name.strip()]
+def _names(text: str) -> list[str]:
+    return [name.strip() for name in text.split(",") if name.strip()]
 
 
 def _numbered(name: str, paths: Sequence[str | Path]) -> dict[str, str | Path]:
