@@ -10,6 +10,7 @@ from tests.checks import refused
 
 import carom
 from carom.fitting import fit
+from carom.fitting.comparison import Comparison, LawFit
 from carom.plots.fits import plot_corner, plot_fit
 from carom.plots.regimes import REGIMES
 from carom.quantities.glossary import GLOSSARY
@@ -138,3 +139,22 @@ def test_figures_are_stored(result, tmp_path):
 def test_without_lmfit_one_line_says_what_to_install(data, monkeypatch):
     monkeypatch.setitem(sys.modules, "lmfit", None)
     refused(r"lmfit.*pip install 'carom\[fit\]'", fit, data, pair=PAIR)
+
+
+@pytest.mark.parametrize(
+    ("gap", "words"),
+    [
+        (10.1, "the data rule out Walton"),
+        (9.9, "Walton is less likely than the exact law"),
+        (2.1, "Walton is less likely than the exact law"),
+        (1.9, "the data cannot tell Walton from the exact law"),
+        (-1.9, "the data cannot tell Walton from the exact law"),
+        (-2.1, "Walton describes the data better than the exact law"),
+        (np.nan, "there are too few values to compare with Walton"),
+    ],
+)
+def test_a_verdict_changes_at_2_and_at_10(gap, words):
+    """Akaike's criterion: a lead of 2 is a hint, one of 10 is clear (Burnham & Anderson 2002)."""
+    laws = (("exact", 5.0), ("Walton", 5.0 + gap))
+    standings = tuple(LawFit(law, value, 0.5, None, value) for law, value in laws)
+    assert Comparison(standings).verdict == words
