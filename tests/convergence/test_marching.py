@@ -43,7 +43,7 @@ def errors(psi: float, chi: float) -> Array:
 def numbers(psi: float, inertia: Inertia, solid: Solid = ELASTIC) -> Array:
     """Return what an impact comes to."""
     values = np.empty(march.NUMBERS)
-    assert march.run(psi, inertia, solid, march.new_work(), values)[0] == 0
+    assert march.run(psi, 0.0, inertia, solid, march.new_work(), values)[0] == 0
     return values
 
 
@@ -174,7 +174,7 @@ def test_friction_takes_what_the_motion_loses(psi: float, inertia: Inertia, soli
     w^T diag(1, m) B^-1 w, m zeta = (3/2) eps, of the rates -(5/4) B (P, Q).
     """
     kept = march.new_work(2000, 240)
-    steps = march.trace(psi, inertia, solid, 200, march.new_work(), kept)
+    steps = march.trace(psi, 0.0, inertia, solid, 200, march.new_work(), kept)
     springs, rows = kept.frames[: steps + 1], kept.rows[: steps + 1]
     weights = kept.springs[WEIGHT, :240]
     pull = 0.5 * (springs[1:, march.PULLED] + springs[:-1, march.PULLED])
@@ -214,7 +214,7 @@ def test_every_solid_is_a_file_with_branches_of_its_own(
     work, solid = march.new_work(), Solid(int(loss), 0.5, 0.5)
     plain(march.press)(solid, *work.motion, work.springs, 1)
     plain(march.stored)(solid, work.motion[0], work.springs, 1)
-    plain(march.turn)(solid, work.motion[0], work.springs, 1, work.state)
+    plain(march.turn)(solid, work.motion[0], work.springs, 1, work.state, 1.0)
     own = march.SOLIDS[loss]
     assert calls == [(own.__name__, part) for part in PARTS if hasattr(own, part)]
     assert {"press", "stored"} <= set(dir(own))
@@ -231,6 +231,6 @@ def test_a_loss_without_a_solid_is_refused() -> None:
     with pytest.raises(carom.InputError, match=f"loss: {code} cannot be used; has no solid"):
         lossy_rebounds(psi, psi, LossNumbers(code, 0.5))
     values = np.empty(march.NUMBERS)
-    status, _ = march.run(1.0, Inertia(1.0), Solid(code, 0.5), march.new_work(), values)
+    status, _ = march.run(1.0, 0.0, Inertia(1.0), Solid(code, 0.5), march.new_work(), values)
     assert status == Status.UNRESOLVED
     assert np.all(np.isnan(values))

@@ -41,7 +41,7 @@ def rod_at(angle: float) -> Inertia:
 def rebound(psi: float, body: Inertia, solid: Solid = ELASTIC) -> Array:
     """Return e, psi_2 and psi_2 across."""
     numbers = np.empty(march.NUMBERS)
-    assert march.run(psi, body, solid, march.new_work(), numbers)[0] == 0
+    assert march.run(psi, 0.0, body, solid, march.new_work(), numbers)[0] == 0
     return numbers[OUT]
 
 

@@ -69,7 +69,7 @@ def test_plates_agree_with_springs() -> None:
     exact, work = rebounds(psi, chi, give), march.new_work()
     numbers, by_springs = np.empty(march.NUMBERS), np.empty(200)
     for i in range(200):
-        march.run(psi[i], Inertia(chi[i]), Solid(int(Loss.PLATE), give[i]), work, numbers)
+        march.run(psi[i], 0.0, Inertia(chi[i]), Solid(int(Loss.PLATE), give[i]), work, numbers)
         by_springs[i] = numbers[0]
     wrong = np.abs(by_springs - exact) / np.maximum(1.0, psi)
     assert np.median(wrong) < 1e-7

@@ -119,7 +119,7 @@ def lossy():
         yield from (h.force, h.dissipated, h.normal_lost, h.stick_radius)
     for psi, chi, solid in MARCHED:
         kept, values = march.new_work(1000), (motion.Inertia(chi), motion.Solid(*solid))
-        steps = march.trace(psi, *values, SPRINGS, march.new_work(), kept)
+        steps = march.trace(psi, 0.0, *values, SPRINGS, march.new_work(), kept)
         yield kept.rows[:steps]
 
 

@@ -7,11 +7,23 @@ radius, u' = psi, cut radially to |u| <= d - s. Of first order in the angle that
 import numpy as np
 
 
-def marched(psi, rates, springs):
+def cut(trial, limit, ratio):
+    """Return springs beyond the limit slipped back along what they bear, in 60 bisections."""
+    low, high = np.zeros_like(limit), np.full_like(limit, 1e12)
+    for _ in range(120):
+        slip = np.sqrt(np.maximum(low, 1e-15) * high)
+        size = np.hypot(trial[0] / (1.0 + slip), trial[1] / (1.0 + ratio * slip))
+        low, high = np.where(size > limit, slip, low), np.where(size > limit, high, slip)
+    beyond = np.hypot(*trial) > limit
+    slip = np.where(beyond, high, 0.0)
+    return np.array([trial[0] / (1.0 + slip), trial[1] / (1.0 + ratio * slip)])
+
+
+def marched(psi, rates, springs, across=0.0, ratio=1.0):
     """Return v, psi, psi across after the impact; `rates` is B, shape (3, 3)."""
     cell, step = 1.2 / springs, 4.0 / (8 * springs)
     s = (cell * (np.arange(springs) + 0.5)) ** 2
-    w, depth, u, forces = np.array([1.0, psi, 0.0]), 0.0, np.zeros((2, springs)), np.zeros(3)
+    w, depth, u, forces = np.array([1.0, psi, across]), 0.0, np.zeros((2, springs)), np.zeros(3)
     while depth >= 0.0:
         w -= 0.625 * step * rates @ forces
         before, depth = depth, depth + step * w[0]
@@ -20,15 +32,19 @@ def marched(psi, rates, springs):
         share[s < before] = 1.0
         u = touched * (u + step * w[1:, np.newaxis] * share)
         limit, size = np.maximum(depth - s, 0.0), np.hypot(*u)
-        u *= np.minimum(1.0, limit / np.maximum(size, 1e-300))
+        if ratio == 1.0:
+            u *= np.minimum(1.0, limit / np.maximum(size, 1e-300))
+        else:
+            u[:, touched] = cut(u[:, touched], limit[touched], ratio)
         forces = np.array([max(depth, 0.0) ** 1.5, *(cell * u.sum(axis=1))])
         w -= 0.625 * step * rates @ forces
     return w
 
 
-def extrapolated(psi, rates, springs=500):
+def extrapolated(psi, rates, springs=500, across=0.0, ratio=1.0):
     """Return the same by Richardson's extrapolation, as of first order."""
-    return 2.0 * marched(psi, rates, 2 * springs) - marched(psi, rates, springs)
+    fine, coarse = (marched(psi, rates, n, across, ratio) for n in (2 * springs, springs))
+    return 2.0 * fine - coarse
 
 
 def rates_of(body):
@@ -37,12 +53,12 @@ def rates_of(body):
         [
             [1.0, 1.5 * body.eps, 1.5 * body.eps_across],
             [body.zeta, 3.0 * body.chi, 3.0 * body.mixed],
-            [body.zeta_across, 3.0 * body.mixed, 3.0 * body.across],
+            [body.zeta_across, 3.0 * body.ratio * body.mixed, 3.0 * body.across],
         ]
     )
 
 
 def energy(body, out):
     """Return the kinetic energy of a motion (v, psi, psi across), of m_n V_1^2/2."""
-    share = 1.5 * np.hypot(body.eps, body.eps_across) / np.hypot(body.zeta, body.zeta_across)
-    return float(out @ np.diag([1.0, share, share]) @ np.linalg.inv(rates_of(body)) @ out)
+    share = 1.5 * body.eps / body.zeta if body.zeta else 1.5 * body.eps_across * body.ratio / body.zeta_across
+    return float(out @ np.diag([1.0, share, share / body.ratio]) @ np.linalg.inv(rates_of(body)) @ out)

@@ -83,12 +83,18 @@ def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arra
 
 @kernel
 def march(
-    psi_1: float, inertia: Inertia, solid: Solid, h: float, work: Arrays, numbers: Array
+    psi_1: float,
+    across: float,
+    inertia: Inertia,
+    solid: Solid,
+    h: float,
+    work: Arrays,
+    numbers: Array,
 ) -> tuple[int, float]:
     """March an impact; return its steps, none if it does not end, and the clock of the loading."""
     now, new, turned = work.motion[0], work.motion[1], work.motion[2]
     springs, state = work.springs, work.state
-    begin(psi_1, work)
+    begin(psi_1, across, work)
     laid, touching, since, widest, strongest, clock = 0, 0, 0, 0.0, 0.0, 0.0
     for i in range(LONGEST):
         again = now[at.SPEED] > 0.0 and turned[at.EDGE] > 0.0
@@ -109,11 +115,11 @@ def march(
             return 0, clock
         if touching == 0:
             end(now, new, springs)
-        let_go(springs, touching, met, inertia.chi, solid.extra, state)
+        let_go(springs, touching, met, inertia, solid.extra, state)
         kick_and_stretch(solid, inertia, now, new, springs, touching, state)
         widest, strongest = max(widest, new[at.EDGE]), max(strongest, new[at.LOAD])
         if work.rows.shape[0] > 0:
-            keep(solid, new, springs, touching, state, work.rows[i + 1])
+            keep(solid, inertia.ratio, new, springs, touching, state, work.rows[i + 1])
         if work.frames.shape[0] > 0:
             keep_springs(solid.extra, springs, touching, state, work.frames[i + 1])
         if touching == 0:
@@ -125,17 +131,17 @@ def march(
             if new[at.EDGE] >= widest:
                 of.lay(springs, laid, new[at.EDGE])
                 at.copy(new, turned)
-            turn(solid, new, springs, touching, state)
+            turn(solid, new, springs, touching, state, inertia.ratio)
         at.copy(new, now)
     return 0, clock
 
 
 @kernel
-def begin(psi_1: float, work: Arrays) -> None:
+def begin(psi_1: float, across: float, work: Arrays) -> None:
     """Put the bodies to their first touch."""
     work.motion[:], work.springs[:], work.state[:] = 0.0, 0.0, 0.0
     work.motion[0, at.SPEED], work.motion[0, at.PACE] = 1.0, 1.0
-    work.state[at.PSI] = psi_1
+    work.state[at.PSI], work.state[at.PSI_ACROSS] = psi_1, across
     if work.rows.shape[0] > 0:
         work.rows[0] = 0.0
         work.rows[0, layout.AT_V], work.rows[0, layout.AT_PSI] = 1.0, psi_1
@@ -157,10 +163,12 @@ def press(solid: Solid, now: Array, new: Array, turned: Array, springs: Array, l
 
 
 @kernel
-def turn(solid: Solid, now: Array, springs: Array, touching: int, state: Array) -> None:
+def turn(
+    solid: Solid, now: Array, springs: Array, touching: int, state: Array, ratio: float
+) -> None:
     """Change what changes where the bodies turn."""
     if solid.loss == Loss.PLASTIC.value:
-        thornton.turn(now, springs, touching, state)
+        thornton.turn(now, springs, touching, state, ratio)
     elif solid.loss == Loss.METAL.value:
         metal.turn(now, springs, touching)
     elif solid.loss == Loss.PLATE.value:
@@ -191,11 +199,14 @@ def end(now: Array, new: Array, springs: Array) -> None:
 
 
 @kernel
-def let_go(springs: Array, touching: int, met: int, chi: float, extra: float, state: Array) -> None:
+def let_go(
+    springs: Array, touching: int, met: int, inertia: Inertia, extra: float, state: Array
+) -> None:
     """Free springs whose contact ends; what both branches hold against each other is lost."""
     for j in range(touching, met):
         if extra > 0.0:
-            state[at.LOST] += 1.875 * chi * springs[of.WEIGHT, j] * of.square(springs, j, extra)
+            held = springs[of.WEIGHT, j] * of.square(springs, j, extra, inertia.ratio)
+            state[at.LOST] += 1.875 * inertia.chi * held
         else:
             springs[of.U, j], springs[of.U_ACROSS, j], springs[of.NEXT, j] = 0.0, 0.0, 0.0
 
@@ -220,7 +231,9 @@ def kick_and_stretch(
     step = of.step_of(g, theta, dt, state[at.PSI], half, -braked)
     if inertia.across > 0.0:
         across = of.step_of(g, theta, dt, state[at.PSI_ACROSS], half_across, -braked_across)
-        force, aside, square = of.stretch_both(springs, touching, new[at.EDGE], step, across)
+        force, aside, square = of.stretch_both(
+            springs, touching, new[at.EDGE], step, across, inertia.ratio
+        )
         state[at.FORCE], state[at.FORCE_ACROSS] = force, aside
     else:
         state[at.FORCE], square = of.stretch(springs, touching, new[at.EDGE], step)
@@ -236,7 +249,15 @@ def kick_and_stretch(
 
 
 @kernel
-def keep(solid: Solid, now: Array, springs: Array, touching: int, state: Array, row: Array) -> None:
+def keep(
+    solid: Solid,
+    ratio: float,
+    now: Array,
+    springs: Array,
+    touching: int,
+    state: Array,
+    row: Array,
+) -> None:
     """Keep a row after a step: motion, energies, how wide the zones are that stick, who slips."""
     row[:] = 0.0
     row[layout.AT_TIME], row[layout.AT_D] = now[at.TIME], now[at.DEPTH]
@@ -247,7 +268,7 @@ def keep(solid: Solid, now: Array, springs: Array, touching: int, state: Array, 
     row[layout.AT_LOST] = 1.0 - now[at.SPEED] ** 2 - row[layout.AT_STORED]
     for j in range(touching):
         weight, most = of.weight_of(springs, j, touching, now[at.EDGE]), springs[of.NEXT, j]
-        row[layout.AT_SQUARE] += weight * of.square(springs, j, solid.extra)
+        row[layout.AT_SQUARE] += weight * of.square(springs, j, solid.extra, ratio)
         force, aside = of.pulled(springs, j, solid.extra)
         if most - np.hypot(force, aside) > LIMIT_TOLERANCE * most:
             outer = springs[of.X, j + 1] if springs[of.OUTER, j] > 0.0 else now[at.EDGE]
@@ -278,36 +299,40 @@ def note(now: Array, turned: Array, state: Array, numbers: Array) -> None:
 
 
 @kernel
-def step_for(psi_1: float, inertia: Inertia, solid: Solid, count: int, work: Arrays) -> float:
+def step_for(
+    psi_1: float, across: float, inertia: Inertia, solid: Solid, count: int, work: Arrays
+) -> float:
     """Return the step of the clock with which the contact is cut into so many springs."""
     trial = ELASTIC_CLOCK / (PER_SPRING * TRIAL_SPRINGS)
-    _, clock = march(psi_1, inertia, solid, trial, work, work.coarse)
+    _, clock = march(psi_1, across, inertia, solid, trial, work, work.coarse)
     return float(clock / (PER_SPRING * count))
 
 
 @entry_point()
 def run(
-    psi_1: float, inertia: Inertia, solid: Solid, work: Arrays, numbers: Vector
+    psi_1: float, across: float, inertia: Inertia, solid: Solid, work: Arrays, numbers: Vector
 ) -> tuple[int, float]:
-    """Run an impact of any psi_1; return its status, and an estimate of the error of psi_2.
+    """Run an impact of any psi_1, and that across; return its status, and the error of psi_2.
 
     Beyond LARGEST_PSI psi_1 - psi_2 is the same. Numbers are Richardson's (1911), of two numbers of
     springs, and the error is what he adds, but not below LEAST_ERROR, as that may be by chance.
     """
-    status, error = why_not(psi_1, inertia.chi), 0.0
+    size = np.hypot(psi_1, across)
+    status, error = why_not(size, inertia.chi), 0.0
     if status == Status.SOLVED.value:
-        speed = min(abs(psi_1), LARGEST_PSI)
+        scale = np.copysign(min(LARGEST_PSI / size, 1.0) if size > 0.0 else 1.0, psi_1)
+        along, aside, speed = scale * psi_1, scale * across, abs(scale) * size
         if psi_1 < 0.0:
             inertia = at.turned(inertia)
-        h = step_for(speed, inertia, solid, FEW, work)
-        coarse, _ = march(speed, inertia, solid, h, work, work.coarse)
-        fine, _ = march(speed, inertia, solid, h * FEW / MANY, work, numbers)
+        h = step_for(along, aside, inertia, solid, FEW, work)
+        coarse, _ = march(along, aside, inertia, solid, h, work, work.coarse)
+        fine, _ = march(along, aside, inertia, solid, h * FEW / MANY, work, numbers)
         if coarse == 0 or fine == 0:
             status = Status.UNRESOLVED.value
         for j in range(numbers.size):
             more = (numbers[j] - work.coarse[j]) / ((MANY / FEW) ** 2 - 1.0)
-            if j == layout.PSI_OUT:
-                error = max(abs(more), LEAST_ERROR * max(speed, 1.0))
+            if j in (layout.PSI_OUT, PSI_ACROSS):
+                error = max(error, abs(more), LEAST_ERROR * max(speed, 1.0))
             numbers[j] += more
             if not np.isfinite(numbers[j]):
                 status = Status.UNRESOLVED.value
@@ -315,9 +340,9 @@ def run(
             thornton.come_to(solid.parameter, numbers)
         if at.is_central(inertia) and inertia.across == 0.0:
             keep_energy(speed, numbers)
-        numbers[layout.PSI_OUT] += abs(psi_1) - speed
-        numbers[layout.PSI_OUT] *= np.copysign(1.0, psi_1)
-        numbers[PSI_ACROSS] *= np.copysign(1.0, psi_1)
+        sign = np.copysign(1.0, psi_1)
+        numbers[layout.PSI_OUT] = sign * numbers[layout.PSI_OUT] + (psi_1 - sign * along)
+        numbers[PSI_ACROSS] = sign * numbers[PSI_ACROSS] + (across - sign * aside)
     if status != Status.SOLVED.value:
         numbers[:], error = np.nan, np.nan
     return status, error
@@ -325,11 +350,17 @@ def run(
 
 @entry_point()
 def trace(
-    psi_1: float, inertia: Inertia, solid: Solid, count: int, trial: Arrays, work: Arrays
+    psi_1: float,
+    across: float,
+    inertia: Inertia,
+    solid: Solid,
+    count: int,
+    trial: Arrays,
+    work: Arrays,
 ) -> int:
     """Fill in a row for each step over so many springs; return the number of steps."""
-    h = step_for(psi_1, inertia, solid, count, trial)
-    return march(psi_1, inertia, solid, h, work, work.coarse)[0]
+    h = step_for(psi_1, across, inertia, solid, count, trial)
+    return march(psi_1, across, inertia, solid, h, work, work.coarse)[0]
 
 
 @entry_point()
@@ -345,20 +376,22 @@ def fill(
 ) -> None:
     """Write what every impact comes to, and its status."""
     for i in range(psi_1.size):
-        inertia = Inertia(chi[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        inertia = Inertia(chi[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
         solid = at.made_of(loss, parameter[i], extra[i])
-        status[i], _ = run(psi_1[i], inertia, solid, work, numbers[i])
+        status[i], _ = run(psi_1[i], 0.0, inertia, solid, work, numbers[i])
 
 
 def march_rebound(psi_1: float, inertia: Inertia, solid: Solid) -> tuple[float, float]:
     """Return psi_2 by the march, and an estimate of its error; NaN if it is not solved."""
     numbers = np.empty(NUMBERS)
-    _, error = run(psi_1, inertia, solid, new_work(), numbers)
+    _, error = run(psi_1, 0.0, inertia, solid, new_work(), numbers)
     return float(numbers[layout.PSI_OUT]), error
 
 
-def marched(psi_1: float, inertia: Inertia, solid: Solid, springs: int) -> Vector:
+def marched(
+    psi_1: float, inertia: Inertia, solid: Solid, springs: int, across: float = 0.0
+) -> Vector:
     """Return what an impact comes to over so many springs, not extrapolated."""
     work = new_work(most=springs)
-    steps = trace(psi_1, inertia, solid, springs, work, work)
+    steps = trace(psi_1, across, inertia, solid, springs, work, work)
     return work.coarse if steps else np.full(NUMBERS, np.nan)

@@ -4,7 +4,9 @@
 
 D v is what a wall takes that gives way. Spheres have eps = zeta = 0; bodies that are struck off
 their centre have both. In space psi, Q, eps and zeta are vectors, and chi is a symmetric matrix;
-the first direction is that of the velocity before the impact, the other one is across.
+the other direction is across. Springs may be `ratio` times as stiff there, as in an ellipse: then
+psi = kappa V/(mu V_1) has the kappa of each direction, and mixed of psi across is that of psi times
+the ratio.
 
 Steps are even in a clock, d(clock) = dt/(2 b), in which the edge grows and recedes at a finite
 rate. The first time that the bodies turn, a step ends.
@@ -36,6 +38,7 @@ class Inertia(NamedTuple):
     mixed: float = 0.0  # between both directions
     eps_across: float = 0.0
     zeta_across: float = 0.0
+    ratio: float = 1.0  # of the stiffness across to that along
 
 
 class Solid(NamedTuple):
@@ -76,7 +79,8 @@ def is_central(inertia: Inertia) -> bool:
 def turned(inertia: Inertia) -> Inertia:
     """Return the inertia in directions that are turned by half a circle."""
     i = inertia
-    return Inertia(i.chi, -i.eps, -i.zeta, i.across, i.mixed, -i.eps_across, -i.zeta_across)
+    aside = -i.eps_across, -i.zeta_across
+    return Inertia(i.chi, -i.eps, -i.zeta, i.across, i.mixed, aside[0], aside[1], i.ratio)
 
 
 @kernel
@@ -91,7 +95,7 @@ def braking(inertia: Inertia, load: float, state: Array) -> tuple[float, float]:
     """Return -psi' of what the contact bears, and that across."""
     force, across = state[FORCE], state[FORCE_ACROSS]
     along = 3.0 * inertia.chi * force + 3.0 * inertia.mixed * across + inertia.zeta * load
-    aside = 3.0 * inertia.mixed * force + 3.0 * inertia.across * across
+    aside = 3.0 * inertia.ratio * inertia.mixed * force + 3.0 * inertia.across * across
     return 1.25 * along, 1.25 * (aside + inertia.zeta_across * load)
 
 

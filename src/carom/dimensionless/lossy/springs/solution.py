@@ -37,7 +37,7 @@ class Frames:
     """The springs of an impact after each step."""
 
     def __init__(self, psi: float, chi: float, solid: Solid) -> None:
-        impact, most = (psi, Inertia(chi), solid, SPRINGS), SPRINGS + march.SPARE_SPRINGS
+        impact, most = (psi, 0.0, Inertia(chi), solid, SPRINGS), SPRINGS + march.SPARE_SPRINGS
         trial = march.new_work()
         steps = march.trace(*impact, trial, march.new_work(march.LONGEST))
         kept = march.new_work(steps, most)
@@ -219,9 +219,9 @@ def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSol
     """Solve one oblique impact for which there is no engine but the march."""
     trial, kept, numbers = march.new_work(), march.new_work(march.LONGEST), np.zeros(march.NUMBERS)
     law, first = (Inertia(chi), solid_of(losses)), min(abs(psi), LARGEST_PSI)
-    status, error = march.run(psi, *law, trial, numbers)
+    status, error = march.run(psi, 0.0, *law, trial, numbers)
     solved = status == Status.SOLVED
-    steps = march.trace(first, *law, march.MOST_SPRINGS, trial, kept) if solved else -1
+    steps = march.trace(first, 0.0, *law, march.MOST_SPRINGS, trial, kept) if solved else -1
     rows = kept.rows[: steps + 1].copy()
     return MarchedSolution(
         **outcome(psi, chi, losses, status, numbers),

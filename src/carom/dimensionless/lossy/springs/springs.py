@@ -2,8 +2,9 @@
 
 In shear each is a standard linear solid, f = u + g m, m' = u' - m/theta; g = 0 is an elastic one.
 In stick u grows as U does. In slip f = sigma N, so that m relaxes by itself, in the time
-(1 + g) theta. Springs of two components have a circle for a limit; in slip f turns towards where
-stick would take it.
+(1 + g) theta. Springs of two components have a circle for a limit, and slip is along f; in slip f
+turns towards the velocity of the bodies. Across, they may be stiffer by a ratio: u is the
+deflection times the stiffness.
 """
 
 from typing import NamedTuple
@@ -22,6 +23,7 @@ X, S, WEIGHT, OUTER, U, RELAXING, PRESSED, LIMIT, NEXT, RATE, U_ACROSS, RELAXING
 SOFTER = PRESSED
 SPRING_COLUMNS = 12
 
+SLIDES = 6  # of Newton's method
 SHORT_STEP = 1e-3  # of a step, in relaxation times: where its functions are series
 
 
@@ -207,43 +209,47 @@ def pulled(springs: Array, j: int, extra: float) -> tuple[float, float]:
 
 
 @kernel
-def square(springs: Array, j: int, extra: float) -> float:
+def square(springs: Array, j: int, extra: float, ratio: float) -> float:
     """Return twice the energy that a spring holds in shear."""
     u, m = springs[U, j], springs[RELAXING, j]
     v, n = springs[U_ACROSS, j], springs[RELAXING_ACROSS, j]
-    return float(u * u + v * v + extra * (m * m + n * n))
+    return float(u * u + v * v / ratio + extra * (m * m + n * n / ratio))
 
 
 @kernel
-def cut(springs: Array, j: int, most: float) -> None:
+def cut(springs: Array, j: int, most: float, ratio: float) -> None:
     """Cut what an elastic spring bears in shear to a limit."""
-    size = np.hypot(springs[U, j], springs[U_ACROSS, j])
-    if size > most:
-        springs[U, j] *= most / size
-        springs[U_ACROSS, j] *= most / size
+    left = slid(complex(springs[U, j], springs[U_ACROSS, j]), most, ratio)
+    springs[U, j], springs[U_ACROSS, j] = left.real, left.imag
 
 
 @kernel
 def stretch_both(
-    springs: Array, count: int, edge: float, step: Step, across: Step
+    springs: Array, count: int, edge: float, step: Step, across: Step, ratio: float
 ) -> tuple[float, float, float]:
     """Move springs of two components on; return the integrals of f, of f across and of m^2."""
     force, aside, squares = 0.0, 0.0, 0.0
     psi, moved = complex(step.psi, across.psi), complex(step.moved, across.moved)
     relaxing = complex(step.relaxing, across.relaxing)
     for j in range(count):
-        move(springs, j, step, psi, moved, relaxing)
+        move(springs, j, step, psi, moved, relaxing, ratio)
         along, beside = pulled(springs, j, step.extra)
         weight = weight_of(springs, j, count, edge)
         force += weight * along
         aside += weight * beside
-        squares += weight * (springs[RELAXING, j] ** 2 + springs[RELAXING_ACROSS, j] ** 2)
+        squares += weight * (springs[RELAXING, j] ** 2 + springs[RELAXING_ACROSS, j] ** 2 / ratio)
     return force, aside, squares
 
 
 @kernel
 def move(
-    springs: Array, j: int, step: Step, psi: complex, moved: complex, relaxing: complex
+    springs: Array,
+    j: int,
+    step: Step,
+    psi: complex,
+    moved: complex,
+    relaxing: complex,
+    ratio: float,
 ) -> None:
     """Move a spring of two components, one complex number: it sticks, slips or stops on the way."""
     g, limit, limit_end = step.extra, springs[LIMIT, j], springs[NEXT, j]
@@ -259,29 +265,73 @@ def move(
     least = lowest(start, slope * step.time, end)
     if least < 0.0 and least == end:
         part, drive = max(start, 0.0) / (max(start, 0.0) - end), stuck - bears
-        middle = 0.5 * ((1.0 - part) * limit + (1.0 + part) * limit_end)
+        at, left = (1.0 - part) * limit + part * limit_end, 1.0 - part
         began = direction(bears + part * drive)
-        slips = limit_end * turned(began, (1.0 - part) * drive, middle)
+        slips = limit_end * turned(began, left * drive, at, limit_end, ratio)
         relaxed = m + (limit * began - bears) * step.give  # to the limit, at once
         relaxed = relaxed * step.slipping + (slips - limit * began) * step.forced
         u = slips - g * relaxed
     elif least < 0.0:
-        u += least * direction(stuck)
-        relaxed += least * step.kept * direction(stuck)
+        back = slid(stuck, abs(stuck) + least, ratio) - stuck
+        u += back
+        relaxed += step.kept * back
     springs[U, j], springs[U_ACROSS, j] = u.real, u.imag
     springs[RELAXING, j], springs[RELAXING_ACROSS, j] = relaxed.real, relaxed.imag
 
 
 @kernel
-def turned(began: complex, drive: complex, limit: float) -> complex:
-    """Return the direction of a spring that slips, at a limit, while it is driven.
+def slid(pull: complex, limit: float, ratio: float) -> complex:
+    """Return what is left of a pull where slip along it takes it back to the limit.
 
-    Its angle to the drive falls as limit * angle' = -|drive| sin(angle), which makes the tangent of
-    half of it fade evenly.
+    Newton's method for the slip l: its components become 1/(1 + l) and 1/(1 + ratio l) of what they
+    were, so that 1/size is nearly linear in l.
     """
-    along = direction(drive)
+    size, slip = abs(pull), 0.0
+    if size <= limit or limit <= 0.0 or ratio == 1.0:
+        return pull * (min(size, max(limit, 0.0)) / size if size > 0.0 else 1.0)
+    left = pull
+    for _ in range(SLIDES):
+        along, across = 1.0 / (1.0 + slip), 1.0 / (1.0 + ratio * slip)
+        left = complex(pull.real * along, pull.imag * across)
+        size = abs(left)
+        steep = left.real**2 * along + left.imag**2 * across * ratio
+        slip = max(slip + (size / limit - 1.0) * size * size / steep, 0.0)
+    return left * (limit / size)
+
+
+@kernel
+def turned(began: complex, drive: complex, limit: float, end: float, ratio: float) -> complex:
+    """Return the direction of a spring that slips while it is driven, and its limit changes.
+
+        limit angle' = (p_y cos - r p_x sin + (r - 1) limit' sin cos)/(cos^2 + r sin^2)
+
+    p is the drive, r the ratio. The angle is that to (r p_x, p_y + (r - 1) limit' sin), of which
+    the sine is taken in the middle; without a ratio this is exact for an even limit.
+    """
+    middle, grown = 0.5 * (limit + end), end - limit
+    pull = complex(ratio * drive.real, drive.imag + (ratio - 1.0) * grown * began.imag)
+    if ratio == 1.0:
+        return towards(began, pull, middle)
+    half = towards(began, pull, 2.0 * middle * eased(began, ratio))
+    pull = complex(ratio * drive.real, drive.imag + (ratio - 1.0) * grown * half.imag)
+    return towards(began, pull, middle * eased(half, ratio))
+
+
+@kernel
+def eased(unit: complex, ratio: float) -> float:
+    """Return cos^2 + ratio sin^2."""
+    return float(unit.real**2 + ratio * unit.imag**2)
+
+
+@kernel
+def towards(began: complex, pull: complex, limit: float) -> complex:
+    """Return a direction turned towards a pull: limit * angle' = -|pull| sin(angle).
+
+    That makes the tangent of half of the angle fade evenly.
+    """
+    along = direction(pull)
     angle = began * along.conjugate()
-    fades = np.exp(-abs(drive) / limit) if limit > 0.0 else 0.0
+    fades = np.exp(-abs(pull) / limit) if limit > 0.0 else 0.0
     near, far = 1.0 + angle.real, fades * fades * (1.0 - angle.real)
     if near + far == 0.0:
         return along

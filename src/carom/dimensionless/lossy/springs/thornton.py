@@ -59,7 +59,7 @@ def capped(y: float, w: float) -> tuple[float, float]:
 
 
 @kernel
-def turn(now: Array, springs: Array, count: int, state: Array) -> None:
+def turn(now: Array, springs: Array, count: int, state: Array, ratio: float) -> None:
     """Put springs to the elastic pressure of unloading at once, which may cut springs in shear."""
     shrunk = now[at.LOAD] / now[at.EDGE] ** 3
     state[at.FORCE], state[at.FORCE_ACROSS] = 0.0, 0.0
@@ -67,7 +67,7 @@ def turn(now: Array, springs: Array, count: int, state: Array) -> None:
     for j in range(count):
         most = (now[at.EDGE] ** 2 - springs[of.S, j]) * shrunk
         springs[of.NEXT, j], springs[of.SOFTER, j] = most, 0.0
-        of.cut(springs, j, most)
+        of.cut(springs, j, most, ratio)
         state[at.FORCE] += springs[of.WEIGHT, j] * springs[of.U, j]
         state[at.FORCE_ACROSS] += springs[of.WEIGHT, j] * springs[of.U_ACROSS, j]
 
