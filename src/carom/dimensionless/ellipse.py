@@ -34,8 +34,8 @@ class Ellipse(NamedTuple):
 def contact_ellipse(curvature_x: float, curvature_y: float) -> Ellipse:
     """Return the contact of bodies whose relative curvatures are 1/R_x and 1/R_y, both positive.
 
-    To 1e-14 if their ratio is between 1e-6 and 1e6. A line contact, with a curvature of zero, has
-    no depth for a load, and must be refused before. (b/a)^2 = (R_y/R_x) (1 - c)/c is iterated.
+    To 1e-14, at ratios from 1e-38 to 1e38. A line contact, with a curvature of zero, has no depth
+    for a load, and must be refused before. (b/a)^2 = (R_y/R_x) (1 - c)/c is iterated.
     """
     from scipy.special import elliprd, elliprf  # an eighth of a second, for these alone
 
