@@ -5,6 +5,7 @@ from .dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution as V
 from .dimensionless.solution import Solution as Solution
 from .fitting import Estimate as Estimate, Fit as Fit, JointFit as JointFit
 from .impacts.adhesive import AdhesiveImpact as AdhesiveImpact
+from .impacts.body_impact import BodyImpact as BodyImpact
 from .impacts.boundary_elements import HalfspaceImpact as HalfspaceImpact
 from .impacts.exact import Impact as Impact
 from .io.labels import Validity as Validity

@@ -7,8 +7,13 @@ from math import inf, pi
 from operator import and_
 from typing import Any
 
+import numpy as np
+
 from carom.bodies.materials import Material, set_fields
-from carom.bodies.shapes import Cup, HalfSpace, Sphere, named
+from carom.bodies.shapes import Cup, HalfSpace, Sphere
+from carom.bodies.smooth_body import Body
+from carom.dimensionless.ellipse import Ellipse, contact_ellipse, stiffness_ratios
+from carom.quantities.arrays import Array
 from carom.quantities.elementwise import quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
@@ -16,10 +21,12 @@ from carom.quantities.refusals import InputError, checked_type, refusal, refuse
 from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative
 
-Counterbody = Sphere | HalfSpace | Cup
+Counterbody = Sphere | HalfSpace | Cup | Body
+ROUND = (Sphere, HalfSpace, Cup)
 LEAST, MOST = 1e-100, 1e100  # of the numbers of an impact
 LEAST_SCALE = 1e-300  # of what may vanish: less loses digits
 OF_FRICTION = ("tangential_length", "tangential_force", "tangential_speed")  # zero without it
+SPACE = "in a plane of symmetry one axis of the contact is along x; give bodies in space"
 SAME_BODIES = 1e-6  # part by which their numbers may differ, as written in few digits
 
 
@@ -58,7 +65,7 @@ def scales_fit(pair: "Pair", scales: Scales, contact_velocity: float = 0.0, *par
     sizes += [_holds(size) | (size == 0.0) for size in of_friction]
     sizes += [abs(part) <= MOST for part in (contact_velocity, *parts)]
     impulse = pair.tangential_mass * contact_velocity
-    turning = (impulse * body.radius for body in pair.moving)
+    turning = (impulse * body.radius for body in pair.moving if isinstance(body, Sphere))
     for tiny in (pair.psi(contact_velocity, scales.speed), contact_velocity, impulse, *turning):
         sizes.append((abs(tiny) >= LEAST_SCALE) | (contact_velocity == 0.0))
     return reduce(and_, sizes)
@@ -81,10 +88,12 @@ def checked_scales(
     )
 
 
-def checked_pair(pair: Any, *, plates: bool = False) -> "Pair":
-    """Return a pair, or raise InputError if it is none, or has a plate where none is taken."""
+def checked_pair(pair: Any, *, plates: bool = False, any_shape: bool = False) -> "Pair":
+    """Return a pair, or raise InputError if it is none, or has a plate or shape that none takes."""
     allowed = "must be a Pair of bodies; make one with carom.Pair"
     bodies: Pair = checked_type("pair", pair, Pair, allowed)
+    spheres = "only carom.impact takes such bodies; give spheres here"
+    refuse(not (any_shape or bodies.is_round) and refusal("pair", str(bodies), spheres))
     only = "no plate can be taken here so far; leave it out for a thick wall"
     thin = bodies.thickness is not None and not plates
     refuse(thin and refusal("thickness", bodies.thickness, only))
@@ -113,6 +122,23 @@ def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
     return all(abs(a - b) <= SAME_BODIES * abs(b) for a, b in values)
 
 
+def axes_of(curvatures: Array) -> tuple[tuple[float, float], Array]:
+    """Return both curvatures along the axes of a contact, and these as rows, the first near x."""
+    if curvatures[0, 1] == 0.0:
+        return (float(curvatures[0, 0]), float(curvatures[1, 1])), np.eye(2)
+    values, vectors = np.linalg.eigh(curvatures)
+    order = [0, 1] if abs(vectors[0, 0]) >= abs(vectors[0, 1]) else [1, 0]
+    along = vectors[:, order[0]] * np.copysign(1.0, vectors[0, order[0]])
+    return tuple(values[order].tolist()), np.array([along, [-along[1], along[0]]])
+
+
+def _inverse_mass(body: Any) -> Array:
+    if isinstance(body, Body):
+        return body.inverse_mass
+    tangential = (1.0 + 1.0 / body.gyration_ratio) / body.mass
+    return np.diag([tangential, tangential, 1.0 / body.mass])
+
+
 def pair_fits(pair: "Pair") -> bool:
     """Return whether floating point holds masses and stiffnesses of two bodies together."""
     with suppress(OverflowError, ZeroDivisionError):
@@ -122,7 +148,7 @@ def pair_fits(pair: "Pair") -> bool:
 
 @dataclass(frozen=True, init=False)
 class Pair(Printed):
-    """A sphere, the sphere, half-space or cup that it strikes, and the friction between them.
+    """A body, the one that it strikes, and the friction between them.
 
         1/E* = sum (1 - nu^2)/E, 1/G* = sum (2 - nu)/(4 G), 1/R* = sum 1/R
         1/m_n = sum 1/M, 1/m_t = sum (1/M)(1 + R^2/K^2)
@@ -130,14 +156,15 @@ class Pair(Printed):
 
     The sums are over both bodies (Johnson 1985, sections 4.2 and 7.2). 1/R is the curvature, which
     is zero for a half-space and negative for a cup; the mass of both is infinite. For equal
-    materials chi is that of Barber (1979), (16).
+    materials chi is that of Barber (1979), (16). Of a `Body`, 1/m_n = b_nn and 1/m_t = b_tt; G*, as
+    kappa and chi, is that along x, and R* that of the sphere whose contact is as stiff.
 
     Parameters
     ----------
-    first : Sphere
+    first : Sphere or Body
         The body that moves.
-    second : Sphere, HalfSpace or Cup
-        The other body; a half-space or a cup does not move.
+    second : Sphere, HalfSpace, Cup or Body
+        The other body; a half-space, a cup or a Body without a mass does not move.
     friction : float or str
         Coefficient of friction mu, not negative.
 
@@ -145,7 +172,8 @@ class Pair(Printed):
     ------
     InputError
         If the friction is negative, the sphere does not fit into the cup, both materials are rigid,
-        or the masses or stiffnesses are too large or too small for floating point.
+        the surfaces do not part from their contact on, one body is in a plane and the other in
+        space, or the masses or stiffnesses are too large or too small for floating point.
 
     Examples
     --------
@@ -156,16 +184,18 @@ class Pair(Printed):
     sphere (steel, R = 5 mm) on half-space (steel): friction 0.2, chi 1.441, kappa 0.8235
     """
 
-    first: Sphere
+    first: Sphere | Body
     second: Counterbody
     friction: float
 
     @known_keywords
-    def __init__(self, first: Sphere, second: Counterbody, friction: Value) -> None:
-        checked_type("first body", first, Sphere, "must be a Sphere; the other one comes second")
-        if not isinstance(second, Sphere | HalfSpace | Cup):
-            raise refusal("second body", second, "must be a Sphere, HalfSpace or Cup")
-        if isinstance(second, Cup) and not second.radius > first.radius:
+    def __init__(self, first: Sphere | Body, second: Counterbody, friction: Value) -> None:
+        moves = "must be a Sphere or Body that moves; the other one comes second"
+        checked_type("first body", first, (Sphere, Body), moves)
+        if not isinstance(second, Counterbody):
+            raise refusal("second body", second, "must be a Sphere, HalfSpace, Cup or Body")
+        refuse(isinstance(first, Body) and first.mass is None and refusal("first body", first, moves))
+        if isinstance(second, Cup) and isinstance(first, Sphere) and not second.radius > first.radius:
             raise InputError(
                 f"radius: a cup of {text(second.radius, 'm')} cannot take a sphere of "
                 f"{text(first.radius, 'm')}; the cup must be the larger"
@@ -174,11 +204,61 @@ class Pair(Printed):
             raise InputError("material: both bodies are rigid; one of them must deform")
         mu = not_negative("friction", friction)
         set_fields(self, first=first, second=second, friction=mu)
+        self._check_shapes()
         if not pair_fits(self):
             raise InputError(
                 "pair: sizes, densities and stiffnesses of the bodies give numbers that floating "
                 "point cannot hold; check the units"
             )
+
+    def _check_shapes(self) -> None:
+        if self.is_round:
+            return
+        sharpest = np.linalg.eigvalsh(self.curvatures).tolist()
+        parts = f"{sharpest[0]:.3g} and {sharpest[1]:.3g} 1/m together"
+        others = "the surfaces must part on all sides: both must be positive"
+        refuse(not sharpest[0] > 0.0 and refusal("curvatures", parts, others))
+        free = [body for body in self.moving if isinstance(body, Body)]
+        mixed = len({body.is_planar for body in free}) > 1
+        both = "give both bodies in a plane, or both in space, with inertias of 3 x 3"
+        refuse(mixed and refusal("inertia", free[0].inertia, both))
+        turned = self.is_planar and self.curvatures[0, 1] != 0.0
+        refuse(turned and refusal("curvatures", str(self.curvatures.tolist()), SPACE))
+
+    @property
+    def is_round(self) -> bool:
+        """Whether both bodies are spheres, half-spaces or cups, struck through their centres."""
+        return isinstance(self.first, ROUND) and isinstance(self.second, ROUND)
+
+    @property
+    def is_planar(self) -> bool:
+        """Whether the bodies move in a plane of symmetry, that of x and the normal."""
+        return all(not isinstance(b, Body) or b.is_planar for b in (self.first, self.second))
+
+    @property
+    def curvatures(self) -> Array:
+        """Sum of both bodies' curvatures along x and y, in 1/m, shape (2, 2)."""
+        return sum(
+            np.asarray(body.curvatures) if isinstance(body, Body) else body.curvature * np.eye(2)
+            for body in (self.first, self.second)
+        )
+
+    @property
+    def inverse_mass(self) -> Array:
+        """Inverse mass B at the contact along x, y and the normal, in 1/kg, shape (3, 3)."""
+        return sum(_inverse_mass(body) for body in self.moving)
+
+    @cached_property
+    def ellipse(self) -> Ellipse:
+        """The shape of the contact; its axes are those of the curvatures, x by x."""
+        along, across = axes_of(self.curvatures)[0]
+        return contact_ellipse(along, across)
+
+    @cached_property
+    def kappas(self) -> tuple[float, float]:
+        """Ratios of tangential to normal stiffness along both axes of the contact."""
+        bodies = [(m.poisson, m.shear_modulus) for m in self._materials]
+        return stiffness_ratios(self.ellipse.share, self.effective_modulus, *bodies)
 
     @property
     def thickness(self) -> float | None:
@@ -193,21 +273,29 @@ class Pair(Printed):
     @cached_property
     def effective_shear_modulus(self) -> float:
         """Effective shear modulus G*, in Pa."""
+        if not self.is_round:
+            return self.kappas[0] * self.effective_modulus
         return 1.0 / sum((2.0 - m.poisson) / (4.0 * m.shear_modulus) for m in self._materials)
 
     @cached_property
     def effective_radius(self) -> float:
         """Effective radius R*, in m."""
+        if not self.is_round:
+            return self.ellipse.radius
         return 1.0 / (self.first.curvature + self.second.curvature)
 
     @cached_property
     def normal_mass(self) -> float:
         """Effective mass in the normal direction m_n, in kg."""
+        if not self.is_round:
+            return float(1.0 / self.inverse_mass[2, 2])
         return 1.0 / sum(1.0 / body.mass for body in self.moving)
 
     @cached_property
     def tangential_mass(self) -> float:
         """Effective mass of the contact point in the tangential direction m_t, in kg."""
+        if not self.is_round:
+            return float(1.0 / self.inverse_mass[0, 0])
         return 1.0 / sum((1.0 + 1.0 / body.gyration_ratio) / body.mass for body in self.moving)
 
     @property
@@ -225,7 +313,8 @@ class Pair(Printed):
         """E*, G*, R*, m_n, m_t, kappa and chi, and M and K^2/R^2 of the spheres; all positive."""
         moduli = self.effective_modulus, self.effective_shear_modulus
         masses = self.normal_mass, self.tangential_mass, *(body.mass for body in self.moving)
-        ratios = self.kappa, self.chi, *(body.gyration_ratio for body in self.moving)
+        spheres = [body for body in self.moving if isinstance(body, Sphere)]
+        ratios = self.kappa, self.chi, *(body.gyration_ratio for body in spheres)
         return *moduli, self.effective_radius, *masses, *ratios
 
     @property
@@ -236,9 +325,11 @@ class Pair(Printed):
         return 0.5 * (one - two) / whole
 
     @property
-    def moving(self) -> tuple[Sphere, ...]:
-        """The bodies that can move, which are the spheres."""
-        return tuple(body for body in (self.first, self.second) if isinstance(body, Sphere))
+    def moving(self) -> tuple[Any, ...]:
+        """The bodies that can move, which are those with a mass."""
+        return tuple(
+            body for body in (self.first, self.second) if getattr(body, "mass", None) is not None
+        )
 
     @property
     def lateral_ratio(self) -> float:
@@ -261,7 +352,7 @@ class Pair(Printed):
         Returns
         -------
         ContactScales
-            `length` d, `radius` sqrt(R* d), `force` P, `pressure` p_0, `tangential_length`
+            `length` d, `radius` sqrt(R* d), of an ellipse the larger semi-axis, `force` P, `pressure` p_0, `tangential_length`
             mu d/kappa, and `tangential_force` (3/2) mu P.
 
         Examples
@@ -270,11 +361,15 @@ class Pair(Printed):
         100.0
         """
         force = 4.0 / 3.0 * self.effective_modulus * sqrt(self.effective_radius) * length**1.5
+        longer, area = 1.0, 1.0
+        if not self.is_round:
+            axes = self.ellipse.along, self.ellipse.across
+            longer, area = max(axes), axes[0] * axes[1]
         return ContactScales(
             length=length,
-            radius=sqrt(self.effective_radius * length),
+            radius=longer * sqrt(self.effective_radius * length),
             force=force,
-            pressure=2.0 * self.effective_modulus / pi * sqrt(length / self.effective_radius),
+            pressure=2.0 * self.effective_modulus / pi * sqrt(length / self.effective_radius) / area,
             tangential_length=self.friction * length / self.kappa,
             tangential_force=1.5 * self.friction * force,
         )
@@ -359,5 +454,5 @@ class Pair(Printed):
         return self.first.material, self.second.material
 
     def __str__(self) -> str:
-        bodies = f"{named(self.first)} on {named(self.second)}"
+        bodies = f"{self.first} on {self.second}"
         return f"{bodies}: friction {self.friction:g}, chi {self.chi:.4g}, kappa {self.kappa:.4g}"

@@ -15,7 +15,13 @@ from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative, positive
 
 
-class Body(Printed):
+DESCRIBED = {  # of what a body is made, round ones and others
+    True: ("radius", "gyration_radius", "inner_radius", "thickness", "width"),
+    False: ("mass", "inertia", "contact", "curvatures"),
+}
+
+
+class Shape(Printed):
     """A body of a material."""
 
     material: Material
@@ -25,7 +31,7 @@ class Body(Printed):
 
 
 @dataclass(frozen=True, init=False)
-class Sphere(Body):
+class Sphere(Shape):
     """A sphere, solid or hollow, or with a given radius of gyration.
 
         M = (4/3) pi rho (R^3 - R_i^3), K^2 = (2/5) (R^5 - R_i^5)/(R^3 - R_i^3)
@@ -102,9 +108,14 @@ class Sphere(Body):
         """Curvature 1/R, in 1/m."""
         return 1.0 / self.radius
 
+    @property
+    def reach(self) -> float:
+        """Distance of the contact from the centre, in m."""
+        return self.radius
+
 
 @dataclass(frozen=True, init=False)
-class HalfSpace(Body):
+class HalfSpace(Shape):
     """A flat body that does not move as a whole: a thick wall, or a wide plate that gives way.
 
         D = E h^3/(12 (1 - nu^2)), v = P/(8 sqrt(D rho h))
@@ -173,7 +184,7 @@ class HalfSpace(Body):
 
 
 @dataclass(frozen=True, init=False)
-class Cup(Body):
+class Cup(Shape):
     """A fixed spherical cup that a smaller sphere strikes from inside.
 
     Parameters
@@ -217,10 +228,10 @@ def sphere_fits(ball: Sphere) -> bool:
     return False
 
 
-def describe(body: Body) -> dict[str, Any]:
+def describe(body: Shape) -> dict[str, Any]:
     """Return what a body was made from, as plain numbers and words."""
     entries: dict[str, Any] = {"kind": type(body).__name__}
-    for name in ("radius", "gyration_radius", "inner_radius", "thickness", "width"):
+    for name in DESCRIBED[isinstance(body, Sphere | HalfSpace | Cup)]:
         value = getattr(body, name, None)
         if value:
             entries[name] = value
@@ -233,7 +244,7 @@ def describe(body: Body) -> dict[str, Any]:
     return entries
 
 
-def named(body: Body) -> str:
+def named(body: Shape) -> str:
     """Return a body in a few words: its kind, material and sizes."""
     stuff = body.material
     words = [stuff.name or f"E = {text(stuff.young, 'Pa')}"]

@@ -72,7 +72,7 @@ def adhesion(hit: ImpactResult) -> Finding:
         between = f"it is {least:.2g} with {CLEAN} J/m^2 and {most:.2g} with {STICKY} J/m^2"
         return finding._replace(verdict=f"{finding.verdict}; {between}")
     usual = f" with {CLEAN} J/m^2" if without else ""
-    bad = f"the bodies stick below {text(sqrt(least) * hit.normal_speed, 'm/s', 2)}{usual}"
+    bad = f"the bodies stick below {text(sqrt(least) * hit.scales.speed, 'm/s', 2)}{usual}"
     if least < 1.0:
         e = f"e is {sqrt(1.0 - least):.2g} by carom.classical.adhesive_impact{usual}"
         bad = f"pulling the bodies apart takes too much energy; {e}"

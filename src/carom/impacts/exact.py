@@ -230,26 +230,21 @@ def solve_exactly(
 ) -> Impact:
     """Return an impact solved within the theory; see `carom.impact`."""
     psi = pair.psi(motion.contact_velocity(pair), scales.speed)
-    solution = _solution(pair, scales, psi if isfinite(psi) else 0.0, losses)
+    solution = solution_of(pair, scales, psi if isfinite(psi) else 0.0, losses)
     return Impact(
         pair, scales.speed, *motion, solution, losses, scales=scales, normal_spin=normal_spin
     )
 
 
-def _solution(
+def solution_of(
     pair: Pair, scales: Scales, psi: float, losses: LossLaw | None
 ) -> Solution | LossySolution:
+    """Return the solution of an impact through the centres, or raise InputError."""
     solution: Solution | LossySolution
-    if pair.thickness is not None:
-        refuse_thin(pair, scales, losses)
-        solution = solve_with(psi, pair.chi, LossNumbers(Loss.PLATE, pair.plate_give(scales.speed)))
-    elif losses is None:
+    if losses is None and pair.thickness is None:
         solution = solve(psi, pair.chi)
     else:
-        loss, *numbers = checked_law(losses)._loss(pair, scales)
-        if any(map(np.ndim, numbers)):
-            raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
-        solution = solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))
+        solution = solve_with(psi, pair.chi, loss_numbers(pair, scales, losses))
     if solution.status is not Status.SOLVED:
         name, value = ("chi", pair.chi) if losses is None else ("losses", losses)
         message = solution.status.message
@@ -258,3 +253,14 @@ def _solution(
             raise refusal("thickness", pair.thickness, why)
         raise refusal(name, value, why)
     return solution
+
+
+def loss_numbers(pair: Pair, scales: Scales, losses: LossLaw | None) -> LossNumbers:
+    """Return what the impact loses energy to, in numbers; an elastic one as on a thick plate."""
+    if losses is None or pair.thickness is not None:
+        refuse_thin(pair, scales, losses)
+        return LossNumbers(Loss.PLATE, pair.plate_give(scales.speed) if pair.thickness else 0.0)
+    loss, *numbers = checked_law(losses)._loss(pair, scales)
+    if any(map(np.ndim, numbers)):
+        raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
+    return LossNumbers(loss, *map(float, numbers))

@@ -52,7 +52,7 @@ def deflection(hit: ImpactResult) -> Finding | None:
     """Return the finding on how far the plate's middle moves, impulse over 8 sqrt(D rho h)."""
     if hit.pair.thickness is None:
         return None
-    impulse = hit.pair.normal_mass * hit.normal_speed * (1.0 + hit.normal_restitution)
+    impulse = hit.pair.normal_mass * hit.scales.speed * (1.0 + hit.normal_restitution)
     ratio = impulse / (cast(HalfSpace, hit.pair.second).impedance * hit.pair.thickness)
     good, bad = "the plate bends without stretching", "the plate bends so far that it stretches"
     return judged("deflection/h", ratio, SMALL_DEFLECTION, good, bad)

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
-from carom.impacts.outcome import RESULTS, InTime, Outcome, history_columns
+from carom.impacts.outcome import PAIR, InTime, Outcome, history_columns
 from carom.impacts.spectrum import read_frequencies, spectrum_dataset
 from carom.io.labels import MARKS, Finding, Validity, labelled, phases_at
 from carom.plots.result import Result, card
@@ -31,12 +31,11 @@ if TYPE_CHECKING:
 
 
 MOST_FRAMES = 10_000
-OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")  # 1 and 0 without
-OF_ELEMENTS = ("normal_spin_out", "contact_velocity_across", "psi_out_error", "energy_error")
 NOTES = {
     "exact": "  * angle between the slip and x in degrees, which the theory neglects",
     "lossy": "  * angle between the slip and x, which is known only without losses",
     "halfspace": "  * angle between the slip and x in degrees",
+    "bodies": "  * not known; what another part of a body strikes later is another impact",
 }
 SHOWN = (  # in a notebook
     *("psi_in", "psi_out", "rebound_speed", "rebound_angle", "spin_out", "contact_restitution"),
@@ -91,6 +90,11 @@ class ImpactResult(Outcome, Result):
     @abstractmethod
     def _strength(self) -> tuple[Finding, ...]:
         """The findings on what the bodies bear."""
+
+    @property
+    def _size_ratio(self) -> float:
+        """How large the contact is against the bodies."""
+        return self.max_radius / self.pair.effective_radius
 
     def history(self, n: int = 200) -> xr.Dataset:
         """Return the impact at n times: a table of forces, velocities, radii, energies, phases.
@@ -297,15 +301,17 @@ class ImpactResult(Outcome, Result):
 
 def _impact_text(hit: ImpactResult) -> str:
     scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
-    note = NOTES["lossy" if hit.losses is not None else method]
+    round_ones = hit.pair.is_round
+    note = NOTES["bodies" if not round_ones else "lossy" if hit.losses is not None else method]
     coupled = method != "exact" and hit.pair.dundurs_beta != 0.0
     loses = hit.losses is not None or hit.pair.thickness is not None or coupled
-    shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
-    if loses and not scalars["shear_lost_energy"]:  # as of spheres that yield
-        shown.remove("shear_lost_energy")
-    shown += [name for name in OF_ELEMENTS if name in scalars]
+    hidden = set() if loses else {"lost_energy", "shear_lost_energy"}
+    hidden |= set() if loses or not round_ones else {"normal_restitution"}
+    if not scalars["shear_lost_energy"]:  # as of spheres that yield
+        hidden.add("shear_lost_energy")
+    shown = ["chi", *(n for n in scalars if n not in (*PAIR, *hidden))]
     if len(hit.pair.moving) == 1:
-        shown.remove("spin2_out")
+        shown = [name for name in shown if not name.startswith("spin2")]
     lines = listed({name: scalars[name] for name in shown}, width=58)
     times, unit = _phase_times(hit.phases)
     phases = [

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypedDict, Unpack, overload
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
 from carom.bodies.kinematics import Tangential, approach
 from carom.bodies.losses import LossLaw
@@ -10,10 +11,11 @@ from carom.bodies.pairs import Pair, check_second_spin, checked_pair, checked_sc
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import checked_type, refusal
+from carom.quantities.refusals import checked_type, refusal, refuse
 from carom.quantities.units import Value, finite
 
 if TYPE_CHECKING:
+    from carom.impacts.body_impact import BodyImpact
     from carom.impacts.boundary_elements import BoundaryElements, HalfspaceImpact
 
 
@@ -113,7 +115,11 @@ def impact(
     >>> round(hit.rebound_angle * 180 / 3.141592653589793, 2)
     18.6
     """
-    checked_pair(pair, plates=True)
+    checked_pair(pair, plates=True, any_shape=True)
+    if not pair.is_round:
+        speeds = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
+        speeds |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2}
+        return _of_bodies(pair, speeds, losses, normal_spin, method)
     approaching, tangential = approach(speed, angle, normal_speed, tangential_speed)
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
     about_normal = finite("normal_spin", normal_spin)
@@ -128,6 +134,24 @@ def impact(
     from carom.impacts.boundary_elements import solve_by_elements
 
     return solve_by_elements(pair, scales, motion, about_normal, elements, progress)
+
+
+def _of_bodies(
+    pair: Pair,
+    speeds: Mapping[str, Any],
+    losses: LossLaw | None,
+    normal_spin: Value,
+    method: str | BoundaryElements,
+) -> BodyImpact:
+    from carom.impacts.off_centre import solve_bodies
+
+    spheres = "of spheres only; leave it out"
+    spun = finite("normal_spin", normal_spin) != 0.0
+    refuse(
+        spun and refusal("normal_spin", normal_spin, spheres),
+        method != "exact" and refusal("method", method, spheres),
+    )
+    return solve_bodies(pair, speeds, losses)
 
 
 def _elements(method: str | BoundaryElements, losses: LossLaw | None) -> BoundaryElements:

@@ -5,16 +5,20 @@ None. What the bodies bear, which takes more, is in `peaks`.
 """
 
 from collections.abc import Callable, Sequence
-from math import isfinite, isnan, nan, sqrt
+from math import inf, isfinite, isnan, nan, sqrt
 
+import numpy as np
+
+from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
 from carom.bodies.shapes import Sphere
+from carom.bodies.smooth_body import Body
 from carom.dimensionless import neglected
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.neglected import SMALL_CONTACT
 from carom.impacts.dissipation import adhesion, damping, together, waves
-from carom.impacts.findings import bounded, judged
+from carom.impacts.findings import bounded, judged, lacking
 from carom.impacts.plates import bending, deflection, rim, small_on_plate
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding, Validity
@@ -28,6 +32,7 @@ STIFF_SHELL, SOFT_SHELL = 0.01, 0.1  # dent of a shell over Hertz's depth: as a 
 SOLID_BALL = 0.4 * (1.0 + 1e-9)  # K^2/R^2
 NO_SOLID_BALL = "a ball with this radius of gyration is not solid"
 METAL_FAST, METAL_YIELDED = 300.0, 0.07  # the same for metals
+SLENDER = 3.0  # radius of gyration over that of curvature, from which on a body may bend
 GRAVITY = 9.80665  # m/s^2
 LIGHT = 0.02  # of V_1, which gravity may add within the contact
 FULL = "the full contact in three dimensions"
@@ -42,13 +47,15 @@ def judge(hit: ImpactResult, assumptions: Sequence[Assumption]) -> Validity:
 
 
 def _small_contact(hit: ImpactResult) -> Finding:
-    ratio, good = hit.max_radius / hit.pair.effective_radius, "the contact is small compared with"
+    ratio, good = hit._size_ratio, "the contact is small compared with"
     bad = f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most"
     return judged("a_max/R*", ratio, SMALL_CONTACT, f"{good} the bodies", bad)
 
 
 def _slow_contact(hit: ImpactResult) -> Finding:
     transits = hit.duration / max(_transit(hit.pair), 1e-300)
+    if transits == 0.0:
+        return lacking("contact time/wave transit", SLOW_CONTACT, "density", _without_density(hit))
     slow = transits >= SLOW_CONTACT
     good = "the contact lasts long enough to be quasi-static"
     bad = f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
@@ -57,15 +64,23 @@ def _slow_contact(hit: ImpactResult) -> Finding:
 
 
 def _transit(pair: Pair) -> float:
-    """Return the time of a bar wave through the slower sphere and back, 4 R sqrt(rho/E)."""
-    bodies = [(body.radius, body.material) for body in pair.moving if not body.material.is_rigid]
-    return max([4.0 * r / sqrt(m.young / (m.density or 1.0)) for r, m in bodies], default=0.0)
+    """Return the time of a bar wave through the slower body and back, 4 R sqrt(rho/E).
+
+    R is how far the centre of mass is from the contact; infinite where no density is known.
+    """
+    bodies = [(body.reach, body.material) for body in pair.moving if not body.material.is_rigid]
+    return max([4.0 * r * sqrt((m.density or inf) / m.young) for r, m in bodies], default=0.0)
+
+
+def _without_density(hit: ImpactResult) -> dict[str, Material]:
+    stuffs = {"first": hit.pair.first.material, "second": hit.pair.second.material}
+    return {name: stuff for name, stuff in stuffs.items() if stuff.density is None}
 
 
 def _weight(hit: ImpactResult) -> Finding | None:
     """Return the finding on gravity, which adds up to 2 chi g t_c/V_1 to psi_2, but no energy."""
-    gained = GRAVITY * hit.duration / hit.normal_speed
-    if isinstance(hit.pair.second, Sphere) or hit.psi_in == 0.0 or not gained > LIGHT:
+    gained = GRAVITY * hit.duration / hit.scales.speed
+    if isinstance(hit.pair.second, Sphere) or not np.any(hit.psi_in) or not gained > LIGHT:
         return None
     change = 2.0 * hit.pair.chi * gained
     words = f"not judged: where gravity acts along the normal, psi_2 changes by up to {change:.2g}"
@@ -103,6 +118,16 @@ def _dent(ball: Sphere, hit: ImpactResult) -> float:
     return hit.scales.force * sqrt(3.0 * (1.0 - stuff.poisson**2)) / (thin * hit.scales.length)
 
 
+def _slender(hit: ImpactResult) -> Finding | None:
+    """Return the finding on bodies that bend: radius of gyration against that at the contact."""
+    bodies = [body for body in hit.pair.moving if isinstance(body, Body)]
+    ratio = max((body.slenderness for body in bodies if not body.material.is_rigid), default=0.0)
+    if ratio <= SLENDER:
+        return None
+    words = "not judged: a slender body bends, too; the theory takes it as rigid but at the contact"
+    return Finding("K/R at the contact", ratio, SLENDER, None, words)
+
+
 def _solid(hit: ImpactResult) -> Finding | None:
     """Return the finding on the solid that losses assume."""
     if hit.losses is None:
@@ -112,7 +137,8 @@ def _solid(hit: ImpactResult) -> Finding | None:
         words = "not judged: nothing but its inelasticity is known of the plate"
         where = "HalfSpace(thickness=...) instead of ZenerPlate"
         return Finding("e", hit.normal_restitution, 1.0, None, f"{words}; give {where}", where)
-    return judge_losses(numbers, hit.normal_restitution, hit.pair.chi, oblique=hit.psi_in != 0.0)
+    oblique = bool(np.any(hit.psi_in))
+    return judge_losses(numbers, hit.normal_restitution, hit.pair.chi, oblique=oblique)
 
 
 def judge_losses(
@@ -223,4 +249,5 @@ OF_BODIES: tuple[Assumption, ...] = (
     *(_slow_contact, _weight, _shell, waves, bending, small_on_plate, deflection, rim),
     *(adhesion, damping, together, _solid),
 )
+OF_SHAPES: tuple[Assumption, ...] = (*(f for f in OF_BODIES if f is not _shell), _slender)
 OF_THEORY: tuple[Assumption, ...] = (*OF_BODIES, _spin, _rebound)

@@ -47,7 +47,8 @@ NUMBERS = layout.NUMBERS + 1
 
 # Of a row that is kept, besides those of the layout: whether springs slip, either way.
 FORTH, BACK = layout.ROWS, layout.ROWS + 1
-ROWS = layout.ROWS + 2
+OTHER_PSI, OTHER_MOVED, OTHER_FORCE = range(layout.ROWS + 2, layout.ROWS + 5)  # across
+ROWS = layout.ROWS + 5
 LIMIT_TOLERANCE = 1e-9  # of the limit: a spring nearer to it slips
 # Of a frame, for each spring: what it bears in compression and in shear, and how far it is behind.
 PRESSED, PULLED, LAGGING = range(3)
@@ -145,6 +146,7 @@ def begin(psi_1: float, across: float, work: Arrays) -> None:
     if work.rows.shape[0] > 0:
         work.rows[0] = 0.0
         work.rows[0, layout.AT_V], work.rows[0, layout.AT_PSI] = 1.0, psi_1
+        work.rows[0, OTHER_PSI] = across
 
 
 @kernel
@@ -264,6 +266,8 @@ def keep(
     row[layout.AT_V], row[layout.AT_B], row[layout.AT_P] = now[at.SPEED], now[at.EDGE], now[at.LOAD]
     row[layout.AT_PSI], row[layout.AT_U] = state[at.PSI], state[at.MOVED]
     row[layout.AT_Q], row[layout.AT_SHEAR_LOST] = state[at.FORCE], state[at.LOST]
+    row[OTHER_PSI], row[OTHER_MOVED] = state[at.PSI_ACROSS], state[at.MOVED_ACROSS]
+    row[OTHER_FORCE] = state[at.FORCE_ACROSS]
     row[layout.AT_STORED] = stored(solid, now, springs, touching)
     row[layout.AT_LOST] = 1.0 - now[at.SPEED] ** 2 - row[layout.AT_STORED]
     for j in range(touching):

@@ -225,14 +225,14 @@ def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSol
     rows = kept.rows[: steps + 1].copy()
     return MarchedSolution(
         **outcome(psi, chi, losses, status, numbers),
-        phases=_phases(rows, -1 if psi < 0.0 else 1),
+        phases=phases_by_rows(rows, -1 if psi < 0.0 else 1),
         psi_error=error,
         _rows=rows,
         _first=first or 1.0,
     )
 
 
-def _phases(rows: Array, mirror: int) -> tuple[Phase, ...]:
+def phases_by_rows(rows: Array, mirror: int = 1) -> tuple[Phase, ...]:
     """Return the phases; the edge, where both limits meet, is a ring that is left out."""
     if not len(rows):
         return ()

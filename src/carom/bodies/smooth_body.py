@@ -1,0 +1,188 @@
+"""Any smooth body: its mass and inertia, where it is touched, and how curved it is there."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from carom.bodies.materials import Material, as_material, set_fields
+from carom.bodies.shapes import Shape
+from carom.quantities.arrays import Array, numbers
+from carom.quantities.keywords import known_keywords
+from carom.quantities.prefixes import text
+from carom.quantities.refusals import Faults, refusal
+from carom.quantities.units import Value, finite, number, positive
+
+INERTIAS = "must be a positive number in kg m^2, or in space a symmetric 3 x 3 matrix of them"
+HEAVY = "of no body: each principal moment is at most the sum of both others"
+PLACE = "must be x and z in m from the centre of mass, or in space x, y and z"
+CURVED = "must be two numbers in 1/m, along x and y, or a symmetric 2 x 2 matrix of them"
+ROUNDING = 1e-9  # of the largest moment, by which moments may miss the inequality of triangles
+SYMMETRIC = 1e-12
+
+
+@dataclass(frozen=True, init=False)
+class Body(Shape):
+    """A rigid body of any smooth shape, which is touched at one place, perhaps off its centre.
+
+        V = v + omega x r, B = (1/M) 1 - [r] I^-1 [r]
+
+    B is the inverse mass at the contact, r its place (Stronge 2000, section 3.1). The wall is
+    across z, which points from the second body to the first. With an inertia about y alone the body
+    is struck in a plane of symmetry, that of x and z. A body without a mass does not move: a wall
+    that is curved.
+
+    Parameters
+    ----------
+    material : Material or str
+        Material of the body, or the name of a material of the catalogue.
+    mass : float or str, optional
+        Mass M in kg.
+    inertia : float or array_like, shape (3, 3), optional
+        Moment of inertia about y through the centre of mass in kg m^2, or the tensor of inertia.
+    contact : array_like, shape (2,) or (3,), optional
+        Place (x, z) of the contact from the centre of mass in m, z < 0 for a contact below; in
+        space (x, y, z).
+    curvature_radius : float or str, optional
+        Radius of curvature at the contact in m.
+    curvatures : array_like, shape (2,) or (2, 2), optional
+        Curvatures there along x and y in 1/m instead, negative where the body is hollow; or the
+        matrix of them, if its axes are others.
+
+    Raises
+    ------
+    InputError
+        If mass or inertia are missing or not positive, or not those of a body, numbers have a wrong
+        shape, or the curvature is given in two ways or in none.
+
+    Examples
+    --------
+    >>> rod = carom.Body(mass="10 g", inertia=8.3e-6, contact=(0.03, -0.04), curvature_radius="3 mm",
+    ...     material="steel")
+    >>> rod.inverse_mass[0, 2].round(1)  # b_nt
+    -144.6
+    """
+
+    material: Material
+    mass: float | None
+    inertia: float | tuple[tuple[float, ...], ...] | None
+    contact: tuple[float, ...] | None
+    curvatures: tuple[tuple[float, float], tuple[float, float]]
+
+    @known_keywords
+    def __init__(
+        self,
+        *,
+        material: Material | str,
+        mass: Value | None = None,
+        inertia: Value | ArrayLike | None = None,
+        contact: ArrayLike | None = None,
+        curvature_radius: Value | None = None,
+        curvatures: ArrayLike | None = None,
+    ) -> None:
+        read: dict[str, Any] = {"mass": None, "inertia": None, "contact": None}
+        of_motion = {"mass": mass, "inertia": inertia, "contact": contact}
+        missing = [name for name, value in of_motion.items() if value is None]
+        readers = {"mass": positive, "inertia": _inertia, "contact": _place}
+        with Faults() as faults:
+            with faults.catching():
+                read["material"] = as_material(material)
+            with faults.catching():
+                read["curvatures"] = _curvatures(curvature_radius, curvatures)
+            for name in missing if len(missing) < len(of_motion) else ():
+                faults.add(f"{name}: missing; a body that moves has mass, inertia and contact")
+            for name, value in of_motion.items():
+                with faults.catching():
+                    read[name] = None if value is None else readers[name](name, value)
+            if read["inertia"] is not None and read["contact"] is not None:
+                planar = isinstance(read["inertia"], float)
+                if planar != (len(read["contact"]) == 2):
+                    faults.add(f"contact: {PLACE}, with an inertia of 3 x 3")
+                if planar and read.get("curvatures", [[0.0, 0.0]])[0][1]:
+                    faults.add("curvatures: in a plane of symmetry one of them is along x")
+        set_fields(self, **read)
+
+    @property
+    def is_planar(self) -> bool:
+        """Whether it moves in a plane of symmetry, or not at all."""
+        return self.inertia is None or isinstance(self.inertia, float)
+
+    @property
+    def place(self) -> Array:
+        """Place (x, y, z) of the contact from the centre of mass, in m."""
+        x, *y, z = self.contact or (0.0, 0.0)
+        return np.array([x, *(y or [0.0]), z])
+
+    @property
+    def reach(self) -> float:
+        """Distance of the contact from the centre of mass, in m."""
+        return float(np.linalg.norm(self.place))
+
+    @property
+    def slenderness(self) -> float:
+        """Largest radius of gyration over the smallest radius of curvature at the contact."""
+        moment = np.linalg.eigvalsh(self.inertia).max() if not self.is_planar else self.inertia
+        sharpest = np.abs(np.linalg.eigvalsh(self.curvatures)).max()
+        return float(np.sqrt((moment or 0.0) / (self.mass or 1.0)) * sharpest)
+
+    @property
+    def turning(self) -> Array:
+        """Inverse of the tensor of inertia, in 1/(kg m^2); about y alone in a plane."""
+        if self.inertia is None:
+            return np.zeros((3, 3))
+        if isinstance(self.inertia, float):
+            return np.diag([0.0, 1.0 / self.inertia, 0.0])
+        return np.asarray(np.linalg.inv(self.inertia))
+
+    @property
+    def inverse_mass(self) -> Array:
+        """Inverse mass B at the contact along x, y and the normal into the wall, in 1/kg."""
+        if self.mass is None:
+            return np.zeros((3, 3))
+        x, y, z = self.place
+        cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        into = np.diag([1.0, 1.0, -1.0])
+        return np.asarray(into @ (np.eye(3) / self.mass - cross @ self.turning @ cross) @ into)
+
+    def __str__(self) -> str:
+        stuff = self.material.name or f"E = {text(self.material.young, 'Pa')}"
+        if self.mass is None:
+            return f"curved wall ({stuff})"
+        return f"body ({stuff}, M = {text(self.mass, 'kg')})"
+
+
+def _inertia(name: str, value: Any) -> float | tuple[tuple[float, ...], ...]:
+    if np.ndim(value) == 0 or isinstance(value, str):
+        return positive(name, value)
+    tensor = numbers(name, value, INERTIAS)
+    scale = float(np.abs(tensor).max()) if tensor.shape == (3, 3) else 0.0
+    if not scale > 0.0 or np.abs(tensor - tensor.T).max() > SYMMETRIC * scale:
+        raise refusal(name, value, INERTIAS)
+    moments = np.linalg.eigvalsh(tensor)
+    if not moments[0] > 0.0:
+        raise refusal(name, value, f"{INERTIAS}; its principal moments must be positive")
+    if moments[2] > (1.0 + ROUNDING) * (moments[0] + moments[1]):
+        raise refusal(name, value, HEAVY)
+    return tuple(map(tuple, tensor.tolist()))
+
+
+def _place(name: str, value: Any) -> tuple[float, ...]:
+    values = value if isinstance(value, list | tuple) else np.asarray(value)
+    if np.ndim(values) != 1 or len(values) not in (2, 3):
+        raise refusal(name, value, PLACE)
+    return tuple(finite(name, each) for each in values)
+
+
+def _curvatures(radius: Any, curvatures: Any) -> tuple[tuple[float, float], tuple[float, float]]:
+    if (radius is None) == (curvatures is None):
+        raise refusal("curvature_radius", radius, "give it, or curvatures, and not both")
+    if radius is not None:
+        sharp = 1.0 / positive("curvature_radius", radius)
+        return (sharp, 0.0), (0.0, sharp)
+    values = numbers("curvatures", curvatures, CURVED)
+    tensor = np.diag(values) if values.shape == (2,) else values
+    if tensor.shape != (2, 2) or not np.all(np.isfinite(tensor)) or tensor[0, 1] != tensor[1, 0]:
+        raise refusal("curvatures", curvatures, CURVED)
+    (xx, xy), (_, yy) = tensor.tolist()
+    return (xx, xy), (xy, yy)

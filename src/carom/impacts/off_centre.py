@@ -1,0 +1,134 @@
+"""Impacts of bodies of any smooth shape, struck anywhere: off their centre, in an ellipse."""
+
+from collections.abc import Mapping
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from carom.bodies.kinematics import by_angle, components, slope
+from carom.bodies.losses import LossLaw
+from carom.bodies.pairs import Pair, Scales, axes_of, checked_scales
+from carom.bodies.rigid_motion import RigidMotion
+from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.lossy.springs.march import SOLIDS
+from carom.dimensionless.lossy.springs.motion import Inertia
+from carom.dimensionless.lossy.springs.off_centre import OffCentreSolution, solve_off_centre
+from carom.dimensionless.solution import Solution
+from carom.impacts.body_impact import BodyImpact, with_normal
+from carom.impacts.exact import loss_numbers, solution_of
+from carom.quantities.arrays import Array
+from carom.quantities.prefixes import text
+from carom.quantities.refusals import Faults, refusal, refuse
+from carom.quantities.units import finite, positive
+
+MARCHED = "off the centre of a body take StandardLinearSolid, Metal or ElasticPlastic"
+ROUND_ONLY = "how an ellipse yields is not known; take StandardLinearSolid, or leave losses out"
+IN_PLANE = "must be one number, as the bodies move in a plane; for space give an inertia of 3 x 3"
+IN_SPACE = "must be {} numbers, along x, y{}, as the bodies move in space"
+ROUND = 1e-9  # by which both axes of a contact may differ that is round
+UNCOUPLED = 1e-12  # b_nt over b_nn of a body that is struck through its centre
+
+
+def solve_bodies(
+    pair: Pair, speeds: Mapping[str, Any], losses: LossLaw | None
+) -> BodyImpact:
+    """Return an impact of bodies of any shape; see `carom.impact`."""
+    motion, axes = read_motion(pair, speeds), axes_of(pair.curvatures)[1]
+    *sliding, approach = motion.at_contact(pair)
+    leaves = f"the contact points part at {text(-approach, 'm/s')}; turn the velocity or the spin"
+    refuse(not approach > 0.0 and refusal("normal_speed", speeds["normal_speed"], leaves))
+    scales = checked_scales(pair, float(approach), *map(float, sliding))
+    solution = _solution(pair, scales, axes @ sliding, axes, losses)
+    planar = pair.is_planar
+    return BodyImpact(
+        pair,
+        -float(motion.velocity[2]),
+        float(motion.velocity[0]) if planar else motion.velocity[:2],
+        -float(motion.spin[1]) if planar else motion.spin,
+        -float(motion.spin2[1]) if planar else motion.spin2,
+        solution,
+        losses,
+        scales=scales,
+        motion=motion,
+        axes=axes,
+    )
+
+
+def read_motion(pair: Pair, speeds: Mapping[str, Any]) -> RigidMotion:
+    """Return the motion before, or raise InputError with all that is wrong."""
+    size = 1 if pair.is_planar else 3
+    with Faults() as faults:
+        with faults.catching():
+            names = ("speed", "angle", "normal_speed", "tangential_speed")
+            along = np.zeros(2)
+            if by_angle({name: speeds[name] for name in names}):
+                angle = 0.0 if speeds["angle"] is None else slope(speeds["angle"])
+                normal, along[0] = components(positive("speed", speeds["speed"]), angle)
+            else:
+                normal = finite("normal_speed", speeds["normal_speed"])
+                value = speeds["tangential_speed"]
+                along = _vector("tangential_speed", value, min(size, 2))
+        spins = []
+        for name in ("spin", "spin2"):
+            with faults.catching():
+                spins.append(_vector(name, speeds[name], size))
+    turned = [np.array([0.0, -spin[0], 0.0]) if size == 1 else spin for spin in spins]
+    fixed = len(pair.moving) == 1 and bool(np.any(turned[1]))
+    refuse(fixed and refusal("spin2", speeds["spin2"], "the second body does not move; leave it out"))
+    return RigidMotion(np.array([along[0], along[-1] if size > 1 else 0.0, -normal]), *turned)
+
+
+def _vector(name: str, value: Any, size: int) -> Array:
+    """Return so many finite numbers; none, or one that is zero, are zeros."""
+    if value is None or (np.ndim(value) == 0 and (size == 1 or value == 0.0)):
+        return np.full(size, 0.0 if value is None else finite(name, value))
+    values = value if isinstance(value, list | tuple) else np.asarray(value)
+    if size == 1 or np.ndim(values) != 1 or len(values) != size:
+        in_space = IN_SPACE.format(("two", "three")[size - 2], " and z" * (size - 2))
+        raise refusal(name, value, IN_PLANE if size == 1 else in_space)
+    return np.array([finite(name, each) for each in values])
+
+
+def _solution(
+    pair: Pair, scales: Scales, sliding: Array, axes: Array, losses: LossLaw | None
+) -> Solution | LossySolution | OffCentreSolution:
+    """Return the solution: the exact one where bodies are struck through their centres."""
+    inertia = inertia_of(pair, axes)
+    psi, across = (
+        pair.kappas[i] / pair.kappa * pair.psi(float(sliding[i]), scales.speed) for i in range(2)
+    )
+    elliptic = abs(pair.ellipse.along / pair.ellipse.across - 1.0) > ROUND
+    numbers = loss_numbers(pair, scales, losses)
+    yields = numbers.loss in (Loss.PLASTIC, Loss.METAL) and elliptic
+    refuse(yields and refusal("losses", losses, ROUND_ONLY))
+    b = pair.inverse_mass
+    if pair.friction == 0.0 or (pair.is_planar and abs(b[0, 2]) <= UNCOUPLED * b[2, 2]):
+        return solution_of(pair, scales, psi if isfinite(psi) else 0.0, losses)
+    refuse(numbers.loss not in SOLIDS and refusal("losses", losses, MARCHED))
+    solution = solve_off_centre(psi, across, inertia, numbers)
+    if solution.status is not Status.SOLVED:
+        numbers_of = f"psi_1 = {psi:.3g}, chi = {inertia.chi:.3g}, eps = {inertia.eps:.3g}"
+        why = f"the impact at {numbers_of} is {solution.status.message}"
+        raise refusal("losses" if losses else "contact", losses or pair.first.contact, why)
+    return solution
+
+
+def inertia_of(pair: Pair, axes: Array) -> Inertia:
+    """Return the inverse mass at the contact in the units of an impact with friction."""
+    whole = with_normal(axes)
+    b = whole @ pair.inverse_mass @ whole.T / (whole @ pair.inverse_mass @ whole.T)[2, 2]
+    mu, (along, across) = pair.friction, pair.kappas
+    planar = pair.is_planar
+    return Inertia(
+        chi=float(0.5 * along * b[0, 0]),
+        eps=float(mu * b[0, 2]),
+        zeta=float(along * b[0, 2] / mu) if mu else 0.0,
+        across=0.0 if planar else float(0.5 * across * b[1, 1]),
+        mixed=0.0 if planar else float(0.5 * along * b[0, 1]),
+        eps_across=0.0 if planar else float(mu * b[1, 2]),
+        zeta_across=0.0 if planar or not mu else float(across * b[1, 2] / mu),
+        ratio=across / along,
+    )
