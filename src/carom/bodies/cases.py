@@ -12,6 +12,7 @@ from carom.bodies.kinematics import slope
 from carom.bodies.materials import VALUES, Material, as_material, material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
+from carom.bodies.smooth_body import Body
 from carom.io.files import read_dataset, read_text
 from carom.io.paths import checked_path
 from carom.quantities import refusals
@@ -47,14 +48,22 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
 }
 BODY = (*SIZES, "material")
 PLATE: dict[str, Callable[[str, Any], float]] = {"thickness": positive, "width": positive}
-OF_SECOND = ("kind", *PLATE)
+MADE: dict[str, tuple[Callable[..., Body], tuple[str, ...]]] = {  # bodies of other shapes
+    "body": (Body, ("mass", "inertia", "contact", "curvature_radius", "curvatures"))
+}
+OF_SHAPES = tuple(dict.fromkeys(name for _, names in MADE.values() for name in names))
 MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data", "spectrum")
 SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads
 SWEPT = ("samples", "seed", "table", "columns", "sheet", "decimal", "outputs", "axes")
-TABLES = {"first": BODY, "second": (*OF_SECOND, *BODY), "output": OUTPUT, SWEEP_TABLE: SWEPT}
 KINDS = ("half-space", "sphere", "cup")
 SHAPES = (HalfSpace, Sphere, Cup)
+TABLES = {
+    "first": ("kind", *BODY, *OF_SHAPES),
+    "second": ("kind", *PLATE, *BODY, *OF_SHAPES),
+    "output": OUTPUT,
+    SWEEP_TABLE: SWEPT,
+}
 DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
 
 
@@ -132,17 +141,38 @@ def pair_of(case: Mapping[str, Any]) -> Pair:
     """Return the bodies of a case with their friction, or raise InputError."""
     if case.get("friction") is None:
         raise InputError("friction: missing; give --friction, e.g. 0.2 (0 for none)")
-    first = _sphere("first", "", case.get("first", {}), {})
+    table = case.get("first", {})
+    kind = one_of("kind", table.get("kind", "sphere"), ("sphere", *MADE))
+    first = _made(kind, table) if kind in MADE else _sphere("first", "", table, {})
     return Pair(first, _second(case.get("second", {}), first), case["friction"])
+
+
+def has_shapes(case: Mapping[str, Any]) -> bool:
+    """Tell whether a body of a case is neither sphere nor half-space nor cup."""
+    return any(case.get(body, {}).get("kind") in MADE for body in ("first", "second"))
+
+
+def _made(kind: str, table: Mapping[str, Any]) -> Body:
+    maker, allowed = MADE[kind]
+    others = {*table} - {"kind", "material", *allowed}
+    refuse(*(refusal(n, table[n], f"a {kind} has none; leave it out") for n in sorted(others)))
+    stuff = read_material(_needed(table, kind, "", "material", "steel"))
+    return maker(**{name: table[name] for name in allowed if name in table}, material=stuff)
 
 
 def case_of(pair: Pair) -> Case:
     """Return the case of a pair, plain numbers and words: what `pair_of` makes it from."""
     return {
         "friction": pair.friction,
-        "first": _body_of(pair.first),
-        "second": {"kind": KINDS[SHAPES.index(type(pair.second))], **_body_of(pair.second)},
+        "first": {**_kind_of(pair.first, ()), **_body_of(pair.first)},
+        "second": {**_kind_of(pair.second, SHAPES), **_body_of(pair.second)},
     }
+
+
+def _kind_of(body: Counterbody, shapes: tuple[type, ...]) -> Case:
+    if isinstance(body, Body):
+        return {"kind": "body"}
+    return {"kind": KINDS[shapes.index(type(body))]} if shapes else {}
 
 
 def _body_of(body: Counterbody) -> Case:
@@ -203,13 +233,15 @@ def read_loss(name: str, value: Any) -> float | None:
     return read
 
 
-def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
-    kind = one_of("kind", table.get("kind", KINDS[0]), KINDS)
+def _second(table: Mapping[str, Any], first: Sphere | Body) -> Counterbody | Body:
+    kind = one_of("kind", table.get("kind", KINDS[0]), (*KINDS, *MADE))
+    if kind in MADE:
+        return _made(kind, {"material": first.material, **table})
     for name in PLATE if kind != "half-space" else ():
         if name in table:
             raise refusal(name, table[name], f"a {kind} has none; leave it out")
     if kind == "sphere":
-        same = {"material": first.material, "radius": first.radius}
+        same = {"material": first.material, "radius": getattr(first, "radius", None)}
         return _sphere("second", "second-", table, same)
     for name in reversed(SIZES):
         if name in table and (kind, name) != ("cup", "radius"):

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.bodies.contact_shape import axes_of, check_shapes, curvatures_of, inverse_mass_of
 from carom.bodies.materials import Material, set_fields
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.bodies.smooth_body import Body
@@ -21,12 +22,11 @@ from carom.quantities.refusals import InputError, checked_type, refusal, refuse
 from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative
 
-Counterbody = Sphere | HalfSpace | Cup | Body
+Counterbody = Sphere | HalfSpace | Cup
 ROUND = (Sphere, HalfSpace, Cup)
 LEAST, MOST = 1e-100, 1e100  # of the numbers of an impact
 LEAST_SCALE = 1e-300  # of what may vanish: less loses digits
 OF_FRICTION = ("tangential_length", "tangential_force", "tangential_speed")  # zero without it
-SPACE = "in a plane of symmetry one axis of the contact is along x; give bodies in space"
 SAME_BODIES = 1e-6  # part by which their numbers may differ, as written in few digits
 
 
@@ -122,23 +122,6 @@ def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
     return all(abs(a - b) <= SAME_BODIES * abs(b) for a, b in values)
 
 
-def axes_of(curvatures: Array) -> tuple[tuple[float, float], Array]:
-    """Return both curvatures along the axes of a contact, and these as rows, the first near x."""
-    if curvatures[0, 1] == 0.0:
-        return (float(curvatures[0, 0]), float(curvatures[1, 1])), np.eye(2)
-    values, vectors = np.linalg.eigh(curvatures)
-    order = [0, 1] if abs(vectors[0, 0]) >= abs(vectors[0, 1]) else [1, 0]
-    along = vectors[:, order[0]] * np.copysign(1.0, vectors[0, order[0]])
-    return tuple(values[order].tolist()), np.array([along, [-along[1], along[0]]])
-
-
-def _inverse_mass(body: Any) -> Array:
-    if isinstance(body, Body):
-        return body.inverse_mass
-    tangential = (1.0 + 1.0 / body.gyration_ratio) / body.mass
-    return np.diag([tangential, tangential, 1.0 / body.mass])
-
-
 def pair_fits(pair: "Pair") -> bool:
     """Return whether floating point holds masses and stiffnesses of two bodies together."""
     with suppress(OverflowError, ZeroDivisionError):
@@ -184,18 +167,24 @@ class Pair(Printed):
     sphere (steel, R = 5 mm) on half-space (steel): friction 0.2, chi 1.441, kappa 0.8235
     """
 
-    first: Sphere | Body
+    first: Sphere  # or a Body, which checked_pair keeps from all that takes spheres alone
     second: Counterbody
     friction: float
 
     @known_keywords
-    def __init__(self, first: Sphere | Body, second: Counterbody, friction: Value) -> None:
+    def __init__(self, first: Sphere | Body, second: Counterbody | Body, friction: Value) -> None:
         moves = "must be a Sphere or Body that moves; the other one comes second"
         checked_type("first body", first, (Sphere, Body), moves)
-        if not isinstance(second, Counterbody):
+        if not isinstance(second, Counterbody | Body):
             raise refusal("second body", second, "must be a Sphere, HalfSpace, Cup or Body")
-        refuse(isinstance(first, Body) and first.mass is None and refusal("first body", first, moves))
-        if isinstance(second, Cup) and isinstance(first, Sphere) and not second.radius > first.radius:
+        refuse(
+            isinstance(first, Body) and first.mass is None and refusal("first body", first, moves)
+        )
+        if (
+            isinstance(second, Cup)
+            and isinstance(first, Sphere)
+            and not second.radius > first.radius
+        ):
             raise InputError(
                 f"radius: a cup of {text(second.radius, 'm')} cannot take a sphere of "
                 f"{text(first.radius, 'm')}; the cup must be the larger"
@@ -204,26 +193,13 @@ class Pair(Printed):
             raise InputError("material: both bodies are rigid; one of them must deform")
         mu = not_negative("friction", friction)
         set_fields(self, first=first, second=second, friction=mu)
-        self._check_shapes()
+        if not self.is_round:
+            check_shapes(first, second)
         if not pair_fits(self):
             raise InputError(
                 "pair: sizes, densities and stiffnesses of the bodies give numbers that floating "
                 "point cannot hold; check the units"
             )
-
-    def _check_shapes(self) -> None:
-        if self.is_round:
-            return
-        sharpest = np.linalg.eigvalsh(self.curvatures).tolist()
-        parts = f"{sharpest[0]:.3g} and {sharpest[1]:.3g} 1/m together"
-        others = "the surfaces must part on all sides: both must be positive"
-        refuse(not sharpest[0] > 0.0 and refusal("curvatures", parts, others))
-        free = [body for body in self.moving if isinstance(body, Body)]
-        mixed = len({body.is_planar for body in free}) > 1
-        both = "give both bodies in a plane, or both in space, with inertias of 3 x 3"
-        refuse(mixed and refusal("inertia", free[0].inertia, both))
-        turned = self.is_planar and self.curvatures[0, 1] != 0.0
-        refuse(turned and refusal("curvatures", str(self.curvatures.tolist()), SPACE))
 
     @property
     def is_round(self) -> bool:
@@ -235,18 +211,15 @@ class Pair(Printed):
         """Whether the bodies move in a plane of symmetry, that of x and the normal."""
         return all(not isinstance(b, Body) or b.is_planar for b in (self.first, self.second))
 
-    @property
+    @cached_property
     def curvatures(self) -> Array:
         """Sum of both bodies' curvatures along x and y, in 1/m, shape (2, 2)."""
-        return sum(
-            np.asarray(body.curvatures) if isinstance(body, Body) else body.curvature * np.eye(2)
-            for body in (self.first, self.second)
-        )
+        return curvatures_of(self.first, self.second)
 
-    @property
+    @cached_property
     def inverse_mass(self) -> Array:
         """Inverse mass B at the contact along x, y and the normal, in 1/kg, shape (3, 3)."""
-        return sum(_inverse_mass(body) for body in self.moving)
+        return np.sum([inverse_mass_of(body) for body in self.moving], axis=0)
 
     @cached_property
     def ellipse(self) -> Ellipse:
@@ -325,11 +298,10 @@ class Pair(Printed):
         return 0.5 * (one - two) / whole
 
     @property
-    def moving(self) -> tuple[Any, ...]:
+    def moving(self) -> tuple[Sphere, ...]:
         """The bodies that can move, which are those with a mass."""
-        return tuple(
-            body for body in (self.first, self.second) if getattr(body, "mass", None) is not None
-        )
+        bodies: tuple[Any, ...] = self.first, self.second
+        return tuple(body for body in bodies if getattr(body, "mass", None) is not None)
 
     @property
     def lateral_ratio(self) -> float:
@@ -352,8 +324,8 @@ class Pair(Printed):
         Returns
         -------
         ContactScales
-            `length` d, `radius` sqrt(R* d), of an ellipse the larger semi-axis, `force` P, `pressure` p_0, `tangential_length`
-            mu d/kappa, and `tangential_force` (3/2) mu P.
+            `length` d, `radius` sqrt(R* d), of an ellipse the larger semi-axis, `force` P,
+            `pressure` p_0, `tangential_length` mu d/kappa, and `tangential_force` (3/2) mu P.
 
         Examples
         --------
@@ -361,15 +333,13 @@ class Pair(Printed):
         100.0
         """
         force = 4.0 / 3.0 * self.effective_modulus * sqrt(self.effective_radius) * length**1.5
-        longer, area = 1.0, 1.0
-        if not self.is_round:
-            axes = self.ellipse.along, self.ellipse.across
-            longer, area = max(axes), axes[0] * axes[1]
+        axes = (1.0, 1.0) if self.is_round else self.ellipse[1:3]
+        deepest = 2.0 * self.effective_modulus / pi * sqrt(length / self.effective_radius)
         return ContactScales(
             length=length,
-            radius=longer * sqrt(self.effective_radius * length),
+            radius=max(axes) * sqrt(self.effective_radius * length),
             force=force,
-            pressure=2.0 * self.effective_modulus / pi * sqrt(length / self.effective_radius) / area,
+            pressure=deepest / (axes[0] * axes[1]),
             tangential_length=self.friction * length / self.kappa,
             tangential_force=1.5 * self.friction * force,
         )

@@ -14,7 +14,6 @@ from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative, positive
 
-
 DESCRIBED = {  # of what a body is made, round ones and others
     True: ("radius", "gyration_radius", "inner_radius", "thickness", "width"),
     False: ("mass", "inertia", "contact", "curvatures"),

@@ -12,7 +12,7 @@ from carom.quantities.arrays import Array, numbers
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import Faults, refusal
-from carom.quantities.units import Value, finite, number, positive
+from carom.quantities.units import Value, finite, positive
 
 INERTIAS = "must be a positive number in kg m^2, or in space a symmetric 3 x 3 matrix of them"
 HEAVY = "of no body: each principal moment is at most the sum of both others"
@@ -58,8 +58,8 @@ class Body(Shape):
 
     Examples
     --------
-    >>> rod = carom.Body(mass="10 g", inertia=8.3e-6, contact=(0.03, -0.04), curvature_radius="3 mm",
-    ...     material="steel")
+    >>> size = {"mass": "10 g", "inertia": 8.3e-6, "curvature_radius": "3 mm"}
+    >>> rod = carom.Body(**size, contact=(0.03, -0.04), material="steel")
     >>> rod.inverse_mass[0, 2].round(1)  # b_nt
     -144.6
     """
@@ -122,9 +122,9 @@ class Body(Shape):
     @property
     def slenderness(self) -> float:
         """Largest radius of gyration over the smallest radius of curvature at the contact."""
-        moment = np.linalg.eigvalsh(self.inertia).max() if not self.is_planar else self.inertia
+        tensor = np.atleast_2d(np.asarray(self.inertia or 0.0, dtype=np.float64))
         sharpest = np.abs(np.linalg.eigvalsh(self.curvatures)).max()
-        return float(np.sqrt((moment or 0.0) / (self.mass or 1.0)) * sharpest)
+        return float(np.sqrt(np.linalg.eigvalsh(tensor).max() / (self.mass or 1.0)) * sharpest)
 
     @property
     def turning(self) -> Array:

@@ -5,32 +5,30 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf, nan
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from carom.bodies.pairs import axes_of
+from carom.bodies.contact_shape import axes_of
 from carom.bodies.rigid_motion import RigidMotion
-from carom.dimensionless.lossy.springs.off_centre import Course, OffCentreSolution
-from carom.dimensionless.states import SlipAngle
+from carom.dimensionless.states import History, SlipAngle
+from carom.impacts.exact import Impact
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.impacts.peaks import judge_pressure
-from carom.impacts.result import ImpactResult
 from carom.impacts.validity import OF_SHAPES, judge
-from carom.io.citations import IMPACT, PLATE, bibtex
 from carom.io.labels import Finding, Validity
 from carom.quantities.arrays import Array
+from carom.quantities.refusals import refusal, refuse
 
-if TYPE_CHECKING:
-    import xarray as xr
-
+FLAT = "what happens inside is known of round contacts in a plane; history has the forces"
+ROUND = 1e-9  # by which both axes of a contact may differ that is round
 PARTS = {2: ("", "_across"), 3: ("_x", "_y", "_z")}  # how names of components end
 OF_PLANES = ("rebound_angle", "tangential_restitution", "contact_restitution")  # not in space
-OF_CONTACT = ("approach_speed", "separation_speed", "normal_speed_out", "semi_axis_x", "semi_axis_y")
+OF_CONTACT = ("approach_speed", "separation_speed", "semi_axis_x", "semi_axis_y")
 
 
 @dataclass(frozen=True, eq=False)
-class BodyImpact(ImpactResult):
+class BodyImpact(Impact):
     """The result of `impact` for a `Body`: the rebound, every phase, and the course of it.
 
     SI units. psi_in, psi_out and normal_restitution are those of the contact points; e may exceed
@@ -41,8 +39,8 @@ class BodyImpact(ImpactResult):
 
     Examples
     --------
-    >>> rod = carom.Body(mass="10 g", inertia=8.3e-6, contact=(0.03, -0.04), curvature_radius="3 mm",
-    ...     material="steel")
+    >>> size = {"mass": "10 g", "inertia": 8.3e-6, "curvature_radius": "3 mm"}
+    >>> rod = carom.Body(**size, contact=(0.03, -0.04), material="steel")
     >>> hit = carom.impact(carom.Pair(rod, carom.HalfSpace("steel"), 0.5), normal_speed=1.0)
     >>> round(hit.normal_restitution, 3), round(hit.spin_out, 2)
     (0.8, 1)
@@ -83,7 +81,7 @@ class BodyImpact(ImpactResult):
 
     @property
     def normal_speed_out(self) -> float:
-        """Normal velocity at which the centres leave each other, in m/s; negative if they do not."""
+        """Normal speed of the centres after, in m/s; negative if they still approach."""
         return float(self._after.velocity[2])
 
     @property
@@ -124,12 +122,12 @@ class BodyImpact(ImpactResult):
     @property
     def dissipated_energy(self) -> float:
         """Energy lost to friction, in J."""
-        return float(self._energies(self._course(self.solution.duration))["frictional_work"][0])
+        return float(self._energies(self._at_end)["frictional_work"][0])
 
     @property
     def lost_energy(self) -> float:
         """Energy lost in the normal motion, in J."""
-        return float(self._energies(self._course(self.solution.duration))["normal_loss"][0])
+        return float(self._energies(self._at_end)["normal_loss"][0])
 
     @property
     def shear_lost_energy(self) -> float:
@@ -159,11 +157,16 @@ class BodyImpact(ImpactResult):
     def _after(self) -> Any:
         return self.motion.after(self.pair, self._impulse(*self._end))
 
+    def _motion(self, h: History) -> RigidMotion:
+        """Return the motion at times."""
+        across = getattr(h, "psi_across", np.zeros(len(h)))
+        return self.motion.after(self.pair, self._impulse((h.psi, across), h.centre_speed))
+
     @property
     def _end(self) -> tuple[tuple[float, float], float]:
         """Return psi_2 along both axes, and the approach at the end."""
-        psi = self.solution.psi_out
-        return psi if isinstance(psi, tuple) else (psi, 0.0), -self.solution.restitution
+        across = getattr(self.solution, "psi_across_out", 0.0)
+        return (self.solution.psi_out, across), -self.solution.restitution
 
     @property
     def _units(self) -> Array:
@@ -186,44 +189,37 @@ class BodyImpact(ImpactResult):
         lost = self.motion.at_contact(self.pair) - now @ with_normal(self.axes)
         return np.asarray(lost @ np.linalg.inv(self.pair.inverse_mass))
 
-    def _course(self, times: Any) -> Course:
-        at = np.atleast_1d(times)
-        if isinstance(self.solution, OffCentreSolution):
-            return self.solution.at(at)
-        h, none = self.solution.at(at), np.zeros(at.size)
-        return Course(
-            *(h.time, h.penetration, h.centre_speed),
-            *((h.psi, none), (h.displacement, none), (h.force, none)),
-            *(h.stick_radius, h.contact_radius, h.normal_force),
-            *(h.stored, h.normal_stored, h.normal_stored + h.normal_lost, h.shear_lost),
-        )
+    @property
+    def _at_end(self) -> History:
+        return self.solution.at([self.solution.duration])
 
-    def _energies(self, course: Course) -> dict[str, Array]:
+    def _energies(self, h: History) -> dict[str, Array]:
         """Return all energies at times: what is missing went into friction."""
-        now = self.motion.after(self.pair, self._impulse(course.psi, course.speed))
+        now = self._motion(h)
         normal, tangential, spins = now.energies(self.pair)
         rubs = 0.0 if self.pair.friction == 0.0 else self._shear_unit
         loses = self.losses is not None or self.pair.thickness is not None
-        lost = loses * (course.normal_work - course.normal_stored) * self.scales.energy
-        energies = {
+        lost = loses * h.normal_lost * self.scales.energy
+        energies: dict[str, Any] = {
             "normal_kinetic_energy": normal,
             "tangential_kinetic_energy": tangential,
             "spin_kinetic_energy": spins,
-            "normal_elastic_energy": course.normal_stored * self.scales.energy,
+            "normal_elastic_energy": h.normal_stored * self.scales.energy,
             "normal_loss": lost,
-            "tangential_elastic_energy": course.stored * rubs,
-            "shear_loss": course.shear_lost * rubs,
+            "tangential_elastic_energy": h.stored * rubs,
+            "shear_loss": h.shear_lost * rubs,
         }
         whole = sum(self.motion.energies(self.pair))
         friction = (whole - sum(energies.values())) if rubs else 0.0 * normal
         return energies | {"frictional_work": friction}
 
     def _columns(self, n: int) -> dict[str, Any]:
-        course = self._course(np.linspace(0.0, self.solution.duration, n))
-        now = self.motion.after(self.pair, self._impulse(course.psi, course.speed))
-        force = self._along(course.force, self.scales.tangential_force)
+        h = self.solution.history(n)
+        now, none = self._motion(h), np.zeros(n)
+        across = (getattr(h, f"{name}_across", none) for name in ("force", "displacement"))
+        force = self._along((h.force, next(across)), self.scales.tangential_force)
         lengths = [self.scales.length * self.pair.friction / kappa for kappa in self.pair.kappas]
-        moved = self._along(course.displacement, *lengths)
+        moved = self._along((h.displacement, next(across)), *lengths)
         velocity = now.at_contact(self.pair)
         vectors = {
             "displacement": moved,
@@ -236,20 +232,24 @@ class BodyImpact(ImpactResult):
         for name, values in vectors.items():
             columns |= parts(name, self._spin(values) if "spin" in name else self._plain(values))
         return {
-            "time": course.time * self.scales.time,
-            "penetration": course.penetration * self.scales.length,
+            "time": h.time * self.scales.time,
+            "penetration": h.penetration * self.scales.length,
             "normal_velocity": -now.velocity[:, 2],
             "approach_velocity": velocity[:, 2],
-            "normal_force": course.normal_force * self.scales.force,
-            "contact_radius": course.contact_radius * self.scales.radius,
-            "stick_radius": course.stick_radius * self.scales.radius,
+            "normal_force": h.normal_force * self.scales.force,
+            "contact_radius": h.contact_radius * self.scales.radius,
+            "stick_radius": h.stick_radius * self.scales.radius,
             **columns,
-            **self._energies(course),
+            **self._energies(h),
         }
 
     def scalars(self) -> dict[str, float]:
         """Return the numbers of the result by name; of vectors each component."""
-        names = [n for n in (*RESULTS, *OF_CONTACT) if self.pair.is_planar or n not in OF_PLANES]
+        names = [
+            n
+            for n in ("normal_speed_out", *RESULTS, *OF_CONTACT)
+            if self.pair.is_planar or n not in OF_PLANES
+        ]
         numbers: dict[str, Array] = {}
         for name in names:
             numbers |= parts(name, getattr(self, name))
@@ -264,17 +264,13 @@ class BodyImpact(ImpactResult):
             "spin2": _listed(self.spin2),
         }
 
-    def cite(self) -> str:
-        """Return what to cite for this result, as BibTeX."""
-        source = () if self.losses is None else (self.losses._source,)
-        plate = () if self.pair.thickness is None else (PLATE,)
-        return bibtex(*IMPACT, *source, *plate)
-
     def _phase_columns(self) -> dict[str, list[float]]:
         return {}
 
-    def _picture(self, time: float) -> xr.Dataset:
-        raise NotImplementedError
+    def _refuse_shape(self) -> None:
+        shape = self.pair.ellipse
+        flat = self.pair.is_planar and abs(shape.along / shape.across - 1.0) <= ROUND
+        refuse(not flat and refusal("pair", str(self.pair), FLAT))
 
     def _semi_axis(self, share: float) -> float:
         longer = max(self.pair.ellipse.along, self.pair.ellipse.across)

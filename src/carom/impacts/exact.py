@@ -83,8 +83,12 @@ class Impact(ImpactResult, InContact):
             return (SlipAngle(0.0, 0.0),)
         return self.solution.slip_angles(self.pair.lateral_ratio)
 
+    def _refuse_shape(self) -> None:
+        """Raise InputError if what happens inside such a contact is not known."""
+
     def _contact(self, at: Any) -> Contact:
-        drift = 0.0 if isfinite(self.psi_in) else self.contact_velocity
+        self._refuse_shape()
+        drift = 0.0 if self.pair.friction else self.contact_velocity
         instant, inputs = self._instant(at), {"inputs": self.inputs()}
         return contact_in_impact(self.pair, self.scales, drift, self.solution, instant, inputs)
 
@@ -139,6 +143,7 @@ class Impact(ImpactResult, InContact):
         >>> f"{float(worn.max_wear_depth) * 1e9:.2f} nm"
         '2.26 nm'
         """
+        self._refuse_shape()
         return wear_of(self, n, coefficient, x, y)
 
     def peaks(self, *, depth: Value | None = None) -> xr.Dataset:
@@ -185,6 +190,7 @@ class Impact(ImpactResult, InContact):
         >>> round(float(peaks.peak_tension) / 1e6), round(float(peaks.toughness_ratio), 2)  # MPa
         (1234, 6.92)
         """
+        self._refuse_shape()
         self._refuse_stress()
         from_depth = None if depth is None else not_negative("depth", depth, "m")
         if from_depth == 0.0 and isinstance(self.solution, ViscoelasticSolution):

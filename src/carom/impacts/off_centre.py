@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from carom.bodies.contact_shape import axes_of
 from carom.bodies.kinematics import by_angle, components, slope
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, Scales, axes_of, checked_scales
+from carom.bodies.pairs import Pair, Scales, checked_scales
 from carom.bodies.rigid_motion import RigidMotion
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss
@@ -17,7 +18,7 @@ from carom.dimensionless.lossy.springs.march import SOLIDS
 from carom.dimensionless.lossy.springs.motion import Inertia
 from carom.dimensionless.lossy.springs.off_centre import OffCentreSolution, solve_off_centre
 from carom.dimensionless.solution import Solution
-from carom.impacts.body_impact import BodyImpact, with_normal
+from carom.impacts.body_impact import ROUND, BodyImpact, with_normal
 from carom.impacts.exact import loss_numbers, solution_of
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
@@ -28,13 +29,10 @@ MARCHED = "off the centre of a body take StandardLinearSolid, Metal or ElasticPl
 ROUND_ONLY = "how an ellipse yields is not known; take StandardLinearSolid, or leave losses out"
 IN_PLANE = "must be one number, as the bodies move in a plane; for space give an inertia of 3 x 3"
 IN_SPACE = "must be {} numbers, along x, y{}, as the bodies move in space"
-ROUND = 1e-9  # by which both axes of a contact may differ that is round
 UNCOUPLED = 1e-12  # b_nt over b_nn of a body that is struck through its centre
 
 
-def solve_bodies(
-    pair: Pair, speeds: Mapping[str, Any], losses: LossLaw | None
-) -> BodyImpact:
+def solve_bodies(pair: Pair, speeds: Mapping[str, Any], losses: LossLaw | None) -> BodyImpact:
     """Return an impact of bodies of any shape; see `carom.impact`."""
     motion, axes = read_motion(pair, speeds), axes_of(pair.curvatures)[1]
     *sliding, approach = motion.at_contact(pair)
@@ -42,13 +40,16 @@ def solve_bodies(
     refuse(not approach > 0.0 and refusal("normal_speed", speeds["normal_speed"], leaves))
     scales = checked_scales(pair, float(approach), *map(float, sliding))
     solution = _solution(pair, scales, axes @ sliding, axes, losses)
-    planar = pair.is_planar
+    along: Any
+    along, spin, spin2 = motion.velocity[:2], motion.spin, motion.spin2
+    if pair.is_planar:
+        along, spin, spin2 = (float(v) for v in (along[0], -spin[1], -spin2[1]))
     return BodyImpact(
         pair,
         -float(motion.velocity[2]),
-        float(motion.velocity[0]) if planar else motion.velocity[:2],
-        -float(motion.spin[1]) if planar else motion.spin,
-        -float(motion.spin2[1]) if planar else motion.spin2,
+        along,
+        spin,
+        spin2,
         solution,
         losses,
         scales=scales,
@@ -77,7 +78,9 @@ def read_motion(pair: Pair, speeds: Mapping[str, Any]) -> RigidMotion:
                 spins.append(_vector(name, speeds[name], size))
     turned = [np.array([0.0, -spin[0], 0.0]) if size == 1 else spin for spin in spins]
     fixed = len(pair.moving) == 1 and bool(np.any(turned[1]))
-    refuse(fixed and refusal("spin2", speeds["spin2"], "the second body does not move; leave it out"))
+    refuse(
+        fixed and refusal("spin2", speeds["spin2"], "the second body does not move; leave it out")
+    )
     return RigidMotion(np.array([along[0], along[-1] if size > 1 else 0.0, -normal]), *turned)
 
 
@@ -112,7 +115,9 @@ def _solution(
     if solution.status is not Status.SOLVED:
         numbers_of = f"psi_1 = {psi:.3g}, chi = {inertia.chi:.3g}, eps = {inertia.eps:.3g}"
         why = f"the impact at {numbers_of} is {solution.status.message}"
-        raise refusal("losses" if losses else "contact", losses or pair.first.contact, why)
+        raise refusal(
+            "losses" if losses else "contact", losses or getattr(pair.first, "contact", None), why
+        )
     return solution
 
 

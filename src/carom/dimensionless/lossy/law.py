@@ -80,13 +80,13 @@ def named(numbers: Array, loss: int, status: Any) -> LossyRebounds:
         max_penetration=numbers[..., layout.DEEPEST],
         max_force=force,
         max_radius=radius,
-        max_pressure=largest_pressure(loss, force, radius),
+        max_pressure=_largest_pressure(loss, force, radius),
         shear_lost=numbers[..., layout.SHEAR_LOST],
         status=status,
     )
 
 
-def largest_pressure(loss: int, force: Array, radius: Array) -> Array:
+def _largest_pressure(loss: int, force: Array, radius: Array) -> Array:
     """Return Hertz's, of a yielded sphere on its true radius, of a metal cut where it yields."""
     if loss == Loss.PLASTIC:
         return np.asarray(force / radius**2)

@@ -252,13 +252,7 @@ def kick_and_stretch(
 
 @kernel
 def keep(
-    solid: Solid,
-    ratio: float,
-    now: Array,
-    springs: Array,
-    touching: int,
-    state: Array,
-    row: Array,
+    solid: Solid, ratio: float, now: Array, springs: Array, touching: int, state: Array, row: Array
 ) -> None:
     """Keep a row after a step: motion, energies, how wide the zones are that stick, who slips."""
     row[:] = 0.0

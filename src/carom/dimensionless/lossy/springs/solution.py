@@ -36,8 +36,8 @@ SHORTEST_PHASE = 10.0  # in steps
 class Frames:
     """The springs of an impact after each step."""
 
-    def __init__(self, psi: float, chi: float, solid: Solid) -> None:
-        impact, most = (psi, 0.0, Inertia(chi), solid, SPRINGS), SPRINGS + march.SPARE_SPRINGS
+    def __init__(self, psi: float, across: float, inertia: Inertia, solid: Solid) -> None:
+        impact, most = (psi, across, inertia, solid, SPRINGS), SPRINGS + march.SPARE_SPRINGS
         trial = march.new_work()
         steps = march.trace(*impact, trial, march.new_work(march.LONGEST))
         kept = march.new_work(steps, most)
@@ -176,7 +176,7 @@ class MarchedSolution(LossySolution):
     @cached_property
     def _frames(self) -> Frames:
         """What springs did, of which fields are made."""
-        return Frames(self._first, self.chi, solid_of(self._losses))
+        return Frames(self._first, 0.0, Inertia(self.chi), solid_of(self._losses))
 
     def _contact_at(self, time: float) -> ContactState:
         frames, scale = self._frames, self._scale
