@@ -54,7 +54,7 @@ ALSO = {
 MADE = {  # by functions, which say what is in them
     *("Bench", "Collisions", "Contact", "ContactStep", "Estimate", "Fit", "HalfspaceImpact"),
     *("Impact", "JudgedCollisions", "LoadPath", "Obliquity", "Ranking", "Score", "Solution"),
-    *("AdhesiveImpact", "JointFit", "Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
+    *("AdhesiveImpact", "BodyImpact", "JointFit", "Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
 }
 WITHOUT_EXAMPLE = {"InputError", "EngineError", "Bench"}  # the last needs a program to be run
 INNER = {  # what the parts of Carom say to each other
@@ -82,8 +82,8 @@ FORMULAS = """
 BoundaryElements ElasticPlastic KelvinVoigt StandardLinearSolid Pair Pair.contact_scales Pair.scales
 Pair.lateral_ratio dem.HertzLinearHistory dem.LammpsMindlin dem.LinearSpring dem.StrongeLaw
 dem.ThorntonLaw dem.WaltonBraunLaw laws.ReboundLaw laws.RoughLaw laws.WaltonLaw
-laws.fit_walton results.HalfspaceImpact results.Impact results.Impact.fields results.Impact.stress
-results.Impact.wear results.LoadPath results.Solution results.Solution.traction
+laws.fit_walton results.HalfspaceImpact results.Impact results.BodyImpact.fields results.BodyImpact.stress
+results.BodyImpact.wear results.LoadPath results.Solution results.Solution.traction
 results.Solution.slip_angles results.Fit.advice results.Fit.posterior collide convert_observables
 curve impacts.curves.borders fit impact load_path rebound regime_map solve sweep wear_of_many
 classical.adhesive_impact classical.cattaneo_mindlin classical.critical_obliquity
@@ -163,10 +163,10 @@ def written_at(label):
 
 def test_what_is_public_is_found():
     """The lists of this file hold nothing that is not there."""
-    some = {"impact", "results.Impact.stress", "verify.rank", "plots.plot_cone", "Pair.chi"}
+    some = {"impact", "results.BodyImpact.stress", "verify.rank", "plots.plot_cone", "Pair.chi"}
     assert some <= set(PUBLIC)
     assert {"Pair.chi", "results.Fit.friction"} <= set(PROPERTIES)
-    assert "results.Impact.stress" not in PROPERTIES
+    assert "results.BodyImpact.stress" not in PROPERTIES
     last = {short(label) for label in PUBLIC}
     assert last >= INNER | MADE | WITHOUT_EXAMPLE
     assert set(PUBLIC) >= {*SOURCED, *ALSO}

@@ -214,6 +214,27 @@ def test_what_takes_no_plate_says_so(name: str) -> None:
         OTHERS[name]()
 
 
+ROD = carom.Body(
+    mass="10 g", inertia=8e-6, contact=(0.03, -0.04), curvature_radius="3 mm", material="steel"
+)
+TURNED = carom.Pair(ROD, carom.HalfSpace("steel"), friction=0.2)
+REFUSING = {  # what takes a plate, but spheres alone
+    "collide": lambda: carom.collide(TURNED, velocity1=[[0.0, 0.0, -1.0]], normal=[0.0, 0.0, 1.0]),
+    "fit": lambda: carom.fit({"angle": [0.1], "rebound_angle": [0.1]}, pair=TURNED),
+    "convert_observables": lambda: carom.convert_observables(
+        TURNED, known={"speed": 1.0, "angle": 0.3, "spin_out": 1.0}, wanted="psi_in"
+    ),
+    "ReboundLaw": lambda: carom.collide(TURNED, velocity1=[[0.0, 0.0, -1.0]], normal=[0.0, 0.0, 1.0]),
+}
+
+
+@pytest.mark.parametrize("name", [*OTHERS, *REFUSING])
+def test_what_takes_spheres_alone_says_so(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tests.interface.test_plates.PAIR", TURNED)
+    with pytest.raises(carom.InputError, match=r"pair: .* only carom\.impact takes such bodies"):
+        (REFUSING.get(name) or OTHERS[name])()
+
+
 def test_observables_of_a_rebound_do_not_depend_on_the_plate() -> None:
     """The restitution is among what is known."""
     known = {"speed": 1.0, "angle": 0.3, "normal_restitution": 0.5, "spin_out": -20.0}

@@ -222,7 +222,7 @@ class Pair(Printed):
         return np.sum([inverse_mass_of(body) for body in self.moving], axis=0)
 
     @cached_property
-    def ellipse(self) -> Ellipse:
+    def _ellipse(self) -> Ellipse:
         """The shape of the contact; its axes are those of the curvatures, x by x."""
         along, across = axes_of(self.curvatures)[0]
         return contact_ellipse(along, across)
@@ -231,7 +231,7 @@ class Pair(Printed):
     def kappas(self) -> tuple[float, float]:
         """Ratios of tangential to normal stiffness along both axes of the contact."""
         bodies = [(m.poisson, m.shear_modulus) for m in self._materials]
-        return stiffness_ratios(self.ellipse.share, self.effective_modulus, *bodies)
+        return stiffness_ratios(self._ellipse.share, self.effective_modulus, *bodies)
 
     @property
     def thickness(self) -> float | None:
@@ -254,7 +254,7 @@ class Pair(Printed):
     def effective_radius(self) -> float:
         """Effective radius R*, in m."""
         if not self.is_round:
-            return self.ellipse.radius
+            return self._ellipse.radius
         return 1.0 / (self.first.curvature + self.second.curvature)
 
     @cached_property
@@ -333,7 +333,7 @@ class Pair(Printed):
         100.0
         """
         force = 4.0 / 3.0 * self.effective_modulus * sqrt(self.effective_radius) * length**1.5
-        axes = (1.0, 1.0) if self.is_round else self.ellipse[1:3]
+        axes = (1.0, 1.0) if self.is_round else self._ellipse[1:3]
         deepest = 2.0 * self.effective_modulus / pi * sqrt(length / self.effective_radius)
         return ContactScales(
             length=length,

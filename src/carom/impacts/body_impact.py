@@ -112,12 +112,12 @@ class BodyImpact(Impact):
     @property
     def semi_axis_x(self) -> float:
         """Largest semi-axis of the contact near x, in m."""
-        return self._semi_axis(self.pair.ellipse.along)
+        return self._semi_axis(self.pair._ellipse.along)
 
     @property
     def semi_axis_y(self) -> float:
         """Largest semi-axis of the contact near y, in m."""
-        return self._semi_axis(self.pair.ellipse.across)
+        return self._semi_axis(self.pair._ellipse.across)
 
     @property
     def dissipated_energy(self) -> float:
@@ -141,7 +141,7 @@ class BodyImpact(Impact):
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:
-        """Angle between slip and x, which is not known: NaN."""
+        """Angle between slip and x, which is not known and NaN."""
         return (SlipAngle(nan, nan),) * len(self.phases)
 
     @property
@@ -268,12 +268,12 @@ class BodyImpact(Impact):
         return {}
 
     def _refuse_shape(self) -> None:
-        shape = self.pair.ellipse
+        shape = self.pair._ellipse
         flat = self.pair.is_planar and abs(shape.along / shape.across - 1.0) <= ROUND
         refuse(not flat and refusal("pair", str(self.pair), FLAT))
 
     def _semi_axis(self, share: float) -> float:
-        longer = max(self.pair.ellipse.along, self.pair.ellipse.across)
+        longer = max(self.pair._ellipse.along, self.pair._ellipse.across)
         return self.max_radius * share / longer
 
     def _along(self, pair: tuple[Array, Array], *units: float) -> Array:

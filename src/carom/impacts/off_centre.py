@@ -40,16 +40,15 @@ def solve_bodies(pair: Pair, speeds: Mapping[str, Any], losses: LossLaw | None) 
     refuse(not approach > 0.0 and refusal("normal_speed", speeds["normal_speed"], leaves))
     scales = checked_scales(pair, float(approach), *map(float, sliding))
     solution = _solution(pair, scales, axes @ sliding, axes, losses)
-    along: Any
-    along, spin, spin2 = motion.velocity[:2], motion.spin, motion.spin2
+    moves: tuple[Any, Any, Any] = motion.velocity[:2], motion.spin, motion.spin2
     if pair.is_planar:
-        along, spin, spin2 = (float(v) for v in (along[0], -spin[1], -spin2[1]))
+        moves = float(motion.velocity[0]), -float(motion.spin[1]), -float(motion.spin2[1])
     return BodyImpact(
         pair,
         -float(motion.velocity[2]),
-        along,
-        spin,
-        spin2,
+        moves[0],
+        moves[1],
+        moves[2],
         solution,
         losses,
         scales=scales,
@@ -103,7 +102,7 @@ def _solution(
     psi, across = (
         pair.kappas[i] / pair.kappa * pair.psi(float(sliding[i]), scales.speed) for i in range(2)
     )
-    elliptic = abs(pair.ellipse.along / pair.ellipse.across - 1.0) > ROUND
+    elliptic = abs(pair._ellipse.along / pair._ellipse.across - 1.0) > ROUND
     numbers = loss_numbers(pair, scales, losses)
     yields = numbers.loss in (Loss.PLASTIC, Loss.METAL) and elliptic
     refuse(yields and refusal("losses", losses, ROUND_ONLY))
