@@ -54,7 +54,15 @@ ALSO = {
 MADE = {  # by functions, which say what is in them
     *("Bench", "Collisions", "Contact", "ContactStep", "Estimate", "Fit", "HalfspaceImpact"),
     *("Impact", "JudgedCollisions", "LoadPath", "Obliquity", "Ranking", "Score", "Solution"),
-    *("AdhesiveImpact", "BodyImpact", "JointFit", "Tuning", "Validity", "ViscoelasticSolution", "WaltonFit"),
+    *(
+        "AdhesiveImpact",
+        "BodyImpact",
+        "JointFit",
+        "Tuning",
+        "Validity",
+        "ViscoelasticSolution",
+        "WaltonFit",
+    ),
 }
 WITHOUT_EXAMPLE = {"InputError", "EngineError", "Bench"}  # the last needs a program to be run
 INNER = {  # what the parts of Carom say to each other

@@ -224,7 +224,9 @@ REFUSING = {  # what takes a plate, but spheres alone
     "convert_observables": lambda: carom.convert_observables(
         TURNED, known={"speed": 1.0, "angle": 0.3, "spin_out": 1.0}, wanted="psi_in"
     ),
-    "ReboundLaw": lambda: carom.collide(TURNED, velocity1=[[0.0, 0.0, -1.0]], normal=[0.0, 0.0, 1.0]),
+    "ReboundLaw": lambda: carom.collide(
+        TURNED, velocity1=[[0.0, 0.0, -1.0]], normal=[0.0, 0.0, 1.0]
+    ),
 }
 
 

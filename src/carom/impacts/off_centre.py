@@ -83,6 +83,12 @@ def read_motion(pair: Pair, speeds: Mapping[str, Any]) -> RigidMotion:
     return RigidMotion(np.array([along[0], along[-1] if size > 1 else 0.0, -normal]), *turned)
 
 
+def approach_of(pair: Pair, speeds: Mapping[str, Any]) -> float:
+    """Return the speed at which contact points approach, or raise InputError."""
+    names = ("speed", "angle", "normal_speed", "tangential_speed", "spin", "spin2")
+    return float(read_motion(pair, {n: speeds.get(n) for n in names}).at_contact(pair)[2])
+
+
 def _vector(name: str, value: Any, size: int) -> Array:
     """Return so many finite numbers; none, or one that is zero, are zeros."""
     if value is None or (np.ndim(value) == 0 and (size == 1 or value == 0.0)):

@@ -12,14 +12,15 @@ from carom.io.extras import extra
 from carom.io.progress import Progress, advancing
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag, refuse
+from carom.sweeps.any_shape import problem_of
 from carom.sweeps.designs import Design, points_in
-from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import MemoryRecord, SweepStopped
 from carom.sweeps.schedulers import team
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from carom.sweeps.problem import SweepProblem
     from carom.sweeps.stores import StoreRecord
 
     BlockRecord: TypeAlias = MemoryRecord | StoreRecord  # where the blocks of a sweep are kept
@@ -85,7 +86,7 @@ def sweep(
     >>> dict(result.sizes), int(result.status.max())
     ({'angle': 2, 'friction': 3}, 0)
     """
-    resume, problem = flag("resume", resume), SweepProblem(case, design, outputs)
+    resume, problem = flag("resume", resume), problem_of(case, design, outputs)
     with team(scheduler, workers, problem) as those, _record(problem, store, resume) as record:
         total = prod(design.shape)
         done = total - sum(points_in(box) for box in record.todo)

@@ -13,7 +13,7 @@ from carom.bodies.cases import FROM_STRENGTH, OF_STRENGTH as LAWS_OF_STRENGTH
 from carom.bodies.materials import JUDGED_BY, STRENGTHS
 from carom.bodies.strengths import NO_STRENGTH
 from carom.impacts.outcome import PAIR, RESULTS
-from carom.io.labels import attributes, flags
+from carom.io.labels import attributes, flags, spheres
 from carom.quantities.refusals import checked_type, hint, one_of, refusal, refuse
 from carom.quantities.units import not_negative
 from carom.sweeps.designs import Box, Design, Values, chunk_shape
@@ -172,6 +172,7 @@ def _belongs(name: str, kind: str) -> bool:
 def _refuse_foreign(whole: Common) -> None:
     names = {*whole.design.names, *whole.fixed} - {"second.kind", "second.material"}
     foreign = {name for name in names if not any(_belongs(name, kind) for kind in whole.kinds)}
+    foreign |= {f"first.{name}" for name in cases.OF_SHAPES} & names
     bodies = " or ".join(whole.kinds)
     refuse(*(f"{name}: a {bodies} has none; leave it out" for name in sorted(foreign)))
 
@@ -224,7 +225,7 @@ class SweepProblem:
     ) -> None:
         checked_type("design", design, Design, "must be a Grid, LatinHypercube or Table")
         checked_type("case", case, Mapping, "must be a mapping like a case file, {'friction': 0.2}")
-        wanted = None if outputs is None else _checked(outputs, design.names)
+        wanted = None if outputs is None else checked_outputs(outputs, design.names)
         needed = needed_strengths(wanted or ())
         self.design, self._common = design, common(dict(case), design, needed)
         usual = tuple(n for n in OUTPUTS if n != "spin2_out" or "sphere" in self._common.kinds)
@@ -236,6 +237,11 @@ class SweepProblem:
     def loses(self) -> bool:
         plate = "second.thickness" in {*self.design.names, *self._common.fixed}
         return self._common.loss is not None or plate
+
+    @property
+    def bodies(self) -> str:
+        """What is struck, in words."""
+        return spheres(self.loses)
 
     def chunks(self) -> tuple[int, ...]:
         """Return the shape of the blocks into which the sweep is cut."""
@@ -318,7 +324,8 @@ class SweepProblem:
         return VariableInfo(np.dtype(CODE).name, {**meaning, **flags(labels, first=UNREADABLE)})
 
 
-def _checked(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
+def checked_outputs(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
+    """Return names of results, or raise InputError."""
     results = tuple(dict.fromkeys((*RESULTS, *PAIR, *WANTED)))
     listed = list(outputs) if isinstance(outputs, list | tuple) else []
     allowed = "must be a list of names, e.g. ['rebound_angle']"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.labels import labelled_dataset, spheres
+from carom.io.labels import labelled_dataset
 from carom.quantities.refusals import refusal
 from carom.sweeps.designs import Box, Values, boxes, chunk_shape
 from carom.sweeps.points import WITH_RESULTS, PointStatus
@@ -65,7 +65,7 @@ def blank_dataset(
         name: (problem.design.dims, values, infos[name].attributes)
         for name, values in (arrays or {}).items()
     }
-    title = f"sweep of oblique impacts of {spheres(problem.loses)}"
+    title = f"sweep of oblique impacts of {problem.bodies}"
     attributes = {"title": title, "inputs": identity(problem)}
     return labelled_dataset(variables, problem.design._coords(), attributes)
 
