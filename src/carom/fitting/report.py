@@ -203,15 +203,18 @@ def as_text(fit: FitRecord) -> str:
         f"{problem.trials} row{'s' * (problem.trials != 1)}; "
         f"in brackets {100.0 * fit.confidence:g} % intervals by profile likelihood"
     )
-    told = fit.correlations
-    pairs = [f"{a} and {b} {told[a][b]:+.2f}" for a, b in combinations(told, 2)]
     lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
-    lines += [f"correlations: {', '.join(pairs)}"] if pairs else []
-    tells = [f"note: {note}" for note in fit.notes]
-    if problem.is_normal:
-        return "\n".join([*lines, *tells])
+    tells = [*summary(fit), *(f"note: {note}" for note in fit.notes)]
+    return "\n".join([*lines, *tells, *([] if problem.is_normal else [str(fit.comparison)])])
+
+
+def summary(fit: FitRecord) -> list[str]:
+    """Return the correlations of the parameters and the rows by regime, where there are some."""
+    told = fit.correlations
+    pairs = ", ".join(f"{a} and {b} {told[a][b]:+.2f}" for a, b in combinations(told, 2))
     regimes = "; ".join(f"{count} {name}" for name, count in fit.regimes.items() if count)
-    return "\n".join([*lines, f"rows by regime: {regimes}", *tells, str(fit.comparison)])
+    by_regime = [] if fit._best.model.problem.is_normal else [f"rows by regime: {regimes}"]
+    return [*([f"correlations: {pairs}"] if pairs else []), *by_regime]
 
 
 def _line(estimate: Estimate) -> str:

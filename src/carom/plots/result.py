@@ -92,9 +92,19 @@ def card(
     )
 
 
-def image(title: str, figure: "Figure", dpi: float = DPI) -> str:
+def image(title: str, figure: "Figure") -> str:
     """Return a figure as an image of HTML that holds its pixels."""
+    look = "max-width:100%;background:white"
+    return f"<img alt='{escape(title)}' style='{look}' src='{source(figure, DPI)}'>"
+
+
+def source(figure: "Figure", dpi: float) -> str:
+    """Return a figure as the source of an image of HTML."""
+    return f"data:image/png;base64,{b64encode(png(figure, dpi)).decode('ascii')}"
+
+
+def png(figure: "Figure", dpi: float) -> bytes:
+    """Return a figure as the content of a PNG file."""
     stream = BytesIO()
     figure.savefig(stream, format="png", dpi=dpi)
-    data = f"data:image/png;base64,{b64encode(stream.getvalue()).decode('ascii')}"
-    return f"<img alt='{escape(title)}' style='max-width:100%;background:white' src='{data}'>"
+    return stream.getvalue()
