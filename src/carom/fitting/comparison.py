@@ -114,7 +114,7 @@ class Comparison:
     @property
     def rows(self) -> list[tuple[str, ...]]:
         """The laws as a table with its head, the likeliest first."""
-        rows = [("law", "AICc excess", "weight", "parameters")]
+        rows: list[tuple[str, ...]] = [("law", "AICc excess", "weight", "parameters")]
         for each in sorted(self.standings, key=lambda s: s.excess):
             values = (f"{n} {GLOSSARY[n].text(value, 4)}" for n, value in each.values.items())
             rows.append((each.law, *each.cells, ", ".join(values)))

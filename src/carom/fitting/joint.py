@@ -268,4 +268,4 @@ def _contrasts(model: JointModel, apart: JointModel, at: Array) -> Array:
     for place in range(len(model.parts)):
         own = [apart.free.index(name) for name in apart.names(place)]
         moved[own] = (model.of_part(place, steps) - model.of_part(place, at[np.newaxis])).T
-    return null_space(moved.T).T
+    return np.asarray(null_space(moved.T).T)

@@ -15,8 +15,7 @@ from carom.fitting.options import NAMES, Options
 from carom.fitting.report_file import Reported
 from carom.fitting.result import Fit, assembled
 from carom.io.labels import labelled_dataset
-from carom.plots.documents import Section
-from carom.plots.result import card
+from carom.plots.result import Section, card
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, nearest, refuse
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.fitting.bounces import BOUNCES
 from carom.fitting.budget import budget
 from carom.fitting.comparison import FitRecord
 from carom.fitting.problem import FitProblem
@@ -18,8 +19,7 @@ from carom.io.labels import VERDICTS, Finding
 from carom.io.paths import checked_output
 from carom.io.user_table import ERROR
 from carom.io.version import __version__
-from carom.plots.documents import Section, write_document
-from carom.plots.result import Result
+from carom.plots.result import Result, Section
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import checked_type
 
@@ -75,6 +75,8 @@ class Reported(Result):
         ...     found.report(folder + "/report.html", "Alumina on glass").name
         'report.html'
         """
+        from carom.plots.documents import write_document  # which loads matplotlib
+
         for name, words in (("title", title), ("command", command)):
             checked_type(name, words, str, "must be a text")
         made = Section("How it was made", (f"By Carom {__version__}.",), (), command)
@@ -122,7 +124,10 @@ def _budget(fit: FitRecord) -> Iterator[Section]:
 def _columns(problem: FitProblem, fit: FitRecord) -> Iterator[tuple[str, ...]]:
     """Yield a head, then each column: name, how many values, from where to where, errors."""
     best = fit._best
+    rows = problem.rows.columns
     yield "quantity", "values", "range", "standard deviation"
+    for name in filter(rows.__contains__, BOUNCES):  # from which the speeds were taken
+        yield _column(problem, name, rows[name], rows.get(name + ERROR), "")
     for name, values in problem.before.items():
         errors = problem.before_errors.get(name)
         yield _column(problem, name, values, errors, "none: taken as exact")

@@ -21,8 +21,7 @@ from carom.fitting.report_file import Reported, sections_of
 from carom.impacts.curves import REGIMES
 from carom.io.citations import FITS, PLATE, SAMPLES, VISCOUS, bibtex, with_doi
 from carom.io.progress import Progress
-from carom.plots.documents import Section
-from carom.plots.result import card
+from carom.plots.result import Section, card
 
 if TYPE_CHECKING:
     import xarray as xr

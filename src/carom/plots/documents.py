@@ -1,16 +1,35 @@
-"""Texts, tables and figures as one file that stands alone: HTML or PDF."""
+"""Texts, tables and figures as one file that stands alone: HTML, or pages of a PDF."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
+from io import BytesIO
+from itertools import chain
 from pathlib import Path
+from textwrap import wrap
 from typing import Any, NamedTuple
+
+from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.figure import Figure
+from matplotlib.image import imread
+from matplotlib.lines import Line2D
 
 from carom.io.files import DOCUMENTS
 from carom.io.paths import ending_of, replace_whole
-from carom.plots.result import source
+from carom.plots import look
+from carom.plots.result import Section, png, source
 
-DPI, NARROW = 200, 86.0  # of images; mm, how wide they are on a small screen
-DENSE = "1.7x"  # pixels of an image for one of the screen
+DPI, DENSE = 200, "1.7x"  # of images, and how many pixels of theirs are one of a screen
+NARROW = 86.0  # mm, width of figures on a small screen
+PAGE, MARGIN = (595.3, 841.9), 45.0  # A4 in points
+ROOM, TALLEST = PAGE[0] - 2.0 * MARGIN, 650.0  # width of texts, height of a figure
+LETTER, ADVANCE, GAP = 0.6, 1.4, 8.0  # of a letter and of a line, in sizes; between columns
+FONTS: dict[str, Any] = {
+    "title": {"size": 16.0, "weight": "bold"},
+    "heading": {"size": 11.0, "weight": "bold"},
+    "head": {"size": 9.0, "weight": "bold"},
+    "text": {"size": 9.0},
+    "code": {"size": 7.5, "family": "monospace"},
+}
 STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; margin: 0 auto;
   max-width: 54rem; padding: 1rem; }
@@ -28,25 +47,10 @@ img { display: block; max-width: 100%; }
 """
 
 
-class Section(NamedTuple):
-    """A part of a document: a figure, a table whose first row is its head, paragraphs, code.
-
-    `draw` makes the figure, in a `width` in mm if one is given.
-    """
-
-    heading: str
-    paragraphs: Sequence[str] = ()
-    table: Sequence[Sequence[str]] = ()
-    code: str = ""
-    draw: Callable[..., Any] | None = None
-
-
 def write_document(target: Path, title: str, sections: Sequence[Section]) -> Path:
     """Write a document whole or not at all."""
     if ending_of(target, DOCUMENTS) == ".pdf":
-        from carom.plots.pages import write_pdf  # which loads matplotlib
-
-        return replace_whole(target, lambda where: write_pdf(where, title, sections))
+        return replace_whole(target, lambda where: _write_pdf(where, title, sections))
     content = _html(title, sections)
 
     def write(where: Path) -> None:
@@ -85,3 +89,96 @@ def _section(section: Section) -> str:
 
 def _row(tag: str, cells: Sequence[str]) -> str:
     return f"<tr>{''.join(f'<{tag}>{escape(cell)}</{tag}>' for cell in cells)}</tr>"
+
+
+class Block(NamedTuple):
+    """What is not parted: its height, texts and where they begin, a rule below, or a picture."""
+
+    height: float
+    texts: Sequence[tuple[float, str]] = ()
+    font: str = "text"
+    ruled: bool = False
+    picture: Figure | None = None
+
+
+def _write_pdf(where: Path, title: str, sections: Sequence[Section]) -> None:
+    with look.using(look.carom_settings()), look.quiet(), PdfPages(where) as pdf:
+        pieces = chain([_text(title, "title")], *map(_pieces, sections))
+        for number, blocks in enumerate(_pages(pieces), 1):
+            pdf.savefig(_drawn(blocks, f"{number}"))
+
+
+def _pieces(section: Section) -> Iterator[list[Block]]:
+    """Yield what stands together on a page: heading, figure or table, and what is said of it."""
+    above = [Block(8.0), *_text(section.heading, "heading")]
+    texts, codes = map(_text, section.paragraphs), section.code.split("\n\n")
+    shown = _table(section.table) if section.table else []
+    if section.draw:
+        figure = section.draw()
+        shown = [Block(min(72.0 * figure.get_figheight(), TALLEST), picture=figure)]
+    first = [[*shown, *chain(*texts)]] if shown else texts
+    for part in (*first, *(_text(code.strip(), "code") for code in codes if code.strip())):
+        yield [*above, *part]
+        above = []
+
+
+def _text(words: str, font: str = "text") -> list[Block]:
+    return [_beside([(0.0, ROOM, words)], font)]
+
+
+def _table(table: Sequence[Sequence[str]]) -> list[Block]:
+    """Return the rows of a table, the widest column of which is made narrower until all fit."""
+    letter = LETTER * FONTS["text"]["size"]
+    widths = [letter * max(map(len, column)) for column in zip(*table, strict=True)]
+    while sum(widths) + GAP * len(widths) > ROOM:
+        widths[widths.index(max(widths))] -= letter
+    starts = [sum(widths[:place]) + GAP * place for place in range(len(widths))]
+    rows = [list(zip(starts, widths, row, strict=True)) for row in table]
+    return [_beside(row, "text" if place else "head", True) for place, row in enumerate(rows)]
+
+
+def _beside(cells: Sequence[tuple[float, float, str]], font: str, ruled: bool = False) -> Block:
+    """Return texts beside each other, each from where it begins, in as much room as it has."""
+    size, texts, most = FONTS[font]["size"], [], 1
+    for start, room, words in cells:
+        plain = words.encode(errors="replace").decode().splitlines()
+        lines = [part for line in plain for part in wrap(line, int(room / size / LETTER + 0.5))]
+        texts.append((start, "\n".join(lines)))
+        most = max(most, len(lines))
+    return Block(ADVANCE * size * most + 5.0, texts, font, ruled)
+
+
+def _pages(pieces: Iterable[list[Block]]) -> Iterator[list[Block]]:
+    """Yield the blocks of each page; a piece that is higher than a page goes on on the next."""
+    page: list[Block] = []
+    left = whole = PAGE[1] - 2.0 * MARGIN
+    for piece in pieces:
+        needed = sum(block.height for block in piece)
+        for block in piece:
+            if page and (needed if needed < whole else block.height) > left:
+                yield page
+                page, left = [], whole
+            page.append(block)
+            left, needed = left - block.height, needed - block.height
+    yield page
+
+
+def _drawn(blocks: Sequence[Block], number: str) -> Figure:
+    width, height = PAGE
+    page, top = Figure(figsize=(width / 72.0, height / 72.0)), height - MARGIN
+    page.text(0.5, 0.5 * MARGIN / height, number, ha="center", **FONTS["text"])
+    for block in blocks:
+        for start, words in block.texts:
+            place = (MARGIN + start) / width, top / height
+            page.text(*place, words, va="top", parse_math=False, **FONTS[block.font])
+        top -= block.height
+        if block.ruled:
+            ends = MARGIN / width, 1.0 - MARGIN / width
+            page.add_artist(Line2D(ends, [(top + 2.0) / height] * 2, color="0.8", lw=0.5))
+        if block.picture:
+            pixels = imread(BytesIO(png(block.picture, look.DPI)))
+            across = block.height * pixels.shape[1] / pixels.shape[0]
+            box = MARGIN / width, top / height, across / width, block.height / height
+            axis = page.add_axes(box, frameon=False, xticks=[], yticks=[])
+            axis.imshow(pixels, interpolation="none", aspect="auto")
+    return page

@@ -108,7 +108,7 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         speeds, kept, dataset["restitution_error"].values, **style.POINTS, label="measured"
     )
     _mark(axis, speeds[outliers], values[outliers], dataset["row"].values[outliers])
-    axis.set(xlabel=style.label("normal_speed"), ylabel=style.label("normal_restitution"))
+    axis.set(xlabel=_label("normal_speed", "m/s"), ylabel=_label("normal_restitution", "1"))
     axis.legend(loc="best")
     return figure
 

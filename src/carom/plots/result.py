@@ -2,11 +2,11 @@
 
 from abc import ABC, abstractmethod
 from base64 import b64encode
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from html import escape
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 from carom import plots
 
@@ -17,6 +17,19 @@ if TYPE_CHECKING:
     from carom.plots.look import Look
 
 DPI = 80
+
+
+class Section(NamedTuple):
+    """A part of a report: a figure, a table whose first row is its head, paragraphs, code.
+
+    `draw` makes the figure, in a `width` in mm if one is given.
+    """
+
+    heading: str
+    paragraphs: Sequence[str] = ()
+    table: Sequence[Sequence[str]] = ()
+    code: str = ""
+    draw: "Callable[..., Figure] | None" = None
 
 
 class Result(ABC):
