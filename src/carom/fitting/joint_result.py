@@ -115,6 +115,9 @@ class JointFit(Reported):
             if not each.determined:
                 why = each.reason or "it was not varied"
                 return Difference(parameter, value, reason=f"{name}: {why}")
+        if parameter == "chi" and "kappa" in self.shared:  # of unlike bodies, in proportion to it
+            ends = sorted((first.low - second.low, first.high - second.high))
+            return Difference(parameter, value, *ends)
         r = self._correlation(parameter, one, other)
         below = _joined(first.value - first.low, second.high - second.value, r)
         above = _joined(first.high - first.value, second.value - second.low, r)
@@ -123,8 +126,6 @@ class JointFit(Reported):
     def _correlation(self, parameter: str, one: str, other: str) -> float:
         """Return the correlation of the values of a parameter in two sets."""
         plain = "kappa" if parameter == "chi" else parameter
-        if plain in self.shared:
-            return 1.0
         names = [f"{plain}_{[*self.fits].index(name) + 1}" for name in (one, other)]
         if self._best is None or not {*names} <= {*self._best.model.free}:
             return 0.0

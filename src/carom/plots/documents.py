@@ -115,7 +115,7 @@ def _pieces(section: Section) -> Iterator[list[Block]]:
     shown = _table(section.table) if section.table else []
     if section.draw:
         figure = section.draw()
-        shown = [Block(min(72.0 * figure.get_figheight(), TALLEST), picture=figure)]
+        shown = [Block(min(72.0 * figure.get_figheight(), TALLEST), picture=figure), Block(4.0)]
     first = [[*shown, *chain(*texts)]] if shown else texts
     for part in (*first, *(_text(code.strip(), "code") for code in codes if code.strip())):
         yield [*above, *part]
@@ -139,13 +139,14 @@ def _table(table: Sequence[Sequence[str]]) -> list[Block]:
 
 def _beside(cells: Sequence[tuple[float, float, str]], font: str, ruled: bool = False) -> Block:
     """Return texts beside each other, each from where it begins, in as much room as it has."""
-    size, texts, most = FONTS[font]["size"], [], 1
+    size, texts, count = FONTS[font]["size"], [], 1
     for start, room, words in cells:
+        letters = max(int(room / size / LETTER + 0.5), 1)
         plain = words.encode(errors="replace").decode().splitlines()
-        lines = [part for line in plain for part in wrap(line, int(room / size / LETTER + 0.5))]
+        lines = [part for line in plain for part in wrap(line, letters)]
         texts.append((start, "\n".join(lines)))
-        most = max(most, len(lines))
-    return Block(ADVANCE * size * most + 5.0, texts, font, ruled)
+        count = max(count, len(lines))
+    return Block(ADVANCE * size * count + 5.0, texts, font, ruled)
 
 
 def _pages(pieces: Iterable[list[Block]]) -> Iterator[list[Block]]:
