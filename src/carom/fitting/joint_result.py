@@ -116,8 +116,8 @@ class JointFit(Reported):
                 why = each.reason or "it was not varied"
                 return Difference(parameter, value, reason=f"{name}: {why}")
         if parameter == "chi" and "kappa" in self.shared:  # of unlike bodies, in proportion to it
-            ends = sorted((first.low - second.low, first.high - second.high))
-            return Difference(parameter, value, *ends)
+            low, high = sorted((first.low - second.low, first.high - second.high))
+            return Difference(parameter, value, low, high)
         r = self._correlation(parameter, one, other)
         below = _joined(first.value - first.low, second.high - second.value, r)
         above = _joined(first.high - first.value, second.value - second.low, r)

@@ -124,10 +124,10 @@ def plot_sets(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     sets = [str(name) for name in dataset["set"].values]
     shared = str(dataset.attrs.get("shared", "")).split()
     rows = [*sets, *(["all sets"] if shared else [])]
-    height = 18.0 + PER_SET * len(rows)
-    figure, axes = style.new_figure(
-        1, len(names), width=style.DOUBLE, height=height, keep_height=True, sharey=True
-    )
+    across = len(names) if style.room(style.DOUBLE) > TWO_COLUMNS else 1
+    size: Any = {"width": style.DOUBLE if across > 1 else style.SINGLE, "keep_height": True}
+    size["height"] = (18.0 + PER_SET * len(rows)) * len(names) // across
+    figure, axes = style.new_figure(len(names) // across, across, sharey=True, **size)
     for axis, name in zip(axes.flat, names, strict=True):
         own = dataset.sel(parameter=name)
         own = own.isel(set=slice(0, 1)) if name in shared else own
