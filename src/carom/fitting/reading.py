@@ -296,13 +296,12 @@ def _check_before(
     head_on = (
         "angle: column missing; speed needs it; call the speeds of head-on impacts normal_speed"
     )
-    there = {*before, *rows.hinted}
     if not ways and not rows.hinted.intersection((*observables.INCIDENCE, *FROM_SURFACE)):
         refuse("speed" in before and head_on)
         rows.require("angle")
     twice = f"data: {' and '.join(ways)} give the same twice; leave all but one of them out"
     refuse(len(ways) > 1 and twice)
-    if needing and not there.intersection(WHY_POSITIVE):
+    if needing and not {*WHY_POSITIVE} & {*before, *rows.hinted}:
         needs = f"{needing[0]} needs speed and angle, or normal_speed"
         raise InputError(f"speed: column missing; {needs}")
     for name in filter(before.__contains__, WHY_POSITIVE):

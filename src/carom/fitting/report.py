@@ -1,9 +1,10 @@
 """The result of a fit in words, with usual mistakes in tables that would explain a bad one."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
 from math import inf, isnan, log, pi
+from typing import NamedTuple
 
 import numpy as np
 
@@ -64,26 +65,24 @@ def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]
     """
     problem = whole.model.problem
     trials = [*_turned(problem), *(_trials(problem) if _is_odd(whole, estimates) else ())]
-    likely = {trial: found for trial in trials if (found := _tried(whole, trial)) is not None}
+    likely = [(*found, each.unit) for each in trials if (found := _tried(whole, each))]
     if not likely:
         return []
-    trial = min(likely, key=lambda each: likely[each][0])
-    _refuse_without_unit(problem, trial.unit, likely[trial][1])
-    return [likely[trial][1]]
+    _, words, unit = min(likely)
+    _refuse_without_unit(problem, unit, words)
+    return [words]
 
 
 def _refuse_without_unit(problem: FitProblem, unit: str, words: str) -> None:
     """Raise InputError if spins of a file, without a unit, fit in this one instead of rad/s."""
-    spins = (name for name in (*SPINS, *UNSIGNED) if name in problem.rows.cells)
-    columns = ((name, problem.rows.cells[name]) for name in spins)
+    columns = ((n, c) for n, c in problem.rows.cells.items() if n in (*SPINS, *UNSIGNED))
     bare = {each.head: name for name, each in columns if each.letter and not str(each.unit)}
     if unit and bare:
-        told = REMEDIES.get().columns
-        asked = (
-            f"if they are in {own}, {told({head: f'{bare[head]} [{own}]' for head in bare})}"
-            for own in (unit, "rad/s")
-        )
-        raise InputError(f"{next(iter(bare.values()))}: no unit; {words}; {'; '.join(asked)}")
+        asked = f"{next(iter(bare.values()))}: no unit; {words}"
+        for own in (unit, "rad/s"):
+            remedy = REMEDIES.get().columns({head: f"{bare[head]} [{own}]" for head in bare})
+            asked += f"; if they are in {own}, {remedy}"
+        raise InputError(asked)
 
 
 def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
@@ -99,8 +98,7 @@ def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
     return bool(np.any(is_rough & varies) or np.any(typical > 2.0) or excluded or at_end)
 
 
-@dataclass(frozen=True, eq=False)
-class Trial:
+class Trial(NamedTuple):
     """What the data may be in truth: words, the problem then, factors of the responses in it.
 
     A gain of so much likelihood is enough; a unit is that of spins.
@@ -119,8 +117,7 @@ def _turned(problem: FitProblem) -> Iterator[Trial]:
     if all(np.min(values) > 0.0 for values in before) and _columns(problem, ANGLES):
         turned = {*FROM_SURFACE} & {*problem.rows.columns}
         words = f"angles from the {'normal' if turned else 'surface'}"
-        trial = _changed(words, problem, ANGLES, lambda a: pi / 2.0 - a)
-        yield replace(trial, enough=LIKELIER)
+        yield _changed(words, problem, ANGLES, lambda a: pi / 2.0 - a)._replace(enough=LIKELIER)
 
 
 def _trials(problem: FitProblem) -> Iterator[Trial]:
@@ -132,7 +129,7 @@ def _trials(problem: FitProblem) -> Iterator[Trial]:
         for words, factor in SCALES.items():
             yield _scaled(words, problem, SPINS, factor)
         for unit, factor in SPIN_UNITS.items():
-            yield replace(_scaled(f"spins in {unit}", problem, SPINS, factor), unit=unit)
+            yield _scaled(f"spins in {unit}", problem, SPINS, factor)._replace(unit=unit)
     yield from _swapped(problem)
     for place, name in enumerate(problem.responses):
         for other in set(NAMES.get(name, ())) - set(problem.responses):

@@ -1,6 +1,5 @@
 """Files of tracks: what Tracker, DeepLabCut, SLEAP and hands write, as positions in frames."""
 
-from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -113,9 +112,12 @@ def _missing(table: UserTable, rate: float | None, scale: float | None) -> list[
         there = ", ".join(heading(column.head) for column in table.cells.values())
         listed = f"column missing; the columns are {there}"
         say = "say which are x and y of the ball, and mark_x and mark_y of a mark on it"
-        heads = [f"{point}.{axis}" for point in _points(table)[:2] for axis in ("x", "y")]
-        named = zip(filter(table.names.__contains__, heads), POSITIONS, strict=False)
-        remedy = REMEDIES.get().columns(_in_metres(table, named, scale) or {"HEAD": "x"})
+        own = [f"{point}.{axis}" for point in _points(table)[:2] for axis in ("x", "y")]
+        columns = [table.cells[name] for name in own if name in table.cells]
+        bare = ["" if scale or str(column.unit) else " [m]" for column in columns]
+        named = zip(columns, POSITIONS, bare, strict=False)
+        heads = {column.head: name + unit for column, name, unit in named}
+        remedy = REMEDIES.get().columns(heads or {"HEAD": "x"})
         faults.append(f"x: {listed}; {say}: {remedy}")
     if not {"time", "frame"} & {*table.cells}:
         faults.append("time: column missing; give time, or frame with the frame rate")
@@ -131,17 +133,8 @@ def _about_scale(table: UserTable, scale: float | None) -> list[str]:
         if scale is not None and unit not in ("", *PIXELS):
             return [f"{name}: it is in {unit}; leave the scale of pixels out"]
         if scale is None and (unit in PIXELS or (table.is_of_file and not unit)):
-            heads = {table.cells[n].head: n for n in units if not units[n]}
-            remedy = REMEDIES.get().columns(_in_metres(table, heads.items(), scale))
+            heads = {table.cells[n].head: f"{n} [m]" for n in units if not units[n]}
+            remedy = REMEDIES.get().columns(heads)
             lengths = "" if unit else f"; if it is a length, {remedy}, with its unit"
             return [f"{name}: no unit; give pixels_per_mm or pixels_per_diameter{lengths}"]
     return []
-
-
-def _in_metres(
-    table: UserTable, names: Iterable[tuple[str, str]], scale: float | None
-) -> dict[str, str]:
-    """Return names of positions by heads, in metres where neither head nor scale tell a length."""
-    units = {column.head: str(column.unit) for column in table.cells.values()}
-    bare = [head for head, unit in units.items() if not unit and scale is None]
-    return {head: f"{name} [m]" if head in bare else name for head, name in names}

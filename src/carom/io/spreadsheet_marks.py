@@ -1,7 +1,6 @@
 """Cells of a spreadsheet that have no value: errors, formulas without results, merged ones.
 
-The reader of values gives all of them as blank, as it does what was not measured, and rows that are
-hidden as all others.
+The reader of values gives these as blank, as what was not measured, and hidden rows as others.
 """
 
 import re

@@ -52,12 +52,10 @@ def read_spreadsheet(
     except Exception as error:  # as damaged archives and their XML make the readers raise
         raise refusal(what, path, f"it is no spreadsheet, .xlsx or .ods; {error}") from None
     name, notes = _chosen(what, path, sheets, sheet)
-    cells, full = sheets[name], lambda number: not all(map(is_blank, sheets[name][number - 1]))
-    if hidden := list(filter(full, marks[name].hidden)):
-        told = named("row", hidden)
-        notes.append(
-            f"hidden, as by a filter, and read all the same: {told}; delete what is not meant"
-        )
+    cells = sheets[name]
+    if hidden := [n for n in marks[name].hidden if not all(map(is_blank, cells[n - 1]))]:
+        told = f"hidden, as by a filter, and read all the same: {named('row', hidden)}"
+        notes.append(f"{told}; delete what is not meant")
     return read_rows(_Sheet(what, path, cells, notes), fewest, decimal)
 
 

@@ -149,9 +149,7 @@ def _of_points(rows: Sequence[Sequence[Any]]) -> tuple[list[str], int]:
     heads, last = [_text(cell) for cell in rows[0]], 0
     if heads[0] == DEEPLABCUT:
         last = next((i for i, row in enumerate(rows) if [*row[:1]] == [ITS_AXES]), 0)
-    elif {"x", "y"} <= {*map(_text, rows[1] if len(rows) > 1 else ())} and not {"x", "y"} & {
-        *heads
-    }:
+    elif {"x", "y"} <= {_text(cell) for row in rows[1:2] for cell in row} - {*heads}:
         last = 1
     if not last:
         return heads, 1

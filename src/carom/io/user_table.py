@@ -204,14 +204,6 @@ def in_units(
     number, a value that is missing in another column, a unit that does not fit, an error that has
     no unit where its column has one, angles that cannot be in rad, and speeds of bodies that do not
     approach.
-
-    Examples
-    --------
-    >>> from carom.io.tables import read_table
-    >>> table = read_table({"angle [deg]": [0.0, 60.0], "spin_out [rpm]": ["-", -600]})
-    >>> given = in_units(table, ("angle", "spin_out"), gaps=("spin_out",))
-    >>> given["angle"].round(4), given["spin_out"].round(2)
-    (array([0.    , 1.0472]), array([   nan, -62.83]))
     """
     faults = faults or Faults()
     table, missing = table.told(faults), dict[str, Mask]()
@@ -289,29 +281,12 @@ def suggested(name: str, column: Column, names: Iterable[str]) -> tuple[str, str
     if not hint or (not column.fault and column.missing.all()):
         return "", ""
     known, unit = hint.partition(" [")[0], str(column.unit)
-    si = GLOSSARY[entry(known)].unit
-    if is_open(known, unit) or (hint == known and not unit and _needs_unit(known, column)):
-        return hint, f"{known} [{USUAL_UNITS.get(si, si)}]"
-    return hint, known if unit else hint
-
-
-def _needs_unit(name: str, column: Column) -> bool:
-    """Tell whether numbers in a column of a file are asked for a unit, as its head has none."""
-    if entry(name) in HEIGHTS:
-        return _is_bare(column)
-    degrees = (
-        column_in_si(name, "rad", "", column.cells)[0]
-        if GLOSSARY[entry(name)].unit == "rad"
-        else ()
-    )
-    return bool(np.any(np.abs(degrees) >= 0.5 * pi))
-
-
-def _is_bare(column: Column) -> bool:
-    """Tell whether a cell of a column without a unit has none of its own."""
-    cells = column.cells
-    numbers = (str(cell).strip()[-1:].isdigit() for cell in cells)
-    return not str(column.unit) and (not isinstance(cells, list) or any(numbers))
+    si = GLOSSARY[entry(known)].unit if entry(known) in GLOSSARY else "1"
+    needs = is_open(known, unit) or (entry(known) in HEIGHTS and column.is_bare)
+    if si == "rad" and hint == known and not unit:
+        needs = bool(np.any(np.abs(column_in_si(known, si, "", column.cells)[0]) >= 0.5 * pi))
+    named = f"{known} [{USUAL_UNITS.get(si, si)}]" if needs else known if unit else hint
+    return hint, named
 
 
 def entry(name: str) -> str:
@@ -368,7 +343,7 @@ def _check_values(name: str, table: UserTable, open_ended: bool) -> None:
         table.refuse(name, values <= 0.0, f"must be positive{WHY_POSITIVE[name]}")
     if entry(name) in HEIGHTS:
         far = table.cells[name].letter or np.any(np.abs(values) > HIGHEST_DROP)
-        if far and _is_bare(table.cells[name]):
+        if far and table.cells[name].is_bare:
             heads = " or ".join(f"'{name} [{each}]'" for each in ("m", "cm", "mm"))
             table.faults.add(f"{name}: no unit, and heights may be in m, cm or mm; write {heads}")
     if name in GLOSSARY and GLOSSARY[name].unit == "rad" and not name.startswith("surface"):
