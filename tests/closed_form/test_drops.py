@@ -199,7 +199,7 @@ def test_drops_are_stored_drawn_and_told(tmp_path):
     carom.save(result.to_dataset(), tmp_path / "drops.nc")
     stored = carom.read(tmp_path / "drops.nc")
     (axis,) = plot_drops(stored).axes
-    assert axis.get_xlabel() == "$V_1$\u00a0(m/s)"
+    assert axis.get_xlabel() == "normal speed $V_1$\u00a0(m/s)"
     assert len(result.plot().axes) == 1
     losses = json.loads(json.dumps(result.to_dict(), allow_nan=False))["losses"]
     assert losses["KelvinVoigt"]["loss_time"]["value"] == pytest.approx(2e-6, rel=1e-3)

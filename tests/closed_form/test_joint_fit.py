@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
-from scipy.stats import chi2, t as student
+from scipy.stats import chi2, t as student, ttest_ind
 from tests.checks import refused
 
 import carom
@@ -194,6 +194,16 @@ def test_sets_that_contradict_each_other_are_told():
     assert "the sets agree" in same.verdict
 
 
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_the_agreement_of_two_means_is_that_of_welch(seed):
+    """Drops of one height, least squares: e is a mean, and means agree as by Welch's t test."""
+    random = np.random.default_rng(seed)
+    ratios = random.normal(0.9, 0.004, 5), random.normal(0.9, 0.02, 12)
+    sets = [{"normal_speed": np.full(e.size, 0.3), "normal_restitution": e} for e in ratios]
+    joint = joint_fit(sets, share="restitution", pair=pair_of(), robust=False)
+    assert joint.agreement == pytest.approx(ttest_ind(*ratios, equal_var=False).pvalue, rel=2e-3)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("errors", ["stated", "from the scatter"])
 def test_intervals_and_agreement_hold_as_often_as_they_say(errors):
@@ -215,6 +225,18 @@ def test_intervals_and_agreement_hold_as_often_as_they_say(errors):
     assert 180 <= inside <= 199  # 190 +- 3.2 standard deviations
     assert 180 <= differences <= 199
     assert 2 <= unlikely <= 20
+
+
+def test_chi_of_unlike_balls_differs_though_they_share_kappa():
+    """A solid ball and a hollow one: chi = (kappa/2)(m_n/m_t), with one kappa."""
+    hollow = carom.Sphere(radius="5 mm", material="steel", inner_radius="4.5 mm")
+    pairs = [pair_of(), carom.Pair(hollow, STEEL, friction=0.15)]
+    joint = joint_fit([measured(14), measured(15)], share="kappa", pair=pairs)
+    kappa, ratios = joint["set 1"].kappa, [pair.chi / pair.kappa for pair in pairs]
+    less = joint.difference("chi", "set 2", "set 1")
+    assert less.value == pytest.approx((ratios[1] - ratios[0]) * kappa.value, rel=1e-9)
+    width = (ratios[1] - ratios[0]) * (kappa.high - kappa.low)
+    assert abs(less.high - less.low) == pytest.approx(abs(width), rel=1e-6)
 
 
 def test_what_cannot_be_joined_is_refused():
@@ -253,7 +275,14 @@ def test_the_result_is_stored_drawn_and_reported(tmp_path):
     joint = joint_fit({"a": measured(11), "b": measured(12)}, share="friction", pair=pair_of())
     dataset = joint.to_dataset()
     assert float(dataset["value"].sel(set="b", parameter="kappa")) == joint["b"].kappa.value
-    assert len(joint.plot(tmp_path / "sets.png").axes) == len(dataset["parameter"])
+    axes = dict(
+        zip(dataset["parameter"].values, joint.plot(tmp_path / "sets.png").axes, strict=True)
+    )
+    drawn = {name: len(axis.lines[0].get_xdata()) for name, axis in axes.items()}
+    assert drawn == {"friction": 1, "kappa": 2, "chi": 2, "restitution": 2}  # a shared one once
+    assert axes["friction"].get_xlabel() == r"friction $\mu$"
+    places = [text.get_text() for text in axes["friction"].get_yticklabels()]
+    assert places == ["a", "b", "all sets"]
     assert joint["a"].report(tmp_path / "a.html").exists()
     assert "the other data" in (tmp_path / "a.html").read_text(encoding="utf-8")
     assert joint.to_dict()["differences"]["kappa"]["b"]["value"] == pytest.approx(

@@ -118,7 +118,7 @@ def test_all_faults_of_all_tracks_are_told_with_their_cells(tmp_path):
         r"track .*one.csv: .*line 4 has 2 values, the header has 3 names",
         r"x: not a number in cell A3; '1.x' cannot",
         r"y: it is in mm; leave the scale",
-        r"x: column missing; the columns are a, y, frame",
+        r"x: column missing; the columns are a, y \[mm\], frame",
         r"track .*two.csv: frame_rate: missing",
     ):
         assert re.search(words, line), words
@@ -236,9 +236,10 @@ def test_what_cannot_be_used_is_refused(words, case):
 def test_lengths_of_a_file_without_a_unit_are_asked_for(tmp_path):
     path = tmp_path / "track.csv"
     path.write_text(BARE)
-    refused(
-        r"x: no unit; give pixels_per_mm .*--column 'x=x \[m\]'", carom.track, path, frame_rate=9
-    )
+    line = refused("x: no unit; give pixels_per_mm", carom.track, path, frame_rate=9)
+    assert "if it is a length, give columns={'x': 'x [m]', 'y': 'y [m]'}" in line
+    path.write_text("mass_A,,,mass_B,,\nt,x,y,t,x,y\n0,1,2,0,1,2\n1,3,2,2,3,2\n")
+    refused("time: mass_A.t and mass_B.t differ; give all points of a time", carom.track, path)
 
 
 @pytest.mark.parametrize("separator", [";", "\t"])

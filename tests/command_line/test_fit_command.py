@@ -207,7 +207,11 @@ def test_two_files_are_compared(run, tmp_path, table):
     (tmp_path / "other.csv").write_text(table)
     both = ("fit", "data.csv", "other.csv", "--case", "ball.toml", "--fix", "restitution=1")
     assert "other.csv less data.csv: 0 (" in run(*both)[1]
-    result = json.loads(run(*both, "--share", "friction", "--json")[1])
+    result = json.loads(run(*both, "--share", "friction", "--json", "--report", "a.html")[1])
+    page = (tmp_path / "a.html").read_text(encoding="utf-8")
+    assert "<h1>Rebounds of data.csv and other.csv</h1>" in page
+    for heading in ("Parameters of the sets", "data.csv: Parameters", "other.csv: Notes"):
+        assert f"<h2>{heading}</h2>" in page
     assert result["shared"] == ["friction"]
     assert result["agreement"] == pytest.approx(1.0, abs=1e-3)
     assert [*result["differences"]] == ["kappa", "chi"]
@@ -226,8 +230,8 @@ def test_faults_of_several_files_are_told_together(refusal, tmp_path):
     line = refusal("fit", "data.csv", "bad.csv", "--case", "ball.toml")
     assert "bad.csv" in line
     assert "B3" in line
-    line = refusal("fit", "data.csv", "bad.csv", "--report", "a.html", "--advice", "3")
-    assert "report" in line
+    line = refusal("fit", "data.csv", "bad.csv", "--posterior", "a.csv", "--advice", "3")
+    assert "posterior" in line
     assert "advice" in line
     words = refusal("fit", "data.csv", "bad.csv", *(3 * ("--case", "ball.toml")))
     assert "3 for 2 files" in words

@@ -87,6 +87,69 @@ def test_a_decimal_sign_may_be_said(stored):
     refused("decimal: only a file has it", read_table, {"a": ["1,5"], "b": [1]}, decimal=",")
 
 
+BLANKS = {  # between columns; words of the line that refuses, or the names of columns
+    "angle speed\n10 1.5\n20 1.6\n": ("angle", "speed"),
+    "angle   spin_out\n 10  -0.5 \n20 NaN\n": ("angle", "spin_out"),
+    "angle ,speed\n1 ,2\n3 ,4\n": ("angle", "speed"),
+    "# angle speed\n1 2\n3 4\n": ("angle", "speed"),  # of NumPy's savetxt
+    "angle[deg] speed[m/s]\n10,5 1,5\n20 1,6\n": ("angle", "speed"),
+    "angle speed\n1, 2\n3, 4\n": "the first line holds numbers",  # commas between
+    "angle [deg] speed [m/s]\n10 1.5\n20 1.6\n": "so are words of its head; write angle\\[deg\\]",
+    "speed [m/s]\n10 1.5\n20 1.6\n": "so are words of its head",
+    "angle speed\n10 1.5\n20\n": "give columns separated",
+    "angle note\n10 good\n20 bad\n": "give columns separated",
+}
+
+
+@pytest.mark.parametrize("content", BLANKS)
+def test_columns_between_blanks_are_read_where_they_can_be_nothing_else(content, stored):
+    expected = BLANKS[content]
+    if isinstance(expected, str):
+        refused(expected, read_table, stored(content))
+        return
+    table = read_table(stored(content))
+    assert table.names == expected
+    own = [line.replace(" ,", " ").replace(",", ".").split() for line in content.splitlines()[1:]]
+    for name, cells in zip(expected, zip(*own, strict=True), strict=True):
+        values = column_in_si(name, "1", "", table.column(name).cells)[0]
+        np.testing.assert_array_equal(values, [float(cell) for cell in cells])
+
+
+@pytest.mark.parametrize("date", ["2024-05-03", "2024-05-03 00:00:00", "01.05.2024", "5/3/24"])
+def test_dates_in_a_column_are_said_to_be_dates(date, stored):
+    """As spreadsheets make of numbers; not that a part of them is no unit."""
+    file = stored(f"angle;spin_out\n0.1;1\n0.2;{date}\n")
+    line = refused(
+        "^spin_out: not a number in cell B3; .* it is a date", carom.fit, file, pair=PAIR
+    )
+    assert "is not a unit" not in line
+
+
+@pytest.mark.parametrize(
+    "text", ["angel;speed;spin_out\n0.1;1;2\n", "angle;sped;spin_out\n0.1;1;2\n"]
+)
+def test_a_misspelt_column_is_one_fault(text, stored):
+    line = refused("unknown column; did you mean", carom.fit, stored(text), pair=PAIR)
+    assert "column missing" not in line
+    assert "faults" not in line
+
+
+def test_of_a_misspelt_drop_height_the_bounces_are_not_read(stored):
+    text = "drop_hight [cm];rebound_height [cm]\n20;16\n30;24\n"
+    line = refused("^drop_hight: unknown column", carom.fit, stored(text), pair=PAIR)
+    assert "If so, give columns={'drop_hight [cm]': 'drop_height'}" in line
+
+
+def test_an_error_in_other_words_is_asked_with_the_unit_of_its_column(stored):
+    text = "angle [deg];spin_out [rpm];omega_error\n10;-5;1\n20;-7;1\n"
+    refused(
+        r"give columns=\{'omega_error': 'spin_out_error \[rpm\]'\}",
+        carom.fit,
+        stored(text),
+        pair=PAIR,
+    )
+
+
 MISSING = ["", "-", "NaN", "nan", "NA", "n/a", "N/A", " ", "#N/A", "\N{EN DASH}"]
 
 
@@ -116,7 +179,7 @@ def test_all_faults_are_said_at_once_with_what_mends_them(stored):
     text = "Winkel [°];theta_r;speed;spin_out [rpm]\n10;5;1;fast\n20;6;;-1,234\n30;7;2;0.5\n"
     line = refused("^4 faults: ", carom.fit, stored(text), pair=PAIR)
     assert "If so, give columns={'Winkel [°]': 'angle'}" in line
-    assert "If so, give columns={'theta_r': 'rebound_angle'}" in line
+    assert "If so, give columns={'theta_r': 'rebound_angle [deg]'}, with the unit" in line
     assert "spin_out: -1,234 in cell D3 and 0.5 in cell D4 have different decimal signs" in line
     assert "speed: no value in cell C3" in line
 
@@ -143,7 +206,6 @@ FAULTS = (
     "rebound_angle: 'Ohm' cannot be used; unit 'Ohm' is not known",
     "speed: no value in cell B5",
     "spin2: 1,234 in cell G2 and 3.5 in cell G5 have different decimal signs",
-    "angle: column missing; speed needs it",
 )
 
 
@@ -271,11 +333,11 @@ def test_a_percentage_of_a_sheet_is_not_taken_for_a_ratio_of_one(stored):
     )
 
 
-def document(*rows):
+def document(*rows, hidden=()):
     """Return an .ods of rows of numbers, texts, or attributes of a cell and what it shows."""
     book, sheet, file = OpenDocumentSpreadsheet(), Table(name="A"), io.BytesIO()
-    for cells in rows:
-        row = TableRow()
+    for number, cells in enumerate(rows, 1):
+        row = TableRow(**({"visibility": "filter"} if number in hidden else {}))
         for cell in cells:
             own, shown = cell if isinstance(cell, tuple) else ({}, cell)
             if isinstance(shown, float):
@@ -350,6 +412,24 @@ def test_errors_at_the_edges_of_a_sheet_are_found(stored):
     twice = {**DIVIDED, "numbercolumnsrepeated": 2}
     table = read_table(stored(document(["a", "b", "c"], [1.0, (twice, "#DIV/0!")], [1.0] * 3)))
     assert [column.cells[0] for column in table.cells.values()] == [1.0, "#DIV/0!", "#DIV/0!"]
+
+
+def test_hidden_rows_are_read_and_said(stored):
+    """As a filter or a hand hides them; blank ones are not counted."""
+    rows = [HEADS, *([10.0 * i, 1.0, -200.0 * i] for i in (1, 2, 3, 4)), [None] * 3]
+    book = openpyxl.Workbook()
+    for cells in rows:
+        book.active.append(cells)
+    for number in (3, 4, 6):
+        book.active.row_dimensions[number].hidden = True
+    odf = document(HEADS, *rows[1:5], [""] * 3, hidden=(3, 4, 6))
+    told = "hidden, as by a filter, and read all the same: rows 3 and 4; delete what is not meant"
+    for content in (of_book(book), odf):
+        result = carom.fit(stored(content), pair=PAIR, fixed={"restitution": 1.0})
+        assert told in result.notes
+        assert result.to_dict()["rows"] == 4
+    shown = carom.fit(stored(workbook(*rows[:5])), pair=PAIR, fixed={"restitution": 1.0})
+    assert not [note for note in shown.notes if "hidden" in note]
 
 
 def test_a_number_of_merged_cells_is_that_of_none_beside(stored):

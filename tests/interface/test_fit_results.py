@@ -77,8 +77,9 @@ def test_a_stored_fit_is_drawn_without_fitting(result, tmp_path):
     np.testing.assert_array_equal(stored.measured, result.to_dataset().measured)
     figure = plot_fit(stored)
     assert len(figure.axes) == 4  # curves and residuals of two responses
-    symbols = [GLOSSARY[str(name)].symbol for name in stored["response"].values]
-    assert {axis.get_ylabel().split("\u00a0")[0] for axis in figure.axes} == {*symbols, "residual"}
+    names = [str(name) for name in stored["response"].values]
+    labels = [f"{name.replace('_', ' ')} {GLOSSARY[name].symbol}" for name in names]
+    assert {axis.get_ylabel().split("\u00a0")[0] for axis in figure.axes} == {*labels, "residual"}
     names = [text.get_text() for text in figure.legends[0].get_texts()]
     assert names == ["exact", "rigid Coulomb", "Walton", *REGIMES]  # as in all figures
 

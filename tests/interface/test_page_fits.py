@@ -129,6 +129,25 @@ def test_columns_say_what_they_were_taken_for():
     assert columns[3]["kind"] == "standard deviation"
 
 
+def test_groups_are_offered_and_said():
+    rows = "a;20;-9\na;20;-10\nb;40;-20\nb;40;-21\nc;60;-30\nc;60;-29\n"
+    text = f"Gruppe;angle [deg];speed [m/s];spin_out\n{rows.replace(';', ';', 1)}"
+    named = "group;angle [deg];spin_out;normal_restitution\n" + rows.replace("\n", ";0.9\n")
+    reply = asked(f"speed;{named}".replace("\n", "\n1;", 6), "given=bodies")
+    assert reply["columns"][1]["kind"] == "repeats"
+    assert reply["columns"][1]["meaning"] == "setting that rows of a table repeat"
+    offers = {each["name"]: each["words"] for each in reply["lists"]["quantities"]}
+    assert offers["group"] == "setting that rows of a table repeat"
+    rows, _ = offered(text)
+    assert (rows["Gruppe"]["name"], rows["Gruppe"]["suggested"]) == ("group", True)
+    drops = (
+        "group;drop_height [cm];rebound_height [cm];rebound_height_2 [cm]\na;20;16;13\na;20;16;13\n"
+    )
+    refused(
+        "group: bounces of a drop are no repeats of one setting, as", asked, drops, "given=bodies"
+    )
+
+
 def test_drops_are_told_as_restitution_against_speed():
     drops = "drop_height [mm],rebound_height [mm]\n100,60\n200,100\n400,170\n800,290\n"
     reply = asked(drops, "given=bodies")

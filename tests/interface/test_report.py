@@ -5,6 +5,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_pdf import PdfPages
 from tests.checks import refused
 
 import carom
@@ -15,14 +16,16 @@ PAIR = carom.Pair(BALL, carom.HalfSpace(material="bearing steel"), friction=0.12
 DEGREES = np.array([5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 50.0, 60.0])
 HOSTILE = "<script>alert(1)</script>&\"'"
 SECTIONS = [
-    "Result",
-    "What the uncertainty comes from",
     "What was read",
+    "Data and fit",
+    "Parameters",
+    "What the uncertainty comes from",
     "What was neglected",
     "Notes",
-    "Laws",
+    "Laws of rebound",
     "To copy into a paper",
     "How it was made",
+    "References",
 ]
 
 
@@ -36,7 +39,7 @@ class Tags(HTMLParser):
 
     def handle_starttag(self, tag, attributes):
         self.tags.append((tag, dict(attributes)))
-        if tag not in {"meta", "img"}:
+        if tag not in {"meta", "img", "source"}:
             self.open.append(tag)
 
     def handle_endtag(self, tag):
@@ -82,8 +85,9 @@ def test_it_stands_alone_without_scripts(page):
     tags = Tags(page).tags
     assert not {name for name, _ in tags} & {"script", "link", "iframe", "object", "form", "a"}
     assert not [key for _, attributes in tags for key in attributes if key.startswith("on")]
-    sources = [attributes["src"] for name, attributes in tags if name == "img"]
+    sources = [attributes["srcset"] for name, attributes in tags if name in ("img", "source")]
     assert len(sources) == 2
+    assert sources[0] != sources[1]  # for a wide and a narrow screen
     assert all(source.startswith("data:image/png;base64,") for source in sources)
     policy = [a["content"] for name, a in tags if name == "meta" and "content" in a][-1]
     assert "default-src 'none'" in policy
@@ -103,7 +107,7 @@ def test_it_tells_the_parameters_the_outlier_and_the_sentence(page, outlying):
     assert "outliers: row 6" in text
     assert "From 8 rebounds of a sphere (bearing-steel, R = 10 mm)" in text
     assert "restitution 1 held fixed" in text
-    assert "speed_error, angle_error: none, so they are taken as zero" in text.replace(
+    assert "speed_error, angle_error: none, taken as zero" in text.replace(
         "angle_error, speed_error", "speed_error, angle_error"
     )
     assert "both bodies stay elastic" in text
@@ -132,17 +136,49 @@ def test_normal_drops_have_a_report_of_the_restitution_alone(tmp_path):
     heights = {"drop_height": np.full(5, 0.02), "rebound_height": 0.02 * np.linspace(0.8, 0.84, 5)}
     found = carom.fit(heights, pair=PAIR)
     page = found.report(tmp_path / "drops.html").read_text()
-    assert "Laws" not in Tags(page).headings
+    assert "Laws of rebound" not in Tags(page).headings
+    assert "drop_height" in page
+    assert "rebound_height" in page
     assert "From 5 drops of a sphere" in page
     assert "Maw, Barber &amp; Fawcett" not in page
     assert found.plot().axes[1].get_xlabel() == "row"
 
 
-def test_a_pdf_has_pages_of_text_and_the_figure(outlying, tmp_path):
-    path = outlying.report(tmp_path / "report.pdf", "Title $x \ud800", "carom fit $")
+@pytest.fixture
+def pages(monkeypatch):
+    """The figures that become the pages of a PDF."""
+    kept, save = [], PdfPages.savefig
+
+    def keep(self, figure):
+        kept.append(figure)
+        save(self, figure)
+
+    monkeypatch.setattr(PdfPages, "savefig", keep)
+    return kept
+
+
+def test_pages_have_room_for_all_texts_and_the_figure_below_its_heading(outlying, tmp_path, pages):
+    path = outlying.report(tmp_path / "report.pdf", "Title $x \ud800", "carom fit $" + 300 * "x")
     content = path.read_bytes()
     assert content.startswith(b"%PDF")
-    assert content.count(b"/Type /Page ") == 3
+    assert content.count(b"/Type /Page ") == len(pages) >= 3
+    words = [text.get_text() for page in pages for text in page.texts]
+    assert words[1] == "Title $x ?"
+    assert [each for each in words if each in SECTIONS] == SECTIONS
+    for page in pages:
+        boxes = [text.get_window_extent() for text in page.texts if text.get_text()]
+        boxes += [axis.get_window_extent() for axis in page.axes]
+        for place, box in enumerate(boxes):
+            assert page.bbox.x0 < box.x0 < box.x1 < page.bbox.x1
+            assert page.bbox.y0 < box.y0 < box.y1 < page.bbox.y1
+            assert not any(box.overlaps(other) for other in boxes[:place])
+
+
+def test_tables_stand_whole_on_a_page_with_their_heading(outlying, tmp_path, pages):
+    outlying.report(tmp_path / "report.pdf")
+    laws = ["Laws of rebound", "exact", "Walton", "rigid Coulomb"]
+    places = [{text.get_text() for text in page.texts} & {*laws} for page in pages]
+    assert sorted(map(len, places)) == [0] * (len(pages) - 1) + [len(laws)]
 
 
 def test_another_ending_is_refused_and_nothing_written(outlying, tmp_path):
@@ -158,7 +194,7 @@ def test_a_report_that_fails_leaves_the_old_one(outlying, tmp_path, monkeypatch)
     def fail(*_, **__):
         raise RuntimeError("full")
 
-    monkeypatch.setattr("matplotlib.backends.backend_pdf.PdfPages.savefig", fail)
+    monkeypatch.setattr(PdfPages, "savefig", fail)
     with pytest.raises(RuntimeError, match="full"):
         outlying.report(old)
     assert old.read_text() == "old"

@@ -112,6 +112,6 @@ def test_what_is_no_group_is_refused():
     words = r"2 faults: \(1\) group: in a angle goes from 10 to 70 deg .* rows of a group repeat"
     refused(words, carom.fit, series, pair=PAIR)
     drops = {"h0": ["1 m", "1 m"], "h1": ["0.8 m", "0.81 m"], "h2": ["0.64 m", "0.65 m"]}
-    words = "group: it cannot be used with several bounces of a drop"
+    words = "group: bounces of a drop are no repeats of one setting"
     refused(words, carom.fit, {**drops, "group": ["a", "a"]}, pair=PAIR)
     refused("did you mean 'group'", carom.fit, {**table, "Gruppe": ["a"] * 60}, pair=PAIR)

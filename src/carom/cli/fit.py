@@ -121,8 +121,9 @@ def fit_command(
     sources, cases = _sources(data, dataset), case or []
     count, sampling = _checked_numbers(advice, about, steps, seed)
     outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
-    inputs = {**_numbered("data", sources), **_numbered("case", [*dict.fromkeys(cases)])}
-    check_outputs(outputs, **inputs)
+    check_outputs(
+        outputs, **_numbered("data", sources), **_numbered("case", list(dict.fromkeys(cases)))
+    )
     how = table_format_of(column, columns, sheet, decimal, save_columns)
     options: dict[str, Any] = {
         "vary": None if vary is None else _names(vary),
@@ -130,22 +131,23 @@ def fit_command(
         "robust": not squares,
         "confidence": confidence,
     }
+    fit: Any
+    advised = None
     if len(sources) > 1:
-        alone = {"advice": advice, "posterior": posterior, "report": report}
+        alone = {"advice": advice, "posterior": posterior}
         refuse(*(text and refusal(name, text, ONE_SET) for name, text in alone.items()))
-        joint = _joint_fit(sources, cases, thickness, _names(share or ""), how, options)
-        store(joint, output, plot)
-        _print(joint, None, as_json)
-        return
-    many = "of one file; give several files, or leave it out"
-    refuse(share and refusal("share", share, many), cases[1:] and f"case: {many}")
-    pair = _pair(cases[0] if cases else None, thickness, sources[0], how)
-    fit = carom.fit(sources[0], pair=pair, **how._asdict(), **options)
-    advised = None if count is None else fit.advice(count, about)
+        fit = _joint_fit(sources, cases, thickness, _names(share or ""), how, options)
+    else:
+        many = "of one file; give several files, or leave it out"
+        refuse(share and refusal("share", share, many), cases[1:] and f"case: {many}")
+        pair = _pair(cases[0] if cases else None, thickness, sources[0], how)
+        fit = carom.fit(sources[0], pair=pair, **how._asdict(), **options)
+        advised = None if count is None else fit.advice(count, about)
     store(fit, output, plot)
     if report is not None:
         command = shlex.join(["carom", "fit", *context.meta[ARGUMENTS]])
-        stored(fit.report(report, f"Rebounds of {Path(sources[0]).name}", command))
+        names = " and ".join(Path(source).name for source in sources)
+        stored(fit.report(report, f"Rebounds of {names}", command))
     if posterior is not None:
         stored(_sampled(fit, posterior, *sampling))
     _print(fit, advised, as_json)

@@ -7,6 +7,7 @@ from typing import Any
 
 from carom.datasets.observables import BEFORE, OBSERVABLES
 from carom.fitting.bounces import BOUNCES, base
+from carom.fitting.groups import GROUP
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.reading import FROM_SURFACE, UNSIGNED
 from carom.io.decimals import is_number
@@ -27,6 +28,7 @@ KINDS = {
     DURATION: "after the impact",
     **dict.fromkeys(BOUNCES, "drop and rebound"),
     THICKNESS: "the plate",
+    GROUP: "repeats",
 }
 UNITS = {
     "rad": ["deg", "rad"],

@@ -38,9 +38,11 @@ BODIES_ASKED = (
     "density and their elastic constants."
 )
 LISTS = Remedies(
-    "choose it in the list of the column",
+    lambda _: "choose it in the list of the column",
     "choose one in the list of sheets",
     "choose it in the list of decimal signs",
+    "with carom fit",
+    "with carom fit",
 )
 PAGE_SUBJECTS = {"data": "file", "results": "file", "pair": "bodies"}  # by those of Python
 SHOWN_DIGITS = 6
@@ -87,7 +89,6 @@ def shown_name(name: str) -> str:
 
 def _in_words_of_the_page(message: str, path: str, name: str) -> str:
     subject, colon, rest = message.replace(path, name).partition(": ")
-    rest = rest.replace(", or fix some, e.g. fixed={'restitution': 0.98}", "")
     return in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
 
 

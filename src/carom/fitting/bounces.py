@@ -85,6 +85,7 @@ def with_speeds(rows: UserTable, later: Mapping[str, Array]) -> tuple[UserTable,
     first = [name for name in ("drop_height", BEFORE) if name in columns][:1]
     if not first and way != INTERVAL:
         rows.require("drop_height")
+        return rows, []
     speeds, errors = _speeds(columns, (*first, *ways, *series))
     if not first and not series:
         return _down_the_rows(rows, speeds, errors)

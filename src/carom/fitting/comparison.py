@@ -10,14 +10,16 @@ import numpy as np
 from scipy.special import stdtrit
 
 from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw, Metal
+from carom.bodies.pairs import Pair
 from carom.datasets.observables import NORMAL
-from carom.fitting import model as laws
+from carom.fitting import model as laws, plates
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan
 from carom.fitting.intervals import profiled, settle
 from carom.fitting.least_squares import descend
 from carom.fitting.loss_laws import CONSTANT, ON_PLATE, elastic, laws_of_losses
 from carom.fitting.model import EXACT, OFFSET, Model
+from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.io.rows import Mask
 from carom.quantities.arrays import Array
@@ -109,15 +111,20 @@ class Comparison:
             for each in self.standings
         }
 
-    def __str__(self) -> str:
-        lines = ["law             AICc excess  weight  parameters"]
+    @property
+    def rows(self) -> list[tuple[str, ...]]:
+        """The laws as a table with its head, the likeliest first."""
+        rows: list[tuple[str, ...]] = [("law", "AICc excess", "weight", "parameters")]
         for each in sorted(self.standings, key=lambda s: s.excess):
-            shown = ", ".join(
-                f"{name} {GLOSSARY[name].text(value, 4)}" for name, value in each.values.items()
-            )
-            excess, weight = each.cells
-            lines.append(f"  {each.law:14s} {excess:>10s}  {weight:>6s}  {shown}")
-        return "\n".join([*lines, self.verdict])
+            values = (f"{n} {GLOSSARY[n].text(value, 4)}" for n, value in each.values.items())
+            rows.append((each.law, *each.cells, ", ".join(values)))
+        return rows
+
+    def __str__(self) -> str:
+        head, *rows = self.rows
+        lines = [head, *((f"  {law}", *cells) for law, *cells in rows)]
+        table = [f"{law:16s}{excess:>11s}  {weight:>6s}  {x}" for law, excess, weight, x in lines]
+        return "\n".join([*table, self.verdict])
 
 
 def compare(best: Best) -> Comparison:
@@ -223,10 +230,33 @@ class FitRecord:
         named = (dict(zip(names, row, strict=True)) for row in rows)
         return dict(zip(names, named, strict=True))
 
+    @property
+    def pair(self) -> Pair:
+        """The bodies with the fitted friction, and thickness of a plate."""
+        bodies = self._best.model.problem.pair
+        if THICKNESS in self.estimates:
+            bodies = plates.with_thickness(bodies, self.estimates[THICKNESS].value)
+        return Pair(bodies.first, bodies.second, self.estimates["friction"].value)
+
     @cached_property
     def comparison(self) -> Comparison:
         """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""
         return compare(self._best)
+
+    @cached_property
+    def losses(self) -> "LossComparison | None":
+        """Laws of losses, compared on the normal velocities; None unless their speeds differ.
+
+        On a plate, `ZenerPlate` is that its waves take the energy, with a thickness.
+
+        Examples
+        --------
+        >>> heights = {"drop_height": [0.1, 0.2, 0.4, 0.8],
+        ...            "rebound_height": [0.06, 0.1, 0.17, 0.29]}
+        >>> print(carom.fit(heights, pair=pair).losses.verdict)
+        the restitution depends on the speed as in ElasticPlastic; the data rule out Metal
+        """
+        return compare_losses(self._best, self.confidence)
 
 
 @dataclass(frozen=True, eq=False)
@@ -286,15 +316,22 @@ class LossComparison:
             for each in self.standings
         }
 
+    @property
+    def range(self) -> str:
+        """The normal speeds before the impacts."""
+        return span(float(self.speeds.min()), float(self.speeds.max()), "m/s", 3)
+
+    @property
+    def rows(self) -> list[tuple[str, ...]]:
+        """The laws as a table with its head, the likeliest first."""
+        fitted = ((f"{s.law}: {s.parameter.name} {s.parameter}", *s.cells) for s in self.standings)
+        return [("law", "AICc excess", "weight"), *fitted]
+
     def __str__(self) -> str:
-        speeds = span(float(self.speeds.min()), float(self.speeds.max()), "m/s", 3)
-        head = f"losses at normal speeds of {speeds}"
-        fitted = [f"{each.law}: {each.parameter.name} {each.parameter}" for each in self.standings]
-        wide = max(48, *map(len, fitted))
-        lines = [f"{head:{wide}s}AICc excess  weight"]
-        for each, line in zip(self.standings, fitted, strict=True):
-            excess, weight = each.cells
-            lines.append(f"  {line:{wide}s} {excess:>8s}  {weight:>6s}")
+        (_, *head), *rows = self.rows
+        wide = max(48, *(len(law) for law, *_ in rows))
+        lines = [f"{f'losses at normal speeds of {self.range}':{wide}s}{'  '.join(head)}"]
+        lines += [f"  {law:{wide}s} {excess:>8s}  {weight:>6s}" for law, excess, weight in rows]
         return "\n".join([*lines, self.verdict])
 
 

@@ -29,9 +29,9 @@ OWN = "in the unit of the response"
 WIDE, ALONG = ("row", "response"), ("curve", "response")
 
 
-def fit_dataset(fit: FitRecord, losses: LossComparison | None = None) -> "xr.Dataset":
+def fit_dataset(fit: FitRecord) -> "xr.Dataset":
     """Return a fit as a dataset, as `Fit.to_dataset`."""
-    problem = fit._best.model.problem
+    problem, losses = fit._best.model.problem, fit.losses
     variables = {**_rows(fit._best), **_curves(fit), **_parameters(fit)}
     coords: dict[str, Any] = {}
     if losses is not None:

@@ -65,20 +65,29 @@ class Estimate(Printed):
         numbers = {name: or_none(getattr(self, name)) for name in names}
         return {**numbers, "determined": self.determined, "reason": self.reason}
 
-    def __str__(self) -> str:
+    @property
+    def cells(self) -> tuple[str, str]:
+        """The value, and from where to where its interval goes or why there is none."""
         (lowest, highest), quantity = self.limits, GLOSSARY[self.name]
         if self.reason:
-            return f"not determined: {self.reason}"
+            return "not determined", self.reason
         if not self.determined:
-            return f"{quantity.text(self.value, 4)}, not varied"
+            return quantity.text(self.value, 4), "not varied"
         if self.low == lowest:
-            return f"{quantity.text(self.value, 4)}, at most {quantity.text(self.high, 4)}"
+            return quantity.text(self.value, 4), f"at most {quantity.text(self.high, 4)}"
         if self.high == highest:
-            return f"{quantity.text(self.value, 4)}, at least {quantity.text(self.low, 4)}"
+            return quantity.text(self.value, 4), f"at least {quantity.text(self.low, 4)}"
         digits = significant(self.value, self.high - self.low)
         numbers, unit = shared((self.low, self.value, self.high), quantity.unit, digits)
         value = numbers[1] if unit == "1" else f"{numbers[1]} {unit}"
-        return f"{value} ({numbers[0]} to {numbers[2]})"
+        return value, f"{numbers[0]} to {numbers[2]}"
+
+    def __str__(self) -> str:
+        value, interval = self.cells
+        if self.reason:
+            return f"{value}: {interval}"
+        closed = self.determined and not self.open
+        return f"{value} ({interval})" if closed else f"{value}, {interval}"
 
 
 def estimate_of(fit: ProfiledFit, name: str) -> Estimate:

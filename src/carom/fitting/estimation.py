@@ -59,10 +59,9 @@ class Information:
         """How many of the parameters each response determines."""
         return np.asarray(np.einsum("rjp,pq,rjq->j", self.slopes, self.covariance, self.slopes))
 
-    @property
-    def shares(self) -> Array:
-        """Variances of the coordinates from each response, of shape (parameters, responses)."""
-        gains = np.einsum("pq,rjq->prj", self.covariance, self.slopes)
+    def shares(self, sums: Array) -> Array:
+        """Return variances of sums of coordinates from each response, (sums, responses)."""
+        gains = np.einsum("pq,rjq->prj", sums @ self.covariance, self.slopes)
         return np.asarray(np.square(gains).sum(axis=1))
 
 
@@ -126,25 +125,26 @@ class Best:
 
     @property
     def freedom(self) -> Array:
-        """Degrees of freedom of the error of each parameter (Welch & Satterthwaite 1946-47)."""
-        with np.errstate(divide="ignore"):
-            return np.asarray(1.0 / (self._shares**2 * self._doubts).sum(axis=1))
+        """Degrees of freedom of the error of each parameter."""
+        return self.reliability(np.eye(len(self.at)))[0]
 
     @property
     def caution(self) -> Array:
-        """What weights from the scatter, uncertain themselves, add to variances (Meier 1953).
+        """What weights from the scatter add to the variance of each parameter."""
+        return self.reliability(np.eye(len(self.at)))[1]
 
-        1 + 4 sum p (1 - p)/nu over responses, with the part p of each in a variance, for each
-        parameter.
+    def reliability(self, sums: Array) -> tuple[Array, Array]:
+        """Return how well variances of sums are known, these of shape (sums, parameters).
+
+        Degrees of freedom 1/sum(p^2/nu) over responses, p the part of each in a variance (Welch &
+        Satterthwaite 1946-47); and what weights from the scatter, uncertain themselves, add to a
+        variance: 1 + 4 sum p (1 - p)/nu (Meier 1953).
         """
-        parts = self._shares
-        return np.asarray(1.0 + 4.0 * (parts * (1.0 - parts) * self._doubts).sum(axis=1))
-
-    @property
-    def _shares(self) -> Array:
-        """Part of each response in the variance of each parameter, (parameters, responses)."""
-        shares = self.information.shares
-        return np.asarray(shares / np.maximum(shares.sum(axis=1, keepdims=True), 1e-300))
+        shares = self.information.shares(sums)
+        parts = shares / np.maximum(shares.sum(axis=1, keepdims=True), 1e-300)
+        with np.errstate(divide="ignore"):
+            freedom = 1.0 / (parts**2 * self._doubts).sum(axis=1)
+        return freedom, 1.0 + 4.0 * (parts * (1.0 - parts) * self._doubts).sum(axis=1)
 
     @property
     def _doubts(self) -> Array:

@@ -30,7 +30,8 @@ def by_groups(problem: FitProblem, loss: RobustLoss) -> FitProblem:
     if GROUP not in problem.rows.cells:
         return problem
     if problem.bounces is not None:
-        raise InputError(f"{GROUP}: it cannot be used with several bounces of a drop; leave it out")
+        why = "bounces of a drop are no repeats of one setting, as each is slower than the last"
+        raise InputError(f"{GROUP}: {why}; leave it out, or give one bounce a drop")
     labels, own = _labelled(problem.rows)
     _refuse_unlike(problem, labels, own)
     member = np.equal(own, np.arange(len(labels))[:, np.newaxis]).astype(np.float64)

@@ -14,6 +14,7 @@ from carom.fitting.model import OFFSET, Model, plain
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import RobustLoss
 from carom.fitting.restrictions import within_elastic_range
+from carom.io.remedies import REMEDIES
 from carom.io.rows import Mask
 from carom.quantities.arrays import Array
 
@@ -200,7 +201,8 @@ def _held(best: Best, group: tuple[str, ...], start: float) -> Best:
 def reason(group: tuple[str, ...], best: Best) -> str:
     """Return why the data do not tell a group of parameters."""
     if len(group) > 1:
-        others = f"fix one of them, e.g. fixed={{'{group[0]}': {EXAMPLES[group[0]]!r}}}"
+        fix = REMEDIES.get().fix.format(name=group[0], value=EXAMPLES[group[0]])
+        others = f"fix one of them, e.g. {fix}"
         if set(group) == {"friction", "restitution"}:
             cure = f"{others}, or measure normal_restitution"
             return f"only friction (1 + restitution) matters; {cure}"

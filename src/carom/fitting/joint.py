@@ -8,6 +8,7 @@ from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import null_space
 from scipy.special import fdtrc
 
 from carom.fitting.estimation import Best, estimate, fitted
@@ -242,6 +243,8 @@ def _agreement(model: JointModel, alone: Sequence[Settled], whole: Best) -> floa
     """Return the probability of a larger F: by how much the loss rises as parameters are shared.
 
     Both fits have the errors that the sets have alone, so that contradictions do not enlarge them.
+    The degrees of freedom are those of what must vanish where sets share a parameter, as of the
+    difference of two means (Welch 1947).
     """
     apart = joint_model(model.parts, ())
     singles = [each.whole for each in alone]
@@ -253,5 +256,16 @@ def _agreement(model: JointModel, alone: Sequence[Settled], whole: Best) -> floa
     weights = best.weights
     shared = descend(model.residuals(weights, whole.loss), whole.at[np.newaxis], model.bounds)
     more = len(best.at) - len(whole.at)
+    freedom, _ = best.reliability(_contrasts(model, apart, whole.at))
     rise = max(float(shared.sums[0]) - best.sum, 0.0) / best.spread / more
-    return float(fdtrc(more, float(np.min([*best.freedom, MANY])), rise))
+    return float(fdtrc(more, float(np.min([*freedom, MANY])), rise))
+
+
+def _contrasts(model: JointModel, apart: JointModel, at: Array) -> Array:
+    """Return sums of the coordinates of sets apart that are constant where sets share some."""
+    steps = at + 1e-3 * np.eye(len(at))
+    moved = np.zeros((len(apart.free), len(at)))
+    for place in range(len(model.parts)):
+        own = [apart.free.index(name) for name in apart.names(place)]
+        moved[own] = (model.of_part(place, steps) - model.of_part(place, at[np.newaxis])).T
+    return np.asarray(null_space(moved.T).T)

@@ -12,9 +12,10 @@ from carom.fitting.estimation import Best
 from carom.fitting.intervals import Settled
 from carom.fitting.joint import settle_jointly
 from carom.fitting.options import NAMES, Options
+from carom.fitting.report_file import Reported
 from carom.fitting.result import Fit, assembled
 from carom.io.labels import labelled_dataset
-from carom.plots.result import Result, card
+from carom.plots.result import Section, card
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, nearest, refuse
 
@@ -42,7 +43,7 @@ class Difference(Estimate):
 
 
 @dataclass(frozen=True, eq=False)
-class JointFit(Result):
+class JointFit(Reported):
     """Fits of several sets of data, which may share parameters; made by `carom.joint_fit`.
 
     `fits` has the `Fit` of each set by its name; `joint["steel.csv"]` is one of them. `shared` are
@@ -107,13 +108,16 @@ class JointFit(Result):
         if first is None or second is None:
             hint = nearest(parameter, NAMES) or f"the sets have {', '.join(self._parameters)}"
             raise InputError(f"parameter: both sets must have {parameter!r}; {hint}")
-        if parameter in self.shared or (parameter == "chi" and "kappa" in self.shared):
+        if parameter in self._common:
             raise InputError(f"parameter: {parameter} is shared, so that it does not differ")
         value = first.value - second.value
         for name, each in ((one, first), (other, second)):
             if not each.determined:
                 why = each.reason or "it was not varied"
                 return Difference(parameter, value, reason=f"{name}: {why}")
+        if parameter == "chi" and "kappa" in self.shared:  # of unlike bodies, in proportion to it
+            low, high = sorted((first.low - second.low, first.high - second.high))
+            return Difference(parameter, value, low, high)
         r = self._correlation(parameter, one, other)
         below = _joined(first.value - first.low, second.high - second.value, r)
         above = _joined(first.high - first.value, second.value - second.low, r)
@@ -132,11 +136,10 @@ class JointFit(Result):
     def differences(self) -> dict[str, dict[str, Difference]]:
         """Values in each later set less those in the first, by parameter and set."""
         first, *later = self.fits
-        names = {*self.shared, *(("chi",) if "kappa" in self.shared else ())}
         return {
             parameter: {name: self.difference(parameter, name, first) for name in later}
             for parameter in self._parameters
-            if parameter not in names
+            if parameter not in self._common
         }
 
     @property
@@ -145,6 +148,12 @@ class JointFit(Result):
         every = [fit.estimates for fit in self.fits.values()]
         common = [name for name in NAMES if all(name in each for each in every)]
         return [name for name in common if any(each[name].determined for each in every)]
+
+    @property
+    def _common(self) -> tuple[str, ...]:
+        """Names of the parameters that are the same in all sets, chi with kappa if it is."""
+        chis = {fit.chi.value for fit in self.fits.values()}
+        return (*self.shared, *(("chi",) if "kappa" in self.shared and len(chis) == 1 else ()))
 
     @property
     def verdict(self) -> str:
@@ -193,6 +202,7 @@ class JointFit(Result):
             "parameter": ("parameter", names, {"long_name": "parameter"}),
         }
         attrs = {"title": "parameters from several sets of rebounds", "verdict": self.verdict}
+        attrs["shared"] = " ".join(self._common)
         return labelled_dataset(variables, coords, attrs)
 
     def cite(self) -> str:
@@ -205,13 +215,31 @@ class JointFit(Result):
 
         return plot_sets(dataset, **look)
 
+    def _sections(self) -> Iterator[Section]:
+        """Yield the comparison, then what the report of each set says."""
+        sides = [("parameter", "set", "value", "interval"), *self._rows()]
+        said = [self.verdict] if self.verdict else []
+        yield Section("Parameters of the sets", said, sides)
+        yield Section("Sets beside each other", (), draw=self.plot)
+        for name, fit in self.fits.items():
+            for section in fit._sections():
+                yield section._replace(heading=f"{name}: {section.heading}")
+
+    def _rows(self) -> Iterator[tuple[str, ...]]:
+        """Yield each parameter, of which set or in all, value and interval; and its differences."""
+        first, *_ = self.fits
+        for parameter in self._parameters:
+            shared = parameter in self._common
+            own = {"all": self.fits[first]} if shared else self.fits
+            for name, fit in own.items():
+                yield parameter, name, *fit[parameter].cells
+            for name, each in self.differences.get(parameter, {}).items():
+                value, interval = each.cells
+                yield parameter, f"{name} less {first}", value, f"{interval}{SAID[each.differs]}"
+
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        rows = {
-            f"{name}, {parameter}": str(fit[parameter])
-            for name, fit in self.fits.items()
-            for parameter in self._parameters
-        }
+        rows = {f"{name}, {what}": f"{value}, {reach}" for name, what, value, reach in self._rows()}
         return card("Parameters from several sets", rows, self.plot(), self.verdict)
 
     def __str__(self) -> str:

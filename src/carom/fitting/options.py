@@ -8,16 +8,17 @@ import numpy as np
 from carom.datasets.observables import NORMAL
 from carom.dimensionless.elastic.phases import LARGEST_GIVE
 from carom.fitting import plates
+from carom.fitting.intervals import EXAMPLES
 from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged, suited
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import FitProblem
 from carom.fitting.restrictions import ELASTIC_TAKEN
+from carom.io.remedies import REMEDIES
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, checked_type, clipped, nearest, refusal, refuse
 from carom.quantities.units import number
 
 NAMES = ("friction", "kappa", "chi", THICKNESS, "restitution", OFFSET)
-EXAMPLES = {"friction": 0.2, "restitution": 0.98}
 FIRST = ("friction", "kappa", "restitution")  # varied unless something else is said
 WITHOUT_FRICTION = {*NORMAL, DURATION}  # responses that do not depend on it
 
@@ -48,9 +49,10 @@ def read_options(
         raise InputError(f"{OFFSET}: it needs speeds in the data; {cure}")
     if set(wanted) & {"friction", "kappa"} and OFFSET not in wanted and problem.is_normal:
         alone = THICKNESS if problem.on_plate else "restitution"
+        how = REMEDIES.get().vary.format(name=alone)
         raise InputError(
             "data: every impact is a normal one, in which friction and stiffness do not matter; "
-            f"measure at other angles, or fit {alone} alone, vary='{alone}'"
+            f"measure at other angles, or fit {alone} alone, {how}"
         )
     if problem.on_plate and THICKNESS not in wanted:
         _refuse_foils(problem, held)
@@ -104,7 +106,8 @@ def _refuse_assumed(problem: FitProblem, named: Collection[str]) -> None:
         why["friction"] = "the bodies have none"
     for name, reason in why.items():
         if reason and name not in named:
-            cure = f"add it to vary, or fix it, e.g. fixed={{'{name}': {EXAMPLES[name]}}}"
+            fix = REMEDIES.get().fix.format(name=name, value=EXAMPLES[name])
+            cure = f"add it to vary, or fix it, e.g. {fix}"
             raise InputError(f"{name}: {reason}, but it is neither varied nor fixed; {cure}")
 
 
@@ -122,8 +125,9 @@ def check_count(problem: FitProblem, free: Sequence[str]) -> None:
     if problem.count < least:
         values = f"{problem.count} measured value{'s' * (problem.count != 1)}"
         wanted = f"{len(free)} parameters ({', '.join(free)})" if len(free) > 1 else free[0]
-        example = "'kappa': 0.82" if problem.on_plate else "'restitution': 0.98"
-        fewer = f", or fix some, e.g. fixed={{{example}}}" if len(free) > 1 else ""
+        name = next(filter(free.__contains__, EXAMPLES))
+        fix = REMEDIES.get().fix.format(name=name, value=EXAMPLES[name])
+        fewer = f", or fix some, e.g. {fix}" if len(free) > 1 else ""
         raise InputError(
             f"data: {values} cannot determine {wanted}; measure more, at least {least}{fewer}"
         )

@@ -225,7 +225,7 @@ def _unmeasured(table: UserTable, measured: Sequence[str], possible: Sequence[st
         return InputError(
             f"data: there is no value in {', '.join(measured)}; '-' means not measured"
         )
-    remedy = REMEDIES.get().column.format(head="HEAD", name="spin_out")
+    remedy = REMEDIES.get().columns({"HEAD": "spin_out"})
     return InputError(
         f"data: no measured response among the columns {', '.join(table.names)}; there must be one "
         f"or more of {', '.join(possible)}, drop_height and rebound_height, bounce_interval or "
@@ -296,12 +296,12 @@ def _check_before(
     head_on = (
         "angle: column missing; speed needs it; call the speeds of head-on impacts normal_speed"
     )
-    refuse(not ways and "speed" in before and head_on)
-    if not ways:
+    if not ways and not rows.hinted.intersection((*observables.INCIDENCE, *FROM_SURFACE)):
+        refuse("speed" in before and head_on)
         rows.require("angle")
     twice = f"data: {' and '.join(ways)} give the same twice; leave all but one of them out"
     refuse(len(ways) > 1 and twice)
-    if needing and not {*WHY_POSITIVE} & {*before}:
+    if needing and not {*WHY_POSITIVE} & {*before, *rows.hinted}:
         needs = f"{needing[0]} needs speed and angle, or normal_speed"
         raise InputError(f"speed: column missing; {needs}")
     for name in filter(before.__contains__, WHY_POSITIVE):

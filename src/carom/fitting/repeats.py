@@ -13,7 +13,7 @@ from carom.quantities.glossary import GLOSSARY
 
 ODD = 1e-3  # chance of a scatter between groups that is called too large
 SHARES = (0.0, 0.5, 1.0)  # of readings in the scatter of successive bounces
-SLIGHTLY = 0.5  # of -2 log likelihood: by which a smaller share may be less likely
+SLIGHTLY = 2.0  # of -2 log likelihood: by which a smaller share may be less likely
 
 
 def with_readings(model: Model, loss: RobustLoss) -> Model:

@@ -16,10 +16,13 @@ from carom.fitting.intervals import ProfiledFit, Settled
 from carom.fitting.model import KAPPA, Model
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
+from carom.fitting.reading import FROM_SURFACE, UNSIGNED
 from carom.fitting.repeats import about_repeats
 from carom.fitting.restrictions import ELASTIC_KAPPA, elastic_bounds
+from carom.io.remedies import REMEDIES
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.refusals import InputError
 
 ANGLES = ("angle", "contact_angle", "rebound_angle", "contact_rebound_angle")
 SPINS = ("spin", "spin2", "spin_out")
@@ -37,9 +40,9 @@ NAMES = {  # and responses: of the centre, of the contact point, its negative
     "tangential_restitution": ("contact_restitution", "contact_beta"),
 }
 RPM, DEGREE = pi / 30.0, pi / 180.0
+SPIN_UNITS = {"rpm": RPM, "rev/s": 2.0 * pi}
 SCALES = {  # of spins; a radius only matters beside them
     "spins of the other sign": -1.0,
-    "spins in rpm": RPM,
     "spins in rad/s, not in rpm": 1.0 / RPM,
     "those of half the radius (is the radius a diameter?)": 0.5,
     "those of twice the radius (is the radius half of it?)": 2.0,
@@ -48,20 +51,38 @@ ROUGH = 0.1  # of the range of a response, which scatter does not exceed where a
 FAR, PART = 20.0, 0.25  # by how much and to which part chi squared must fall
 HOPEFUL = 0.9  # of the scatter as given: a rough fit must leave less, in one response at least
 LEAST = 0.75  # of the values that must not be outliers then
+LIKELIER = 2.0 * log(100.0)  # of -2 log likelihood, with angles from the other side
 
 
 def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
     """Return the mistake with which the data are far likelier than as they stand, if there is one.
 
-    Mistakes are tried only where something is odd: scatter beyond what errors allow or a tenth of
-    the range, or a kappa that the bodies cannot have; and with the kappa of the elastic constants.
-    `whole` is the fit with nothing held that was to be found.
+    Angles from the surface are always tried, as they may fit well; other mistakes only where
+    something is odd: scatter beyond what errors allow or a tenth of the range, or a kappa that the
+    bodies cannot have. Each is tried with the kappa of the elastic constants. `whole` is the fit
+    with nothing held that was to be found. Raises InputError if the mistake is the unit of spins of
+    a file that tells none.
     """
-    if not _is_odd(whole, estimates):
+    problem = whole.model.problem
+    trials = [*_turned(problem), *(_trials(problem) if _is_odd(whole, estimates) else ())]
+    likely = [(*found, each.unit) for each in trials if (found := _tried(whole, each))]
+    if not likely:
         return []
-    tried = [_tried(whole, trial) for trial in _trials(whole.model.problem)]
-    likely = sorted((each for each in tried if each is not None), key=lambda each: each[0])
-    return [words for _, words in likely[:1]]
+    _, words, unit = min(likely)
+    _refuse_without_unit(problem, unit, words)
+    return [words]
+
+
+def _refuse_without_unit(problem: FitProblem, unit: str, words: str) -> None:
+    """Raise InputError if spins of a file, without a unit, fit in this one instead of rad/s."""
+    columns = ((n, c) for n, c in problem.rows.cells.items() if n in (*SPINS, *UNSIGNED))
+    bare = {each.head: name for name, each in columns if each.letter and not str(each.unit)}
+    if unit and bare:
+        asked = f"{next(iter(bare.values()))}: no unit; {words}"
+        for own in (unit, "rad/s"):
+            remedy = REMEDIES.get().columns({head: f"{bare[head]} [{own}]" for head in bare})
+            asked += f"; if they are in {own}, {remedy}"
+        raise InputError(asked)
 
 
 def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
@@ -78,24 +99,37 @@ def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
 
 
 class Trial(NamedTuple):
-    """What the data may be in truth: words, the problem then, factors of the responses in it."""
+    """What the data may be in truth: words, the problem then, factors of the responses in it.
+
+    A gain of so much likelihood is enough; a unit is that of spins.
+    """
 
     words: str
     problem: FitProblem
     factors: Array
+    enough: float = inf
+    unit: str = ""
+
+
+def _turned(problem: FitProblem) -> Iterator[Trial]:
+    """Yield the trial with angles from the other side, if those before the impact may be so."""
+    before = [values for name, values in problem.before.items() if name in ANGLES]
+    if all(np.min(values) > 0.0 for values in before) and _columns(problem, ANGLES):
+        turned = {*FROM_SURFACE} & {*problem.rows.columns}
+        words = f"angles from the {'normal' if turned else 'surface'}"
+        yield _changed(words, problem, ANGLES, lambda a: pi / 2.0 - a)._replace(enough=LIKELIER)
 
 
 def _trials(problem: FitProblem) -> Iterator[Trial]:
-    """Yield what may have been mistaken in the columns that there are."""
-    if _columns(problem, ANGLES):
-        turned = {"surface_angle", "surface_angle_out"} & {*problem.rows.columns}
-        words = f"angles from the {'normal' if turned else 'surface'}"
-        yield _changed(words, problem, ANGLES, lambda a: pi / 2.0 - a)
-        if all(np.nanmax(np.abs(v)) < 0.5 * pi * DEGREE for v in _columns(problem, ANGLES)):
-            yield _scaled("angles in radians", problem, ANGLES, 1.0 / DEGREE)
+    """Yield what else may have been mistaken in the columns that there are."""
+    angles = _columns(problem, ANGLES)
+    if angles and all(np.nanmax(np.abs(v)) < 0.5 * pi * DEGREE for v in angles):
+        yield _scaled("angles in radians", problem, ANGLES, 1.0 / DEGREE)
     if _columns(problem, SPINS):
         for words, factor in SCALES.items():
             yield _scaled(words, problem, SPINS, factor)
+        for unit, factor in SPIN_UNITS.items():
+            yield _scaled(f"spins in {unit}", problem, SPINS, factor)._replace(unit=unit)
     yield from _swapped(problem)
     for place, name in enumerate(problem.responses):
         for other in set(NAMES.get(name, ())) - set(problem.responses):
@@ -170,11 +204,13 @@ def _tried(best: Best, trial: Trial) -> tuple[float, str] | None:
     size = np.where(present, other.sigma * other.scale, 1.0)
     instead = float(np.square(as_given[kept] / size[kept]).sum())
     few = kept.sum() * log(max(instead, 1e-300) / max(chi2, 1e-300)) < FAR
-    if few or instead - chi2 < FAR or chi2 > PART * instead or kept.sum() < LEAST * present.sum():
-        return None
+    few |= instead - chi2 < FAR or chi2 > PART * instead
     changed = 2.0 * float((present.sum(axis=0) * np.log(np.abs(trial.factors))).sum())
+    against = likelihood(other) - changed
+    if kept.sum() < LEAST * present.sum() or (few and likelihood(best) - against < trial.enough):
+        return None
     words = f"these data fit as {trial.words}: chi-square {chi2:.3g} instead of {instead:.3g}"
-    return likelihood(other) - changed, words
+    return against, f"{words}, with {_shown(other, other.values)}"
 
 
 def _is_promising(model: Model, loss: RobustLoss, as_given: Array) -> bool:
@@ -203,15 +239,18 @@ def as_text(fit: FitRecord) -> str:
         f"{problem.trials} row{'s' * (problem.trials != 1)}; "
         f"in brackets {100.0 * fit.confidence:g} % intervals by profile likelihood"
     )
-    told = fit.correlations
-    pairs = [f"{a} and {b} {told[a][b]:+.2f}" for a, b in combinations(told, 2)]
     lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
-    lines += [f"correlations: {', '.join(pairs)}"] if pairs else []
-    tells = [f"note: {note}" for note in fit.notes]
-    if problem.is_normal:
-        return "\n".join([*lines, *tells])
+    tells = [*summary(fit), *(f"note: {note}" for note in fit.notes)]
+    return "\n".join([*lines, *tells, *([] if problem.is_normal else [str(fit.comparison)])])
+
+
+def summary(fit: FitRecord) -> list[str]:
+    """Return the correlations of the parameters and the rows by regime, where there are some."""
+    told = fit.correlations
+    pairs = ", ".join(f"{a} and {b} {told[a][b]:+.2f}" for a, b in combinations(told, 2))
     regimes = "; ".join(f"{count} {name}" for name, count in fit.regimes.items() if count)
-    return "\n".join([*lines, f"rows by regime: {regimes}", *tells, str(fit.comparison)])
+    by_regime = [] if fit._best.model.problem.is_normal else [f"rows by regime: {regimes}"]
+    return [*([f"correlations: {pairs}"] if pairs else []), *by_regime]
 
 
 def _line(estimate: Estimate) -> str:

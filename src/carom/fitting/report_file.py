@@ -1,54 +1,52 @@
 """The report of a fit as a file: the answer, its uncertainty, what was read and what neglected."""
 
+import re
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from carom.bodies.pairs import Pair
-from carom.bodies.shapes import named
+from carom.fitting.bounces import BOUNCES
 from carom.fitting.budget import budget
-from carom.fitting.comparison import FitRecord, LossComparison
+from carom.fitting.comparison import FitRecord
 from carom.fitting.problem import FitProblem
+from carom.fitting.report import summary
 from carom.impacts.solve import impact
 from carom.io.files import DOCUMENTS
-from carom.io.labels import MARKS, Finding
+from carom.io.labels import VERDICTS, Finding
 from carom.io.paths import checked_output
 from carom.io.user_table import ERROR
 from carom.io.version import __version__
-from carom.plots.documents import Section, write_document
-from carom.plots.result import Result
+from carom.plots.result import Result, Section
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import checked_type
 
 TITLE = "Parameters from measured rebounds"
 AIR = "no correction is made for drag; a note tells of it where heights show what it takes"
+ROWS = "Measured values with their standard deviations, and what the fit gives; below, the rest."
+CURVES = "The dark band is the {} of the curve of the exact law; shades are its regimes of slip."
+DROPS = "Measured restitutions with their standard deviations, and each law of losses as it fits."
 SHARES = (
     "Which part of the variance of a parameter comes from the error of a quantity, to first order. "
     "Without that error the interval would be half as wide where the part is 75\N{NO-BREAK SPACE}%."
 )
 
 
-class ReportedFit(FitRecord, Result):
-    """A fit of which a report can be written."""
+class Reported(Result):
+    """A result of which a report can be written."""
 
-    @property
     @abstractmethod
-    def pair(self) -> Pair:
-        """The bodies with what was fitted."""
-
-    @property
-    @abstractmethod
-    def losses(self) -> LossComparison | None:
-        """Laws of losses, compared, or None."""
+    def _sections(self) -> Iterable[Section]:
+        """Return what its report says."""
 
     def report(self, path: str | Path, title: str = TITLE, command: str = "") -> Path:
         """Write the result as a report to read and to print: one file that holds everything.
 
-        It has the parameters, the figure with outliers marked, what the uncertainty comes from,
-        what was read, what was neglected, the notes, a sentence for a paper, and how it was made.
+        It tells what was read, shows the figure with outliers marked and the parameters, and says
+        what the uncertainty comes from and what was neglected; with the notes, a sentence for a
+        paper, how it was made, and what to cite.
 
         Parameters
         ----------
@@ -77,47 +75,40 @@ class ReportedFit(FitRecord, Result):
         ...     found.report(folder + "/report.html", "Alumina on glass").name
         'report.html'
         """
+        from carom.plots.documents import write_document  # which loads matplotlib
+
         for name, words in (("title", title), ("command", command)):
             checked_type(name, words, str, "must be a text")
-        return _written(self, checked_output(path, DOCUMENTS), title, command)
+        made = Section("How it was made", (f"By Carom {__version__}.",), (), command)
+        cited = Section("References", (), (), self.cite())
+        target = checked_output(path, DOCUMENTS)
+        return write_document(target, title, [*self._sections(), made, cited])
 
 
-def _written(fit: ReportedFit, path: Path, title: str, command: str) -> Path:
-    """Write the report of a fit, as `ReportedFit.report`."""
-    problem = fit._best.model.problem
-    level = f"in brackets {100.0 * fit.confidence:g} % intervals"
-    rows = [(name, str(estimate)) for name, estimate in fit.estimates.items()]
-    bodies = f"{named(fit.pair.first)} on {named(fit.pair.second)}"
+def sections_of(fit: FitRecord, draw: Callable[..., Any]) -> Iterator[Section]:
+    """Yield what the report of a fit says."""
+    problem, losses = fit._best.model.problem, fit.losses
+    bodies = f"{fit.pair.first} on {fit.pair.second}"
     read = f"{problem.count} values in {problem.trials} rows; {bodies}."
-    laws = _laws(fit)
-    sections = [
-        Section("Result", (), [("parameter", f"value, {level}"), *rows]),
-        *_budget(fit),
-        Section("What was read", (read,), [*_columns(problem, fit)]),
-        Section("What was neglected", (), [("", "assumption", "verdict"), *_neglected(fit)]),
-        Section("Notes", fit.notes or ("none",)),
-        *([Section("Laws", (), (), laws)] if laws else []),
-        Section("To copy into a paper", (_sentence(fit),), (), fit.cite()),
-        Section("How it was made", (f"By Carom {__version__}.",), (), command),
-    ]
-    return write_document(path, title, sections, lambda narrow: _figures(fit, narrow))
+    yield Section("What was read", (read,), [*_columns(problem, fit)])
+    level = f"{100.0 * fit.confidence:g}\N{NO-BREAK SPACE}% interval"
+    curves = ROWS if problem.is_one else f"{ROWS} {CURVES.format(level)}"
+    yield Section("Data and fit", (DROPS if problem.is_normal and losses else curves,), draw=draw)
+    head = "parameter", "", "value", level
+    words = {name: re.split(",| that ", GLOSSARY[name].meaning)[0] for name in fit.estimates}
+    rows = ((name, words[name], *each.cells) for name, each in fit.estimates.items())
+    yield Section("Parameters", (), [head, *rows])
+    yield from _budget(fit)
+    yield Section("What was neglected", (), [("assumption", "finding", ""), *_neglected(fit)])
+    yield Section("Notes", (*summary(fit), *fit.notes) or ("none",))
+    if not problem.is_normal:
+        yield Section("Laws of rebound", (fit.comparison.verdict,), fit.comparison.rows)
+    if losses:
+        yield Section(f"Losses at normal speeds of {losses.range}", (losses.verdict,), losses.rows)
+    yield Section("To copy into a paper", (_sentence(fit),))
 
 
-def _figures(fit: ReportedFit, narrow: bool) -> dict[str, Any]:
-    """Return the figures: narrow ones, of one response each, or one for a whole page."""
-    from carom.plots.fits import plot_fit  # which loads matplotlib
-
-    whole = "measured values and the fit"
-    if not narrow or (fit.losses and fit._best.model.problem.is_normal):
-        return {whole: fit.plot()}
-    dataset = fit.to_dataset()
-    return {
-        f"{whole}, with residuals: {name}": plot_fit(dataset.sel(response=[name]))
-        for name in fit._best.model.problem.responses
-    }
-
-
-def _budget(fit: ReportedFit) -> Iterator[Section]:
+def _budget(fit: FitRecord) -> Iterator[Section]:
     costs = budget(fit._best)
     known = [i for i, name in enumerate(costs.parameters) if fit.estimates[name].determined]
     if not known:
@@ -130,10 +121,13 @@ def _budget(fit: ReportedFit) -> Iterator[Section]:
     yield Section("What the uncertainty comes from", (SHARES,), [head, *rows])
 
 
-def _columns(problem: FitProblem, fit: ReportedFit) -> Iterator[tuple[str, ...]]:
+def _columns(problem: FitProblem, fit: FitRecord) -> Iterator[tuple[str, ...]]:
     """Yield a head, then each column: name, how many values, from where to where, errors."""
     best = fit._best
+    rows = problem.rows.columns
     yield "quantity", "values", "range", "standard deviation"
+    for name in filter(rows.__contains__, BOUNCES):  # from which the speeds were taken
+        yield _column(problem, name, rows[name], rows.get(name + ERROR), "")
     for name, values in problem.before.items():
         errors = problem.before_errors.get(name)
         yield _column(problem, name, values, errors, "none: taken as exact")
@@ -153,24 +147,24 @@ def _column(
     return head if head.startswith(name) else f"{name}: {head}", f"{np.size(values)}", span, spread
 
 
-def _neglected(fit: ReportedFit) -> Iterator[tuple[str, str, str]]:
-    """Yield the assumptions that the fit makes, with a mark, worst of the slowest and fastest."""
+def _neglected(fit: FitRecord) -> Iterator[tuple[str, str, str]]:
+    """Yield the assumptions that the fit makes, judged for the slowest and the fastest."""
     problem = fit._best.model.problem
     moving = [name for name, values in problem.before.items() if np.any(values)]
     exact = [name for name in moving if name not in problem.before_errors]
     if exact:
         missing = ", ".join(f"{name}{ERROR}" for name in exact)
-        yield MARKS[None], "errors before the impact", f"{missing}: none, so they are taken as zero"
+        yield "errors before the impact", f"{missing}: none, taken as zero", VERDICTS[None]
     air = [note.partition(": ")[2] for note in fit.notes if note.startswith("air: ")]
-    yield MARKS[None], "air", "; ".join(air) or AIR
+    yield "air", "; ".join(air) or AIR, VERDICTS[None]
     if not problem.has_speeds:
-        yield MARKS[None], "speed", "none was read: yield, waves and weight cannot be judged"
+        yield "speed", "none was read: yield, waves and weight", VERDICTS[None]
         return
     for finding in _findings(fit):
-        yield MARKS[finding.holds], finding.label, finding.verdict
+        yield finding.label, finding.verdict, VERDICTS[finding.holds]
 
 
-def _findings(fit: ReportedFit) -> list[Finding]:
+def _findings(fit: FitRecord) -> list[Finding]:
     """Return what the theory assumes of the impacts, judged for the slowest and the fastest."""
     problem = fit._best.model.problem
     normal, along = problem.motion.normal_speed, problem.contact_velocity
@@ -183,12 +177,7 @@ def _findings(fit: ReportedFit) -> list[Finding]:
     return [*worst.values()]
 
 
-def _laws(fit: ReportedFit) -> str:
-    parts = [] if fit._best.model.problem.is_normal else [str(fit.comparison)]
-    return "\n".join([*parts, *([str(fit.losses)] if fit.losses else [])])
-
-
-def _sentence(fit: ReportedFit) -> str:
+def _sentence(fit: FitRecord) -> str:
     """Return the result in a sentence for a paper."""
     problem, pair = fit._best.model.problem, fit.pair
     determined = [f"{name} {each}" for name, each in fit.estimates.items() if each.determined]
@@ -203,7 +192,7 @@ def _sentence(fit: ReportedFit) -> str:
     verdict = "" if losses is None else f"{losses.verdict[0].upper()}{losses.verdict[1:]}."
     return " ".join(
         f"From {problem.trials} {'drops' if problem.is_normal else 'rebounds'} of a "
-        f"{named(pair.first)} on a {named(pair.second)}, {found} {theory} "
+        f"{pair.first} on a {pair.second}, {found} {theory} "
         f"({100.0 * fit.confidence:g} % intervals by profile likelihood in brackets; "
         f"Carom {__version__}). {verdict}".split()
     )

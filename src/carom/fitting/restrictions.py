@@ -7,6 +7,7 @@ from scipy.special import chdtri
 
 from carom.fitting.estimation import Best, estimate, likelihood
 from carom.fitting.model import KAPPA, RESTITUTION, Model, ranged
+from carom.io.remedies import REMEDIES
 from carom.quantities.refusals import InputError
 
 ELASTIC_KAPPA = (2.0 / 3.0, 1.0)  # for Poisson's ratios from 1/2 to 0
@@ -56,7 +57,7 @@ def refuse_contradicted(best: Best) -> None:
         return
     freed = estimate(best.model.freeing([name]), best.loss)
     if likelihood(best) - likelihood(freed) > CONTRADICTED:
-        raise InputError(
-            f"{name}: it would be held at 1, but the data say about {freed.values[name]:.2g}; add "
-            f"it to vary, or fix it, e.g. fixed={{'{name}': {freed.values[name]:.2g}}}"
-        )
+        said = round(freed.values[name], 2)
+        fix = REMEDIES.get().fix.format(name=name, value=said)
+        words = f"it would be held at 1, but the data say about {said}"
+        raise InputError(f"{name}: {words}; add it to vary, or fix it, e.g. {fix}")

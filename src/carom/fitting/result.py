@@ -1,17 +1,15 @@
 """The result of a fit, as users have it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.bodies.pairs import Pair
 from carom.fitting import plates
 from carom.fitting.advice import Advice, advise
-from carom.fitting.comparison import LossComparison, compare_losses
+from carom.fitting.comparison import FitRecord
 from carom.fitting.datasets import fit_dataset, sample
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
@@ -19,11 +17,11 @@ from carom.fitting.model import Model, half_ratio
 from carom.fitting.options import NAMES
 from carom.fitting.plates import THICKNESS
 from carom.fitting.report import as_text, notes
-from carom.fitting.report_file import ReportedFit
+from carom.fitting.report_file import Reported, sections_of
 from carom.impacts.curves import REGIMES
 from carom.io.citations import FITS, PLATE, SAMPLES, VISCOUS, bibtex, with_doi
 from carom.io.progress import Progress
-from carom.plots.result import card
+from carom.plots.result import Section, card
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,7 +29,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Fit(ReportedFit):
+class Fit(FitRecord, Reported):
     """Parameters from measured rebounds; made by `carom.fit`.
 
     `estimates` holds friction, kappa, chi, restitution and spin_offset by name, and the thickness
@@ -79,32 +77,9 @@ class Fit(ReportedFit):
         return self.estimates["spin_offset"]
 
     @property
-    def pair(self) -> Pair:
-        """The bodies with the fitted friction, and thickness of a plate."""
-        bodies = self._best.model.problem.pair
-        if THICKNESS in self.estimates:
-            bodies = plates.with_thickness(bodies, self.estimates[THICKNESS].value)
-        return Pair(bodies.first, bodies.second, self.friction.value)
-
-    @property
     def lmfit_result(self) -> Any:
         """The result of lmfit in transformed coordinates, which are log friction and log kappa."""
         return self._best.result
-
-    @cached_property
-    def losses(self) -> LossComparison | None:
-        """Laws of losses, compared on the normal velocities; None unless their speeds differ.
-
-        On a plate, `ZenerPlate` is that its waves take the energy, with a thickness.
-
-        Examples
-        --------
-        >>> heights = {"drop_height": [0.1, 0.2, 0.4, 0.8],
-        ...            "rebound_height": [0.06, 0.1, 0.17, 0.29]}
-        >>> print(carom.fit(heights, pair=pair).losses.verdict)
-        the restitution depends on the speed as in ElasticPlastic; the data rule out Metal
-        """
-        return compare_losses(self._best, self.confidence)
 
     def advice(self, n: int = 5, parameter: str | None = None) -> Advice:
         """Return the incidences to measure next, and how much shorter they make an interval.
@@ -196,7 +171,7 @@ class Fit(ReportedFit):
             restitution, its error and normal_speed (row), loss_restitution (loss_law, loss_curve)
             over loss_speed.
         """
-        return fit_dataset(self, self.losses)
+        return fit_dataset(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, texts and lists, for JSON; what is open is None.
@@ -242,6 +217,9 @@ class Fit(ReportedFit):
         lossy = (PLATE if problem.on_plate else VISCOUS,) if self.restitution.value < 1.0 else ()
         entries = bibtex(*FITS, *lossy, *(SAMPLES if posterior else ()))
         return f"{entries}\n{with_doi(problem.doi)}" if problem.doi else entries
+
+    def _sections(self) -> Iterable[Section]:
+        return sections_of(self, self.plot)
 
     def _draw(self, dataset: Any, **look: Any) -> "Figure":
         from carom.plots.fits import plot_drops, plot_fit  # which loads matplotlib

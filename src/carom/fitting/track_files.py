@@ -15,6 +15,7 @@ from carom.quantities.refusals import Faults, heading, refuse
 POSITIONS = ("x", "y", "mark_x", "mark_y")
 UNITS = dict.fromkeys(POSITIONS, "m") | {"mark_angle": "rad", "score": "1", "mark_score": "1"}
 CALLED = {"t": "time", "frame_idx": "frame"}
+CLOCKS = (".t", ".time")  # end the names of times that each point has
 BALL, MARK = ("ball", "center", "centre"), ("mark", "marker", "spot")  # names of points
 PIXELS = ("px", "pixel", "pixels")
 SURE = 0.6  # likelihood below which a point is left out, as DeepLabCut does
@@ -39,10 +40,10 @@ def read_track(source: Any, how: TableFormat, rate: float | None, scale: float |
     """
     if getattr(getattr(source, "columns", None), "nlevels", 1) > 1:
         source = _flat(source)
-    table = _with_points(read_table(source, **how._asdict(), what="track", lenient=True))
+    table = read_table(source, **how._asdict(), what="track", lenient=True)
     refuse(len(table) > MOST_FRAMES and f"track: it has more than {MOST_FRAMES} frames; cut it")
     with Faults() as faults:
-        return _frames(table.told(faults), rate, scale, faults)
+        return _frames(_with_points(table.told(faults), faults), rate, scale, faults)
 
 
 def _flat(frame: Any) -> Any:
@@ -53,23 +54,31 @@ def _flat(frame: Any) -> Any:
     return flat.reset_index(drop=True)
 
 
-def _with_points(table: UserTable) -> UserTable:
+def _with_points(table: UserTable, faults: Faults) -> UserTable:
     """Return the table with the names of columns that programs which track call otherwise."""
-    points = [name.removesuffix(".x") for name in table.names if name.endswith(".x")]
-    new = dict(CALLED)
+    points, clocks = _points(table), [n for n in table.names if n.endswith(CLOCKS)]
+    new = dict(CALLED) | dict.fromkeys(clocks[:1], "time")
     for names, mark in ((BALL, ""), (MARK, "mark_")):
         own = [p for p in points if p.lower() in names or (len(points) == 1 and not mark)]
         ends = {"x": "x", "y": "y", "likelihood": "score", "score": "score"}
         new |= {f"{p}.{end}": mark + name for p in own[:1] for end, name in ends.items()}
+    if len({tuple(map(str, table.cells[name].cells)) for name in clocks}) > 1:
+        faults.add(f"time: {' and '.join(clocks)} differ; give all points of a time in one row")
     new = {old: name for old, name in new.items() if name not in table.names}
     return replace(table, cells={new.get(old, old): each for old, each in table.cells.items()})
+
+
+def _points(table: UserTable) -> list[str]:
+    """Return the names of points of which there are positions, as ball in ball.x."""
+    parts = (name.rpartition(".") for name in table.names)
+    return list(dict.fromkeys(point for point, _, end in parts if point and end in ("x", "y")))
 
 
 def _frames(table: UserTable, rate: float | None, scale: float | None, faults: Faults) -> Frames:
     """Return the frames that show the ball, and add to the faults what cannot be used."""
     clock = "time" if "time" in table.cells else "frame"
     units = {clock: "s" if clock == "time" else "1", **UNITS}
-    faults.add(*_about_scale(table, scale)[:1], *_missing(table, rate))  # one for all positions
+    faults.add(*_about_scale(table, scale), *_missing(table, rate, scale))
     read: dict[str, Array] = {}
     for name in filter(table.cells.__contains__, units):
         column, size, si = table.cells[name], 1.0, units[name]
@@ -96,13 +105,19 @@ def _frames(table: UserTable, rate: float | None, scale: float | None, faults: F
     return Frames(time[seen], x[seen], y[seen], mark[seen], table.notes)
 
 
-def _missing(table: UserTable, rate: float | None) -> list[str]:
+def _missing(table: UserTable, rate: float | None, scale: float | None) -> list[str]:
     """Return what is wrong where positions, times or the frame rate are missing."""
     faults = []
     if not {"x", "y"} <= {*table.cells}:
-        listed = f"column missing; the columns are {', '.join(map(heading, table.names))}"
+        there = ", ".join(heading(column.head) for column in table.cells.values())
+        listed = f"column missing; the columns are {there}"
         say = "say which are x and y of the ball, and mark_x and mark_y of a mark on it"
-        remedy = REMEDIES.get().column.format(head="HEAD", name="x")
+        own = [f"{point}.{axis}" for point in _points(table)[:2] for axis in ("x", "y")]
+        columns = [table.cells[name] for name in own if name in table.cells]
+        bare = ["" if scale or str(column.unit) else " [m]" for column in columns]
+        named = zip(columns, POSITIONS, bare, strict=False)
+        heads = {column.head: name + unit for column, name, unit in named}
+        remedy = REMEDIES.get().columns(heads or {"HEAD": "x"})
         faults.append(f"x: {listed}; {say}: {remedy}")
     if not {"time", "frame"} & {*table.cells}:
         faults.append("time: column missing; give time, or frame with the frame rate")
@@ -112,13 +127,14 @@ def _missing(table: UserTable, rate: float | None) -> list[str]:
 
 
 def _about_scale(table: UserTable, scale: float | None) -> list[str]:
-    """Return what is wrong with the scale for each position that needs one, or must have none."""
-    faults = []
-    for name in filter(table.cells.__contains__, POSITIONS):
-        unit = str(table.cells[name].unit).lower()
+    """Return what is wrong with the scale of positions that need one, or must have none."""
+    units = {n: str(table.cells[n].unit).lower() for n in POSITIONS if n in table.cells}
+    for name, unit in units.items():
         if scale is not None and unit not in ("", *PIXELS):
-            faults.append(f"{name}: it is in {unit}; leave the scale of pixels out")
-        elif scale is None and (unit in PIXELS or (table.is_of_file and not unit)):
-            lengths = "" if unit else f"; if it is a length, --column '{name}={name} [m]'"
-            faults.append(f"{name}: no unit; give pixels_per_mm or pixels_per_diameter{lengths}")
-    return faults
+            return [f"{name}: it is in {unit}; leave the scale of pixels out"]
+        if scale is None and (unit in PIXELS or (table.is_of_file and not unit)):
+            heads = {table.cells[n].head: f"{n} [m]" for n in units if not units[n]}
+            remedy = REMEDIES.get().columns(heads)
+            lengths = "" if unit else f"; if it is a length, {remedy}, with its unit"
+            return [f"{name}: no unit; give pixels_per_mm or pixels_per_diameter{lengths}"]
+    return []

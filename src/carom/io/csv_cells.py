@@ -10,7 +10,7 @@ from itertools import chain, islice
 from typing import Any, TextIO
 
 from carom.io.decimals import is_number
-from carom.io.rows import Column
+from carom.io.rows import Column, is_missing
 from carom.io.table_rows import HEAD_ROWS, RowSource, read_rows
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import refusal
@@ -18,6 +18,8 @@ from carom.quantities.refusals import refusal
 QUOTED = re.compile(r'"((?:[^"]|"")*)"[\s,;]*')  # by a spreadsheet, as a comment with commas is
 PERCENT = re.compile(r"%\s*[,;\t]|%\s*$")  # which is a unit
 SEPARATORS = ",;\t"
+BLANKS = " "  # one or more between cells
+UNIT_ALONE = {*"[("}  # begin no name
 NO_CELL = '#%" \t\n\r\v\f\x1c\x1d\x1e\x1f'  # begins a comment, or a line that may be blank
 NAMED_SEPARATOR = re.compile(rf"sep=([{SEPARATORS}])\s*", re.IGNORECASE)  # Excel's first line
 LONGEST_LINE = 1_000_000  # characters
@@ -134,6 +136,13 @@ class _CsvFile(RowSource):
         Raises InputError if two are alike.
         """
         there = [each for each in SEPARATORS if any(each in line for line in lines)]
+        if there in ([], [","]) and _is_in_blanks(lines[1:]):
+            names = lines[0].split()
+            begun = {name[0] for name in names}
+            if len(names) == len(lines[1].split()) and not begun & UNIT_ALONE:
+                return BLANKS
+            words = "its columns are separated by blanks, and so are words of its head"
+            raise self.refusal(f"{words}; write angle[deg] without blanks, or separate by tabs")
         if len(there) < 2:
             return (there or [","])[0]
         (best, first), (most, second) = sorted(
@@ -152,8 +161,25 @@ class _CsvFile(RowSource):
         return max(alike.values(), default=0), numbers
 
 
+def _is_in_blanks(lines: list[str]) -> bool:
+    """Tell whether lines hold as many numbers each, two or more, with nothing but blanks between.
+
+    Cells that begin or end with a comma have that between.
+    """
+    rows = [line.split() for line in lines]
+    cells = [cell for row in rows for cell in row]
+    bare = (
+        is_number(cell) or is_missing(cell)
+        for cell in cells
+        if "," not in cell[:: max(len(cell) - 1, 1)]
+    )
+    return len({*map(len, rows)}) == 1 and len(rows[0]) > 1 and sum(bare) == len(cells)
+
+
 def _cells(line: str, separator: str) -> list[str]:
     """Return the cells of a line, of which those with separators are in quotes."""
+    if separator == BLANKS:
+        return line.split()
     if '"' not in line:
         return [cell.lstrip(" ") for cell in line.rstrip("\n").split(separator)]
     how: dict[str, Any] = {"skipinitialspace": True, "strict": True}

@@ -131,6 +131,6 @@ def sign_of(column: Cells, told: set[str], cell_of: Callable[[int], str]) -> tup
 
 def _asked(shown: str, text: str, sign: str) -> str:
     less, thousand = text.replace(sign, POINT), text.replace(sign, "")
-    remedy = f"if it is {less}, {REMEDIES.get().decimal.format(sign=sign)}, else leave"
+    remedy = f"for {less}, {REMEDIES.get().decimal.format(sign=sign)}"
     words = f"{shown} may be {less} or {thousand}, with a separator of thousands"
-    return f"{words}; {remedy} the separators out"
+    return f"{words}; {remedy}; for {thousand}, leave the separators out"

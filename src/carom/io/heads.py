@@ -67,17 +67,7 @@ def _stored(path: str | Path) -> dict[str, Any]:
 
 
 def as_toml(how: TableFormat) -> str:
-    """Return the text of a file that says how a table is read.
-
-    Examples
-    --------
-    >>> print(as_toml(TableFormat({"Drehzahl [U/min]": "spin_out"}, decimal=",")))
-    decimal = ","
-    <BLANKLINE>
-    [columns]
-    "Drehzahl [U/min]" = "spin_out"
-    <BLANKLINE>
-    """
+    """Return the text of a TOML file that says how a table is read, with a table [columns]."""
     texts = ("sheet", how.sheet), ("decimal", how.decimal)
     own = [f"{name} = {_quoted(text)}\n" for name, text in texts if text]
     columns = [f"{_quoted(head)} = {_quoted(name)}\n" for head, name in how.columns.items()]

@@ -38,6 +38,12 @@ class Column(NamedTuple):
             return np.asarray(np.isnan(self.cells))
         return np.fromiter(map(is_missing, self.cells), np.bool_, len(self.cells))
 
+    @property
+    def is_bare(self) -> bool:
+        """Whether neither the column has a unit nor all its cells have."""
+        numbers = (str(cell).strip()[-1:].isdigit() for cell in self.cells)
+        return not str(self.unit) and (not isinstance(self.cells, list) or any(numbers))
+
 
 class Rows:
     """Rows by their numbers, and what they are called: lines of a file, or rows."""
@@ -81,13 +87,7 @@ def named(word: str, rows: Iterable[object], total: int = 0) -> str:
 
 
 def letter_of(place: int) -> str:
-    """Return how a spreadsheet calls a column, counted from 0.
-
-    Examples
-    --------
-    >>> letter_of(2), letter_of(26), letter_of(701), letter_of(702)
-    ('C', 'AA', 'ZZ', 'AAA')
-    """
+    """Return how a spreadsheet calls a column, counted from 0: C is 2, AA is 26."""
     more, last = divmod(place, LETTERS)
     return (letter_of(more - 1) if more else "") + chr(ord("A") + last)
 

@@ -1,6 +1,6 @@
 """Cells of a spreadsheet that have no value: errors, formulas without results, merged ones.
 
-The reader of values gives all of them as blank, as it does what was not measured.
+The reader of values gives these as blank, as what was not measured, and hidden rows as others.
 """
 
 import re
@@ -31,11 +31,12 @@ class Mark(NamedTuple):
 
 
 class Marks(NamedTuple):
-    """The marks of a sheet, and how far it extends."""
+    """The marks of a sheet, how far it extends, and its hidden rows, counted from 1."""
 
     marks: list[Mark]
     height: int
     width: int
+    hidden: list[int]
 
     def put(self, values: list[list[Any]]) -> list[list[Any]]:
         """Return rows of values with the marks; cells merged with that of a number say so."""
@@ -87,7 +88,7 @@ def _column(cell: Element, place: int) -> int:
 
 
 def _of_xlsx(file: IO[bytes]) -> Marks:
-    marks, height, width = list[Mark](), 0, 0
+    marks, hidden, height, width = list[Mark](), list[int](), 0, 0
     for _, element in iterparse(file):
         if _kind(element) == "mergeCell":
             first, _, last = element.get("ref", "").partition(":")
@@ -96,6 +97,7 @@ def _of_xlsx(file: IO[bytes]) -> Marks:
         if _kind(element) != "row":
             continue
         height = int(element.get("r", height + 1))
+        hidden += [height] if element.get("hidden") in ("1", "true") else []
         for place, cell in enumerate(element):
             is_formula = len(cell) and _kind(cell[0]) == "f"
             text = cell.get("t") == "e" and cell.findtext("{*}v")
@@ -106,7 +108,7 @@ def _of_xlsx(file: IO[bytes]) -> Marks:
         if len(element):
             width = max(width, _column(element[-1], len(element) - 1) + 1)
         element.clear()
-    return Marks(marks, height, width)
+    return Marks(marks, height, width, hidden)
 
 
 def _no_result(formula: str) -> str:
@@ -114,15 +116,16 @@ def _no_result(formula: str) -> str:
 
 
 def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
-    marks, row, height, width = list[Mark](), 0, 0, 0
+    marks, hidden, row, height, width = list[Mark](), list[int](), 0, 0, 0
     for _, element in iterparse(file):
         own = _by_name(element)
         if _kind(element) == "table":
-            yield own["name"], Marks(marks, height, width)
-            marks, row, height, width = [], 0, 0, 0
+            yield own["name"], Marks(marks, height, width, hidden)
+            marks, hidden, row, height, width = [], [], 0, 0, 0
         if _kind(element) != "table-row":
             continue
         column, rows = 0, int(own.get("number-rows-repeated", 1))
+        is_hidden = own.get("visibility", "visible") != "visible"
         for cell in element:
             own = _by_name(cell)
             columns = int(own.get("number-columns-repeated", 1))
@@ -141,6 +144,7 @@ def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
             column += columns
             if text or kinds or shown:
                 height, width = row + rows, max(width, column)
+        hidden += range(row + 1, height + 1) if is_hidden else ()
         row += rows
         element.clear()
 

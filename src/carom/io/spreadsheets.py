@@ -11,7 +11,7 @@ from zipfile import ZipFile
 from carom.io.decimals import is_number
 from carom.io.extras import extra
 from carom.io.remedies import REMEDIES
-from carom.io.rows import Column, is_blank, letter_of
+from carom.io.rows import Column, is_blank, letter_of, named
 from carom.io.spreadsheet_marks import Marks, read_marks
 from carom.io.table_rows import RowSource, read_rows
 from carom.io.user_table import UserTable
@@ -52,7 +52,11 @@ def read_spreadsheet(
     except Exception as error:  # as damaged archives and their XML make the readers raise
         raise refusal(what, path, f"it is no spreadsheet, .xlsx or .ods; {error}") from None
     name, notes = _chosen(what, path, sheets, sheet)
-    return read_rows(_Sheet(what, path, sheets[name], notes), fewest, decimal)
+    cells = sheets[name]
+    if hidden := [n for n in marks[name].hidden if not all(map(is_blank, cells[n - 1]))]:
+        told = f"hidden, as by a filter, and read all the same: {named('row', hidden)}"
+        notes.append(f"{told}; delete what is not meant")
+    return read_rows(_Sheet(what, path, cells, notes), fewest, decimal)
 
 
 def sheets_of(path: Path) -> list[str]:

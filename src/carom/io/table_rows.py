@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import chain, islice
+from itertools import chain, islice, zip_longest
 from operator import itemgetter
 from typing import Any, NamedTuple
 
@@ -149,15 +149,15 @@ def _of_points(rows: Sequence[Sequence[Any]]) -> tuple[list[str], int]:
     heads, last = [_text(cell) for cell in rows[0]], 0
     if heads[0] == DEEPLABCUT:
         last = next((i for i, row in enumerate(rows) if [*row[:1]] == [ITS_AXES]), 0)
-    elif not heads[0] and len(rows) > 1 and {"x", "y"} <= {*rows[1]}:
+    elif {"x", "y"} <= {_text(cell) for row in rows[1:2] for cell in row} - {*heads}:
         last = 1
     if not last:
         return heads, 1
     joined, point = [], ""
-    for name, axis in zip(*rows[last - 1 : last + 1], strict=False):
+    for name, axis in zip_longest(*rows[last - 1 : last + 1], fillvalue=""):
         point = _text(name) or point
         joined.append(f"{point}.{_text(axis)}" if point else _text(axis))
-    return ["frame", *joined[1:]] if heads[0] else joined, last + 1
+    return ["frame", *joined[1:]] if heads[0] == DEEPLABCUT else joined, last + 1
 
 
 def _text(cell: Any) -> str:

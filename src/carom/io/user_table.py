@@ -46,7 +46,7 @@ AFTERWARDS = {  # what is called like it, after an impact
 LEAST_SIMILARITY = 0.8  # from which a column is taken for a misspelt one
 UNITS_IN_NAMES = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}
 ANGLES = ("angle", "rebound_angle")
-USUAL_UNITS = {"rad": "deg", "rad/s": "rpm"}
+USUAL_UNITS = {"rad": "deg", "rad/s": "rpm", "m": "cm"}
 PERCENT = ("%", "percent")
 
 
@@ -57,7 +57,7 @@ class UserTable(Rows, Printed):
     `rows` are the numbers of the rows, `word` is what they are called, lines of a file or rows,
     and `comments` are those of a file, by key. `missing` says where columns have no value, `notes`
     how a file was read, `wrong` what makes it no table, which whoever asks for a column is told,
-    and `faults` collects what else is wrong.
+    `faults` collects what else is wrong, and `hinted` columns that misspelt ones likely are.
     """
 
     cells: Mapping[str, Column]
@@ -69,6 +69,7 @@ class UserTable(Rows, Printed):
     notes: tuple[str, ...] = ()
     wrong: tuple[str, ...] = ()
     faults: Faults = field(default_factory=Faults)
+    hinted: set[str] = field(default_factory=set)
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -127,11 +128,11 @@ class UserTable(Rows, Printed):
 
     def require(self, *names: str) -> None:
         """Raise InputError for a column that is missing, with the nearest of those there are."""
-        for name in (each for each in names if each not in self.columns):
+        for name in (each for each in names if each not in {*self.columns, *self.hinted}):
             there = [spelled(key) for key in self.columns if key not in names]
             near = nearest(spelled(name), there)
             found = near or f"found {', '.join(there) or 'no other'};"
-            remedy = REMEDIES.get().column.format(head="ITS HEAD", name=name)
+            remedy = REMEDIES.get().columns({"ITS HEAD": name})
             there_as = f"; if it is there by another name, {remedy}"
             asked = there_as if self.is_of_file and not near else ""
             words = f"column missing; {found} needed are {', '.join(map(spelled, names))}"
@@ -203,14 +204,6 @@ def in_units(
     number, a value that is missing in another column, a unit that does not fit, an error that has
     no unit where its column has one, angles that cannot be in rad, and speeds of bodies that do not
     approach.
-
-    Examples
-    --------
-    >>> from carom.io.tables import read_table
-    >>> table = read_table({"angle [deg]": [0.0, 60.0], "spin_out [rpm]": ["-", -600]})
-    >>> given = in_units(table, ("angle", "spin_out"), gaps=("spin_out",))
-    >>> given["angle"].round(4), given["spin_out"].round(2)
-    (array([0.    , 1.0472]), array([   nan, -62.83]))
     """
     faults = faults or Faults()
     table, missing = table.told(faults), dict[str, Mask]()
@@ -263,12 +256,15 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
         hint, meaning = suggested(name, column, names)
         if not hint:
             continue
-        asked = f"did you mean {hint!r}?"
+        asked, known = f"did you mean {hint!r}?", hint.partition(" [")[0]
+        table.hinted.add(known)
+        unit = _unit_of_values(known, table)
+        meaning += f" [{unit}]" * (unit != "" and "[" not in meaning + column.head)
         if column.letter:
-            asked += " It is measured from the normal." * (hint.partition(" [")[0] in ANGLES)
-            asked += " It is that before the impact." * (hint.partition(" [")[0] == "spin")
-            remedy = REMEDIES.get().column.format(head=clipped(column.head), name=meaning)
-            asked += f" If so, {remedy}"
+            asked += " It is measured from the normal." * (known in ANGLES)
+            asked += " It is that before the impact." * (known == "spin")
+            asked += f" If so, {REMEDIES.get().columns({clipped(column.head): meaning})}"
+            asked += ", with the unit that it has" * ("[" in meaning and not hint.endswith("]"))
         faults.add(f"{heading(name)}: unknown column; {asked}")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
@@ -285,9 +281,12 @@ def suggested(name: str, column: Column, names: Iterable[str]) -> tuple[str, str
     if not hint or (not column.fault and column.missing.all()):
         return "", ""
     known, unit = hint.partition(" [")[0], str(column.unit)
-    if is_open(known, unit):
-        return hint, f"{known} [{USUAL_UNITS.get(GLOSSARY[entry(known)].unit, 'ITS UNIT')}]"
-    return hint, known if unit else hint
+    si = GLOSSARY[entry(known)].unit if entry(known) in GLOSSARY else "1"
+    needs = is_open(known, unit) or (entry(known) in HEIGHTS and column.is_bare)
+    if si == "rad" and hint == known and not unit:
+        needs = bool(np.any(np.abs(column_in_si(known, si, "", column.cells)[0]) >= 0.5 * pi))
+    named = f"{known} [{USUAL_UNITS.get(si, si)}]" if needs else known if unit else hint
+    return hint, named
 
 
 def entry(name: str) -> str:
@@ -319,10 +318,17 @@ def _when(plain: str, names: Collection[str]) -> str:
 
 def _check_error_unit(name: str, table: UserTable) -> None:
     """Raise InputError for an error whose unit can only be guessed."""
+    unit = _unit_of_values(name, table)
+    if unit and not str(table.cells[name].unit):
+        whole = f"no unit, but {entry(name)} is in {unit}"
+        raise InputError(f"{name}: {whole}; write '{name} [{unit}]'")
+
+
+def _unit_of_values(name: str, table: UserTable) -> str:
+    """Return the unit of the values of which a column has the errors, empty if it has none."""
     whole = entry(name)
-    unit = str(table.cells[whole].unit) if whole in table.cells else ""
-    if name != whole and unit not in ("", *PURE_UNITS) and not str(table.cells[name].unit):
-        raise InputError(f"{name}: no unit, but {whole} is in {unit}; write '{name} [{unit}]'")
+    unit = str(table.cells[whole].unit) if name != whole and whole in table.cells else ""
+    return "" if unit in PURE_UNITS else unit
 
 
 def _check_values(name: str, table: UserTable, open_ended: bool) -> None:
@@ -336,10 +342,8 @@ def _check_values(name: str, table: UserTable, open_ended: bool) -> None:
     if name in WHY_POSITIVE:
         table.refuse(name, values <= 0.0, f"must be positive{WHY_POSITIVE[name]}")
     if entry(name) in HEIGHTS:
-        cells, of_file = table.cells[name].cells, table.cells[name].letter
-        numbers = (str(cell).strip()[-1:].isdigit() for cell in cells)
-        bare = not isinstance(cells, list) or any(numbers)
-        if bare and not unit and (of_file or np.any(np.abs(values) > HIGHEST_DROP)):
+        far = table.cells[name].letter or np.any(np.abs(values) > HIGHEST_DROP)
+        if far and table.cells[name].is_bare:
             heads = " or ".join(f"'{name} [{each}]'" for each in ("m", "cm", "mm"))
             table.faults.add(f"{name}: no unit, and heights may be in m, cm or mm; write {heads}")
     if name in GLOSSARY and GLOSSARY[name].unit == "rad" and not name.startswith("surface"):

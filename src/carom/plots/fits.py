@@ -1,5 +1,6 @@
 """A fit: of rebounds or of normal drops, data, curves, residuals; samples of its parameters."""
 
+from textwrap import fill
 from typing import Any, Unpack
 
 import numpy as np
@@ -17,9 +18,11 @@ from carom.plots.regimes import REGIMES
 from carom.quantities.glossary import GLOSSARY
 
 ONE_INCIDENCE = 1e-9  # rad, between incidences that are drawn as one
-ACROSS = 2  # responses side by side
+ACROSS, TWO_COLUMNS = 2, 130.0  # responses side by side; mm that they need
 UPPER, LOWER = 48.0, 20.0  # heights of curves and residuals, in mm
 PER_SET = 8.0  # height of a set in mm
+WORDS = {"kappa": "ratio of stiffnesses", "chi": "inertia to stiffness"}
+LABEL = 30  # letters on a line of a label
 OUTLIERS: Any = {"marker": "o", "ls": "none", "ms": 4.0, "zorder": 6}
 OUTLIERS |= {"color": style.VERMILION, "mfc": "white"}
 LAW_STYLES: dict[str, Any] = {
@@ -55,7 +58,7 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     2
     """
     names = [str(name) for name in dataset["response"].values]
-    across = min(ACROSS, len(names))
+    across = min(ACROSS if style.room(style.DOUBLE) > TWO_COLUMNS else 1, len(names))
     down = -(-len(names) // across)
     width, height = style.SINGLE if across == 1 else style.DOUBLE, down * (UPPER + LOWER) + 18.0
     shared: Any = {"sharex": "col", "height_ratios": [UPPER, LOWER] * down}
@@ -105,7 +108,7 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         speeds, kept, dataset["restitution_error"].values, **style.POINTS, label="measured"
     )
     _mark(axis, speeds[outliers], values[outliers], dataset["row"].values[outliers])
-    axis.set(xlabel=style.label("normal_speed"), ylabel=style.label("normal_restitution"))
+    axis.set(xlabel=_label("normal_speed", "m/s"), ylabel=_label("normal_restitution", "1"))
     axis.legend(loc="best")
     return figure
 
@@ -116,22 +119,27 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     along=("set", "parameter"),
 )
 def plot_sets(dataset: Drawable, **look: Unpack[Look]) -> Figure:
-    """Draw the parameters of several sets of data with their intervals, one below the other."""
+    """Draw the parameters of several sets with their intervals, what they share only once."""
     names = [str(name) for name in dataset["parameter"].values]
     sets = [str(name) for name in dataset["set"].values]
-    size = style.DOUBLE, 18.0 + PER_SET * len(sets)
-    figure, axes = style.new_figure(1, len(names), width=size[0], height=size[1], sharey=True)
-    places = np.arange(len(sets))[::-1]
+    shared = str(dataset.attrs.get("shared", "")).split()
+    rows = [*sets, *(["all sets"] if shared else [])]
+    across = len(names) if style.room(style.DOUBLE) > TWO_COLUMNS else 1
+    size: Any = {"width": style.DOUBLE if across > 1 else style.SINGLE, "keep_height": True}
+    size["height"] = (18.0 + PER_SET * len(rows)) * len(names) // across
+    figure, axes = style.new_figure(len(names) // across, across, sharey=True, **size)
     for axis, name in zip(axes.flat, names, strict=True):
         own = dataset.sel(parameter=name)
+        own = own.isel(set=slice(0, 1)) if name in shared else own
+        places = np.arange(len(sets), len(rows)) if name in shared else np.arange(len(sets))
         scale, unit = _scale(name, own["value"].values)
         value, low, high = (scale * own[key].values for key in ("value", "low", "high"))
         seen = np.isfinite(low)
         reach = np.where(np.isfinite(high), high, value)
         bars = np.stack([value - low, reach - value])[:, seen]
         axis.errorbar(value[seen], places[seen], xerr=bars, **style.POINTS)
-        axis.set(xlabel=_label(name, unit), yticks=places, ylim=(-0.6, len(sets) - 0.4))
-        axis.set_yticklabels(sets)
+        axis.set(xlabel=_label(name, unit), yticks=range(len(rows)), ylim=(len(rows) - 0.4, -0.6))
+        axis.set_yticklabels(rows)
         axis.locator_params(axis="x", nbins=4)
     return figure
 
@@ -221,9 +229,10 @@ def _scale(name: str, values: Any) -> tuple[float, str]:
 
 
 def _label(name: str, unit: str) -> str:
-    words = name.replace("_", " ")
-    text = GLOSSARY[name].symbol if name in GLOSSARY else words
-    return text if unit == "1" else f"{text}\u00a0({unit})"
+    """Return a name in words with its symbol and unit."""
+    words, short = name.replace("_", " "), GLOSSARY[name].symbol if name in GLOSSARY else ""
+    words = WORDS.get(name, words)
+    return fill(f"{words} {short}", LABEL) + ("" if unit == "1" else f"\u00a0({unit})")
 
 
 def _incidence(dataset: xr.Dataset) -> str:

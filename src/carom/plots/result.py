@@ -2,11 +2,11 @@
 
 from abc import ABC, abstractmethod
 from base64 import b64encode
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from html import escape
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 from carom import plots
 
@@ -17,6 +17,19 @@ if TYPE_CHECKING:
     from carom.plots.look import Look
 
 DPI = 80
+
+
+class Section(NamedTuple):
+    """A part of a report: a figure, a table whose first row is its head, paragraphs, code.
+
+    `draw` makes the figure, in a `width` in mm if one is given.
+    """
+
+    heading: str
+    paragraphs: Sequence[str] = ()
+    table: Sequence[Sequence[str]] = ()
+    code: str = ""
+    draw: "Callable[..., Figure] | None" = None
 
 
 class Result(ABC):
@@ -92,9 +105,19 @@ def card(
     )
 
 
-def image(title: str, figure: "Figure", dpi: float = DPI) -> str:
+def image(title: str, figure: "Figure") -> str:
     """Return a figure as an image of HTML that holds its pixels."""
+    look = "max-width:100%;background:white"
+    return f"<img alt='{escape(title)}' style='{look}' src='{source(figure, DPI)}'>"
+
+
+def source(figure: "Figure", dpi: float) -> str:
+    """Return a figure as the source of an image of HTML."""
+    return f"data:image/png;base64,{b64encode(png(figure, dpi)).decode('ascii')}"
+
+
+def png(figure: "Figure", dpi: float) -> bytes:
+    """Return a figure as the content of a PNG file."""
     stream = BytesIO()
     figure.savefig(stream, format="png", dpi=dpi)
-    data = f"data:image/png;base64,{b64encode(stream.getvalue()).decode('ascii')}"
-    return f"<img alt='{escape(title)}' style='max-width:100%;background:white' src='{data}'>"
+    return stream.getvalue()

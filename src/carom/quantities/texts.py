@@ -82,6 +82,9 @@ SPELT_OUT = {  # as people write them, which the grammar has no words for; sizes
 FOLDED = str.maketrans("", "", BLANKS + "^*·⋅.(){}")
 
 
+DATE = re.compile(r"[0-9]{4}(-|/)[0-9]{1,2}\1[0-9]|[0-9]{1,2}(-|/|\.)[0-9]{1,2}\2[0-9]{2}")
+
+
 class Unreadable(ValueError):
     """A text is no quantity, or of another kind; `enough` if the message says what to do, too."""
 
@@ -132,6 +135,8 @@ def split(text: str) -> tuple[float, str]:
         raise Unreadable(f"it is longer than {LONGEST_TEXT} characters", enough=True)
     plain = text.strip(BLANKS)
     match = NUMBER.match(plain)
+    if DATE.match(plain):
+        raise Unreadable("it is a date, as spreadsheets make of 3.4; write the number", enough=True)
     if match is None:
         raise Unreadable() if plain else Unreadable("it is empty")
     mantissa = match[1].replace(MINUS, "-")
