@@ -32,7 +32,7 @@ class Body(Shape):
     B is the inverse mass at the contact, r its place (Stronge 2000, section 3.1). The wall is
     across z, which points from the second body to the first. With an inertia about y alone the body
     is struck in a plane of symmetry, that of x and z. A body without a mass does not move: a wall
-    that is curved.
+    that is curved, such as a rail along y with curvatures 1/R and 0, or a groove with -1/R and 0.
 
     Parameters
     ----------

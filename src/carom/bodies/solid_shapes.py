@@ -1,7 +1,7 @@
 """A solid above a wall: volume, second moments, where it touches, and how curved it is there."""
 
 from math import cos, pi, sin
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -84,7 +84,8 @@ def _moments(straight: float, flat: float, edge: float) -> Array:
 
 def body_of(kind: str, stuff: Material, solid: Solid, in_space: bool) -> Body:
     """Return a solid of a material as a body, in its plane of symmetry or in space."""
-    mass, spread = (stuff.density * each for each in solid[:2])  # type: ignore[operator]
+    density = cast(float, stuff.density)
+    mass, spread = density * solid.volume, density * solid.spread
     inertia = np.trace(spread) * np.eye(3) - 0.5 * (spread + spread.T)
     held = all(np.isfinite(each).all() for each in (mass, inertia, *solid))
     if not (held and mass > 0.0 and np.trace(inertia) > 0.0):
