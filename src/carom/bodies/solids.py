@@ -42,7 +42,7 @@ def rod(
 ) -> Body:
     """Return a round rod with hemispherical ends, which touches the wall with its lower end.
 
-    When the upper end comes down later, this is another impact.
+    When the upper end comes down, this is another impact.
 
     Parameters
     ----------
@@ -197,8 +197,8 @@ def clump(
 ) -> Body:
     """Return a rigid clump of spheres, as DEM codes have them, which touches with its lowest one.
 
-    Mass and inertia are the sums of those of all spheres, so that what overlaps counts twice. When
-    another sphere comes down later, this is another impact.
+    Mass and inertia are the sums of those of all spheres, so that what overlaps counts twice. The
+    other spheres must not come down while the lowest is in contact; later, this is another impact.
 
     Parameters
     ----------
