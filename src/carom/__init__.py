@@ -3,7 +3,8 @@
 A `Sphere` and a `HalfSpace`, `Sphere` or `Cup` make a `Pair`. `impact` lets them meet, `collide`
 does it for many, `sweep` varies any input, and `fit` finds parameters from measured rebounds.
 Groups of names are `carom.laws`, `carom.dem` and `carom.verify` (contact laws of DEM codes),
-`carom.plots`, `carom.datasets`, `carom.results` and `carom.status`; `dir(carom)` lists all.
+`carom.shapes`, `carom.plots`, `carom.datasets`, `carom.results` and `carom.status`; `dir(carom)`
+lists all.
 """
 
 from carom.names import attach  # a name is loaded when first used, from where the stub has it

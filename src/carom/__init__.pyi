@@ -5,6 +5,7 @@ from . import (
     laws as laws,
     plots as plots,
     results as results,
+    shapes as shapes,
     status as status,
     verify as verify,
 )

@@ -9,7 +9,17 @@ import lazy_loader
 
 from carom.old_names import NEW_PLACES, old_value
 
-NAMES_OF_GROUPS = ("classical", "datasets", "dem", "laws", "plots", "results", "status", "verify")
+NAMES_OF_GROUPS = (
+    "classical",
+    "datasets",
+    "dem",
+    "laws",
+    "plots",
+    "results",
+    "shapes",
+    "status",
+    "verify",
+)
 GROUPS = ("carom", *(f"carom.{name}" for name in NAMES_OF_GROUPS))
 
 

@@ -107,6 +107,16 @@ def bodies_and_losses(calls):
     calls.add("Sphere, K", carom.Sphere, radius=0.01, **weighted)
     calls.add("HalfSpace", carom.HalfSpace, material="steel")
     calls.add("Cup", carom.Cup, radius=0.01, material="steel")
+    leaning = {"angle": 0.5, "material": "steel", "in_space": True}
+    calls.add("rod", carom.shapes.rod, length=0.1, radius=0.01, **leaning)
+    rounded = {"length": 0.1, "radius": 0.02, "edge_radius": 0.005, "inner_radius": 0.01}
+    calls.add("cylinder", carom.shapes.cylinder, **rounded, **leaning)
+    calls.add("ellipsoid", carom.shapes.ellipsoid, semi_axes=(0.01, 0.02, 0.03), **leaning)
+    turned = {"orientation": np.eye(3), "material": "steel"}
+    calls.add("ellipsoid, turned", carom.shapes.ellipsoid, semi_axes=(0.01, 0.02, 0.03), **turned)
+    centres = [(0.0, 0.0, 0.0), (0.0, 0.01, 0.02)]
+    calls.add("clump", carom.shapes.clump, centres=centres, radii=0.01, **leaning)
+    calls.add("clump, turned", carom.shapes.clump, centres=centres, radii=[0.01, 0.02], **turned)
     calls.add("Pair", carom.Pair, first=BALL, second=WALL, friction=0.2)
     calls.add("KelvinVoigt", carom.KelvinVoigt, restitution=0.9)
     calls.add("KelvinVoigt, time", carom.KelvinVoigt, loss_time=1e-6)

@@ -90,9 +90,10 @@ FORMULAS = """
 BoundaryElements ElasticPlastic KelvinVoigt StandardLinearSolid Pair Pair.contact_scales Pair.scales
 Pair.lateral_ratio dem.HertzLinearHistory dem.LammpsMindlin dem.LinearSpring dem.StrongeLaw
 dem.ThorntonLaw dem.WaltonBraunLaw laws.ReboundLaw laws.RoughLaw laws.WaltonLaw
-laws.fit_walton results.HalfspaceImpact results.Impact results.BodyImpact.fields results.BodyImpact.stress
-results.BodyImpact.wear results.LoadPath results.Solution results.Solution.traction
-results.Solution.slip_angles results.Fit.advice results.Fit.posterior collide convert_observables
+laws.fit_walton results.HalfspaceImpact results.Impact results.BodyImpact.fields
+results.BodyImpact.stress results.BodyImpact.wear results.LoadPath results.Solution
+results.Solution.traction results.Solution.slip_angles results.Fit.advice results.Fit.posterior
+collide convert_observables
 curve impacts.curves.borders fit impact load_path rebound regime_map solve sweep wear_of_many
 classical.adhesive_impact classical.cattaneo_mindlin classical.critical_obliquity
 classical.loop_energy

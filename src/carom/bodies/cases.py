@@ -8,6 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from carom.bodies import solids
 from carom.bodies.kinematics import slope
 from carom.bodies.materials import VALUES, Material, as_material, material
 from carom.bodies.pairs import Counterbody, Pair
@@ -49,9 +50,13 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
 BODY = (*SIZES, "material")
 PLATE: dict[str, Callable[[str, Any], float]] = {"thickness": positive, "width": positive}
 MADE: dict[str, tuple[Callable[..., Body], tuple[str, ...]]] = {  # bodies of other shapes
-    "body": (Body, ("mass", "inertia", "contact", "curvature_radius", "curvatures"))
+    "body": (Body, ("mass", "inertia", "contact", "curvature_radius", "curvatures")),
+    "rod": (solids.rod, ("length", "radius", "angle")),
+    "cylinder": (solids.cylinder, ("length", "radius", "edge_radius", "angle", "inner_radius")),
+    "ellipsoid": (solids.ellipsoid, ("semi_axes", "angle")),
+    "clump": (solids.clump, ("centres", "radii", "angle")),
 }
-OF_SHAPES = tuple(dict.fromkeys(name for _, names in MADE.values() for name in names))
+OF_SHAPES = tuple({n: None for _, names in MADE.values() for n in names if n not in SIZES})
 MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data", "spectrum")
 SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads

@@ -1,6 +1,7 @@
 """Any smooth body: its mass and inertia, where it is touched, and how curved it is there."""
 
 from dataclasses import dataclass
+from types import NoneType
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from carom.bodies.shapes import Shape
 from carom.quantities.arrays import Array, numbers
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import Faults, refusal
+from carom.quantities.refusals import Faults, checked_type, refusal
 from carom.quantities.units import Value, finite, positive
 
 INERTIAS = "must be a positive number in kg m^2, or in space a symmetric 3 x 3 matrix of them"
@@ -31,7 +32,7 @@ class Body(Shape):
     B is the inverse mass at the contact, r its place (Stronge 2000, section 3.1). The wall is
     across z, which points from the second body to the first. With an inertia about y alone the body
     is struck in a plane of symmetry, that of x and z. A body without a mass does not move: a wall
-    that is curved.
+    that is curved, such as a rail along y with curvatures 1/R and 0, or a groove with -1/R and 0.
 
     Parameters
     ----------
@@ -49,6 +50,8 @@ class Body(Shape):
     curvatures : array_like, shape (2,) or (2, 2), optional
         Curvatures there along x and y in 1/m instead, negative where the body is hollow; or the
         matrix of them, if its axes are others.
+    name : str, optional
+        What it is, as "club", in results.
 
     Raises
     ------
@@ -69,6 +72,7 @@ class Body(Shape):
     inertia: float | tuple[tuple[float, ...], ...] | None
     contact: tuple[float, ...] | None
     curvatures: tuple[tuple[float, float], tuple[float, float]]
+    name: str | None
 
     @known_keywords
     def __init__(
@@ -80,8 +84,9 @@ class Body(Shape):
         contact: ArrayLike | None = None,
         curvature_radius: Value | None = None,
         curvatures: ArrayLike | None = None,
+        name: str | None = None,
     ) -> None:
-        read: dict[str, Any] = {"mass": None, "inertia": None, "contact": None}
+        read: dict[str, Any] = {"mass": None, "inertia": None, "contact": None, "name": name}
         of_motion = {"mass": mass, "inertia": inertia, "contact": contact}
         missing = [name for name, value in of_motion.items() if value is None]
         readers = {"mass": positive, "inertia": _inertia, "contact": _place}
@@ -90,11 +95,13 @@ class Body(Shape):
                 read["material"] = as_material(material)
             with faults.catching():
                 read["curvatures"] = _curvatures(curvature_radius, curvatures)
-            for name in missing if len(missing) < len(of_motion) else ():
-                faults.add(f"{name}: missing; a body that moves has mass, inertia and contact")
-            for name, value in of_motion.items():
+            for key in missing if len(missing) < len(of_motion) else ():
+                faults.add(f"{key}: missing; a body that moves has mass, inertia and contact")
+            for key, value in of_motion.items():
                 with faults.catching():
-                    read[name] = None if value is None else readers[name](name, value)
+                    read[key] = None if value is None else readers[key](key, value)
+            with faults.catching():
+                checked_type("name", name, (str, NoneType), "must be a text")
             if read["inertia"] is not None and read["contact"] is not None:
                 planar = isinstance(read["inertia"], float)
                 if planar != (len(read["contact"]) == 2):
@@ -148,8 +155,8 @@ class Body(Shape):
     def __str__(self) -> str:
         stuff = self.material.name or f"E = {text(self.material.young, 'Pa')}"
         if self.mass is None:
-            return f"curved wall ({stuff})"
-        return f"body ({stuff}, M = {text(self.mass, 'kg')})"
+            return f"{self.name or 'curved wall'} ({stuff})"
+        return f"{self.name or 'body'} ({stuff}, M = {text(self.mass, 'kg')})"
 
 
 def _inertia(name: str, value: Any) -> float | tuple[tuple[float, ...], ...]:

@@ -43,7 +43,7 @@ class BodyImpact(Impact):
     >>> rod = carom.Body(**size, contact=(0.03, -0.04), material="steel")
     >>> hit = carom.impact(carom.Pair(rod, carom.HalfSpace("steel"), 0.5), normal_speed=1.0)
     >>> round(hit.normal_restitution, 3), round(hit.spin_out, 2)
-    (0.8, 1)
+    (0.842, 23.55)
     """
 
     motion: RigidMotion = field(kw_only=True, repr=False)
