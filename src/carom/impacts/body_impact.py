@@ -43,7 +43,7 @@ class BodyImpact(Impact):
     >>> rod = carom.Body(**size, contact=(0.03, -0.04), material="steel")
     >>> hit = carom.impact(carom.Pair(rod, carom.HalfSpace("steel"), 0.5), normal_speed=1.0)
     >>> round(hit.normal_restitution, 3), round(hit.spin_out, 2)
-    (0.842, 23.55)
+    (0.84, 23.62)
     """
 
     motion: RigidMotion = field(kw_only=True, repr=False)
@@ -122,7 +122,10 @@ class BodyImpact(Impact):
     @property
     def dissipated_energy(self) -> float:
         """Energy lost to friction, in J."""
-        return float(self._energies(self._at_end)["frictional_work"][0])
+        if self.pair.friction == 0.0:
+            return 0.0
+        left = sum(self._after.energies(self.pair)) + self.lost_energy + self.shear_lost_energy
+        return float(sum(self.motion.energies(self.pair)) - left)
 
     @property
     def lost_energy(self) -> float:
@@ -288,10 +291,14 @@ class BodyImpact(Impact):
 
     def _plain(self, vectors: Array) -> Any:
         """Return vectors along x and y, in a plane what is along x."""
-        return vectors[..., 0] if self.pair.is_planar else vectors
+        return _bare(vectors[..., 0]) if self.pair.is_planar else vectors
 
     def _spin(self, vectors: Array) -> Any:
-        return -vectors[..., 1] if self.pair.is_planar else vectors
+        return _bare(-vectors[..., 1]) if self.pair.is_planar else vectors
+
+
+def _bare(values: Any) -> Any:
+    return values if np.ndim(values) else float(values)
 
 
 def parts(name: str, value: Any) -> dict[str, Array]:

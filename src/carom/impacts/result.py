@@ -22,7 +22,7 @@ from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY, listed
 from carom.quantities.prefixes import column, text
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import Value, counted, number, or_none
 
 if TYPE_CHECKING:
@@ -182,6 +182,8 @@ class ImpactResult(Outcome, Result):
         >>> round(float(spectrum.normal_notch_frequency) * hit.duration, 4)  # sin^1.5: 1.75
         1.804
         """
+        spheres = "spectra are those of spheres; history has the forces"
+        refuse(not self.pair.is_round and refusal("pair", str(self.pair), spheres))
         asked = read_frequencies(frequencies, max_frequency, n, self.duration)
         return spectrum_dataset(self, asked)
 
