@@ -49,12 +49,15 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
 }
 BODY = (*SIZES, "material")
 PLATE: dict[str, Callable[[str, Any], float]] = {"thickness": positive, "width": positive}
+IN_SPACE = "in_space"
+CYLINDER = ("length", "radius", "edge_radius", "angle", "inner_radius")
+NUMBERS = ("length", "edge_radius", "curvature_radius", "mass", "inertia", "angle")
 MADE: dict[str, tuple[Callable[..., Body], tuple[str, ...]]] = {  # bodies of other shapes
     "body": (Body, ("mass", "inertia", "contact", "curvature_radius", "curvatures")),
-    "rod": (solids.rod, ("length", "radius", "angle")),
-    "cylinder": (solids.cylinder, ("length", "radius", "edge_radius", "angle", "inner_radius")),
-    "ellipsoid": (solids.ellipsoid, ("semi_axes", "angle")),
-    "clump": (solids.clump, ("centres", "radii", "angle")),
+    "rod": (solids.rod, ("length", "radius", "angle", IN_SPACE)),
+    "cylinder": (solids.cylinder, (*CYLINDER, IN_SPACE)),
+    "ellipsoid": (solids.ellipsoid, ("semi_axes", "angle", IN_SPACE)),
+    "clump": (solids.clump, ("centres", "radii", "angle", IN_SPACE)),
 }
 OF_SHAPES = tuple({n: None for _, names in MADE.values() for n in names if n not in SIZES})
 MATERIAL = (*VALUES, "name")

@@ -32,6 +32,7 @@ STIFF_SHELL, SOFT_SHELL = 0.01, 0.1  # dent of a shell over Hertz's depth: as a 
 SOLID_BALL = 0.4 * (1.0 + 1e-9)  # K^2/R^2
 NO_SOLID_BALL = "a ball with this radius of gyration is not solid"
 METAL_FAST, METAL_YIELDED = 300.0, 0.07  # the same for metals
+SLIM, TURNS = 8.3, 1e-9  # axes of an ellipse up to which turning forces were compared; none
 SLENDER = 3.0  # radius of gyration over that of curvature, from which on a body may bend
 GRAVITY = 9.80665  # m/s^2
 LIGHT = 0.02  # of V_1, which gravity may add within the contact
@@ -126,6 +127,29 @@ def _slender(hit: ImpactResult) -> Finding | None:
         return None
     words = "not judged: a slender body bends, too; the theory takes it as rigid but at the contact"
     return Finding("K/R at the contact", ratio, SLENDER, None, words)
+
+
+def _slips_aside(hit: ImpactResult) -> Finding | None:
+    """Return the finding on slip that is not along the force, studied for round contacts alone."""
+    if hit.pair.friction == 0.0 or (hit.pair.dundurs_beta == 0.0 and _incompressible(hit.pair)):
+        return None
+    words = "that slip is not quite along the force was studied for spheres only, there to 0.01"
+    return _unknown("error of psi_2", f"off the centre; {words}")
+
+
+def _incompressible(pair: Pair) -> bool:
+    """Tell whether a traction moves the surface along itself alone: nu = 0."""
+    return all(m.is_rigid or m.poisson == 0.0 for m in (pair.first.material, pair.second.material))
+
+
+def _turns(hit: ImpactResult) -> Finding | None:
+    """Return the finding on forces that turn in an ellipse, by springs of two stiffnesses."""
+    axes = hit.pair._ellipse[1:3]
+    slim = max(axes) / min(axes)
+    if hit.pair.is_planar or slim <= 1.0 + TURNS or hit.pair.friction == 0.0:
+        return None
+    good = "springs of two stiffnesses give a force that turns to 0.002 of the friction limit"
+    return bounded("a/b", slim, SLIM, good, "not studied: the force may turn in a slimmer ellipse")
 
 
 def _solid(hit: ImpactResult) -> Finding | None:
@@ -249,5 +273,8 @@ OF_BODIES: tuple[Assumption, ...] = (
     *(_slow_contact, _weight, _shell, waves, bending, small_on_plate, deflection, rim),
     *(adhesion, damping, together, _solid),
 )
-OF_SHAPES: tuple[Assumption, ...] = (*(f for f in OF_BODIES if f is not _shell), _slender)
+OF_SHAPES: tuple[Assumption, ...] = (
+    *(f for f in OF_BODIES if f is not _shell),
+    *(_slender, _turns, _slips_aside),
+)
 OF_THEORY: tuple[Assumption, ...] = (*OF_BODIES, _spin, _rebound)
