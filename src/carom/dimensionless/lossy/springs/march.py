@@ -306,19 +306,25 @@ def step_for(
     return float(clock / (PER_SPRING * count))
 
 
+@kernel
+def share_of(size: float, inertia: Inertia) -> float:
+    """Return which part of psi is marched: off the centre all, as slip may turn at any."""
+    return LARGEST_PSI / size if size > LARGEST_PSI and at.is_central(inertia) else 1.0
+
+
 @entry_point()
 def run(
     psi_1: float, across: float, inertia: Inertia, solid: Solid, work: Arrays, numbers: Vector
 ) -> tuple[int, float]:
     """Run an impact of any psi_1, and that across; return its status, and the error of psi_2.
 
-    Beyond LARGEST_PSI psi_1 - psi_2 is the same. Numbers are Richardson's (1911), of two numbers of
+    Numbers are Richardson's (1911), of two numbers of
     springs, and the error is what he adds, but not below LEAST_ERROR, as that may be by chance.
     """
     size = np.hypot(psi_1, across)
     status, error = why_not(size, inertia.chi), 0.0
     if status == Status.SOLVED.value:
-        scale = np.copysign(min(LARGEST_PSI / size, 1.0) if size > 0.0 else 1.0, psi_1)
+        scale = np.copysign(share_of(size, inertia), psi_1)
         along, aside, speed = scale * psi_1, scale * across, abs(scale) * size
         if psi_1 < 0.0:
             inertia = at.turned(inertia)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import LARGEST_PSI, Loss, LossNumbers
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.solution import outcome
 from carom.dimensionless.lossy.springs import march
 from carom.dimensionless.lossy.springs.motion import Inertia
@@ -110,8 +110,7 @@ def solve_off_centre(
 ) -> OffCentreSolution:
     """Solve one impact; what is not solved has a status, and no rows."""
     trial, kept, numbers = march.new_work(), march.new_work(march.LONGEST), np.zeros(march.NUMBERS)
-    law, size = (inertia, solid_of(losses)), float(np.hypot(psi, across))
-    scale = LARGEST_PSI / size if size > LARGEST_PSI else 1.0
+    law, scale = (inertia, solid_of(losses)), march.share_of(float(np.hypot(psi, across)), inertia)
     first = scale * psi, scale * across
     status, error = march.run(psi, across, *law, trial, numbers)
     solved = status == Status.SOLVED
