@@ -60,5 +60,11 @@ def rates_of(body):
 
 def energy(body, out):
     """Return the kinetic energy of a motion (v, psi, psi across), of m_n V_1^2/2."""
-    share = 1.5 * body.eps / body.zeta if body.zeta else 1.5 * body.eps_across * body.ratio / body.zeta_across
-    return float(out @ np.diag([1.0, share, share / body.ratio]) @ np.linalg.inv(rates_of(body)) @ out)
+    share = (
+        1.5 * body.eps / body.zeta
+        if body.zeta
+        else 1.5 * body.eps_across * body.ratio / body.zeta_across
+    )
+    return float(
+        out @ np.diag([1.0, share, share / body.ratio]) @ np.linalg.inv(rates_of(body)) @ out
+    )
