@@ -1,8 +1,8 @@
-"""Impacts of rigid bodies of any shape, by Newton's and Euler's equations in SI units, many at once.
+"""Impacts of rigid bodies of any shape, by Newton's and Euler's equations in SI units.
 
-Springs stand at even places of the contact's radius, steps of time are even: normal forces are
-Hertz's, 2 E* sum (d - x^2/R) dx, tangential ones kappa E* u, cut along the slip to mu times that. The
-work of friction is summed apart, spring by spring.
+Many at once. Springs stand at even places of the contact's radius, steps of time are even: normal
+forces are Hertz's, of E* (d - x^2/R) dx, tangential ones kappa E* u, cut along the slip to mu times
+that. The work of friction is summed apart, spring by spring.
 """
 
 from typing import NamedTuple
@@ -66,7 +66,7 @@ class Contacts:
         return points[0] - points[1]
 
     def push(self, v, w, impulse):
-        """Return the velocities and spins after an impulse on the first bodies, against the second."""
+        """Return velocities and spins after an impulse on the first bodies."""
         pair = np.array([impulse, -impulse])
         turned = np.einsum("bnij,bnj->bni", self.turning, np.cross(self.arm, pair))
         return v + self.light[..., None] * pair, w + turned
