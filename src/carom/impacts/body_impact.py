@@ -292,7 +292,7 @@ class BodyImpact(ImpactResult):
 
     def _plain(self, vectors: Array) -> Any:
         """Return vectors along x and y, in a plane what is along x."""
-        return vectors[..., 0] if self.pair.is_planar else vectors
+        return vectors[..., 0][()] if self.pair.is_planar else vectors
 
     def _spin(self, vectors: Array) -> Any:
         return -vectors[..., 1] if self.pair.is_planar else vectors

@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import degrees, isfinite, isnan
+from math import degrees, isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,8 +67,9 @@ class ImpactResult(Outcome, Result):
     @cached_property
     def phases(self) -> tuple[Phase, ...]:
         """The phases in order, times in s."""
-        if not isfinite(self.psi_in):
-            sign = 1 if self.psi_in > 0.0 else -1
+        first, *_ = psi = np.ravel(self.psi_in)
+        if not np.all(np.isfinite(psi)):
+            sign = 1 if first >= 0.0 else -1
             return (Phase("gross slip", sign, 0.0, self.duration, "separation"),)
         unit = self.scales.time
         return tuple(
