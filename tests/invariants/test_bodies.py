@@ -270,7 +270,10 @@ def test_what_loses_rebounds_less(kind, sliding):
 @pytest.mark.parametrize("kind", [*LOSSES, "plate"])
 @pytest.mark.parametrize("sign", [1, -1])
 def test_sliding_throughout_with_losses(kind, sign):
-    """e is that of a mass 1/(b_nn + sigma mu b_nt) without friction; the impulse is along mu."""
+    """e is that of a mass 1/(b_nn + sigma mu b_nt) without friction; the impulse is along mu.
+
+    Nearly, of what yields: its pressure changes at once as it turns, and friction has to catch up.
+    """
     losses, wall, mu = LOSSES.get(kind), PLATE if kind == "plate" else FLOOR, 0.3
     hit = carom.impact(
         carom.Pair(ROUND, wall, mu), normal_speed=1.0, tangential_speed=8.0 * sign, losses=losses
@@ -288,8 +291,9 @@ def test_sliding_throughout_with_losses(kind, sign):
     ).normal_restitution
     assert hit.normal_restitution == pytest.approx(e, abs=1e-5)
     impulse = (1.0 + e) / lightness
-    assert hit.normal_speed_out == pytest.approx(impulse / heavy - 1.0, abs=2e-5)
-    assert hit.tangential_impulse == pytest.approx(sign * mu * impulse, rel=2e-5)
+    near = 1e-4 if kind == "yielding" else 2e-5
+    assert hit.normal_speed_out == pytest.approx(impulse / heavy - 1.0, abs=near)
+    assert hit.tangential_impulse == pytest.approx(sign * mu * impulse, rel=near)
 
 
 def test_results_are_numbers_in_a_plane_and_vectors_in_space():
