@@ -56,6 +56,8 @@ FRAMES = 3
 
 TRIAL_SPRINGS = 40  # with which the clock of the loading is found
 LEAST_ERROR = 1e-6  # of psi_2, in max(1, psi_1)
+LARGEST_ERROR = 1e-3  # of bodies off their centre, in the same or in max(1, e)
+SLID = 0.5 * LARGEST_PSI  # what sliding throughout may take if more would do the same
 FEW, MANY = MOST_SPRINGS // 2, MOST_SPRINGS
 
 
@@ -340,6 +342,12 @@ def run(
             numbers[j] += more
             if not np.isfinite(numbers[j]):
                 status = Status.UNRESOLVED.value
+        lost = np.hypot(along - numbers[layout.PSI_OUT], aside - numbers[PSI_ACROSS])
+        wrong = error > LARGEST_ERROR * max(speed, 1.0) or (size > LARGEST_PSI and lost > SLID)
+        e, before = numbers[layout.RESTITUTION], work.coarse[layout.RESTITUTION]
+        wrong = wrong or abs(e - before) > 4.0 * LARGEST_ERROR * max(abs(e), 1.0)
+        if wrong and not at.is_central(inertia):  # as in a jam at a grazing angle
+            status = Status.UNRESOLVED.value
         if at.is_central(inertia) and solid.loss == Loss.PLASTIC.value:
             thornton.come_to(solid.parameter, numbers)
         if at.is_central(inertia) and inertia.across == 0.0:
