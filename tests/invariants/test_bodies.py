@@ -304,3 +304,20 @@ def test_results_are_numbers_in_a_plane_and_vectors_in_space():
             assert isinstance(value, float) if size == () else value.shape == size, name
         assert hit.phases[-1].end == pytest.approx(hit.duration, rel=1e-3)
         assert hit.to_dataset().sizes["time"] == 400
+
+
+def test_axes_of_the_contact_are_named_by_x():
+    """The flatter the bodies are along an axis, the longer the ellipse is; psi has its kappa."""
+    turn = 0.3
+    c, s = np.cos(turn), np.sin(turn)
+    for flat, sharp in ((100.0, 400.0), (400.0, 100.0)):
+        along, aside = np.array([[c, s], [-s, c]])
+        curved = flat * np.outer(along, along) + sharp * np.outer(aside, aside)
+        given = {"mass": 0.01, "inertia": 1e-6 * np.eye(3), "contact": (0.01, 0.0, -0.02)}
+        first = carom.Body(**given, curvatures=0.5 * (curved + curved.T), material="steel")
+        pair = carom.Pair(first, FLOOR, 0.3)
+        hit = carom.impact(pair, normal_speed=1.0, tangential_speed=(1.0, 0.2))
+        assert (hit.semi_axis_x > hit.semi_axis_y) == (flat < sharp)
+        sliding = np.array([[c, s], [-s, c]]) @ [1.0, 0.2]
+        assert hit.psi_in == pytest.approx(np.array(pair.kappas) * sliding / 0.3, rel=1e-12)
+        assert (pair.kappas[0] < pair.kappas[1]) == (flat < sharp)
