@@ -15,7 +15,7 @@ import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import PSI_OUT, RESTITUTION, TIME
-from carom.dimensionless.lossy.springs import march
+from carom.dimensionless.lossy.springs import march, solids
 from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia, Solid
 from carom.dimensionless.lossy.springs.springs import WEIGHT
 from carom.dimensionless.numerics.kernels import plain
@@ -207,23 +207,23 @@ def test_every_solid_is_a_file_with_branches_of_its_own(
 ) -> None:
     """A member of Loss without a file, a place in SOLIDS or a branch fails here."""
     calls: list[tuple[str, str]] = []
-    for module in march.SOLIDS.values():
+    for module in solids.SOLIDS.values():
         for part in set(PARTS) & set(dir(module)):
             call = (module.__name__, part)
             monkeypatch.setattr(module, part, lambda *_, call=call: calls.append(call) or 1.0)
     work, solid = march.new_work(), Solid(int(loss), 0.5, 0.5)
-    plain(march.press)(solid, *work.motion, work.springs, 1)
-    plain(march.stored)(solid, work.motion[0], work.springs, 1)
-    plain(march.turn)(solid, work.motion[0], work.springs, 1, work.state, 1.0)
-    own = march.SOLIDS[loss]
+    plain(solids.press)(solid, *work.motion, work.springs, 1)
+    plain(solids.stored)(solid, work.motion[0], work.springs, 1)
+    plain(solids.turn)(solid, work.motion[0], work.springs, 1, work.state, 1.0)
+    own = solids.SOLIDS[loss]
     assert calls == [(own.__name__, part) for part in PARTS if hasattr(own, part)]
     assert {"press", "stored"} <= set(dir(own))
 
 
 def test_every_file_is_a_solid_or_part_of_the_march() -> None:
-    parts = {"__init__", "march", "motion", "solution", "springs"}
+    parts = {"__init__", "march", "motion", "off_centre", "solution", "springs"}
     files = {path.stem for path in Path(march.__file__).parent.glob("*.py")}
-    assert files - parts == {solid.__name__.split(".")[-1] for solid in march.SOLIDS.values()}
+    assert files - parts == {solid.__name__.split(".")[-1] for solid in solids.SOLIDS.values()}
 
 
 def test_a_loss_without_a_solid_is_refused() -> None:

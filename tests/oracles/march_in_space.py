@@ -19,9 +19,9 @@ def cut(trial, limit, ratio):
     return np.array([trial[0] / (1.0 + slip), trial[1] / (1.0 + ratio * slip)])
 
 
-def marched(psi, rates, springs, across=0.0, ratio=1.0):
+def marched(psi, rates, springs, across=0.0, ratio=1.0, reach=1.44):
     """Return v, psi, psi across after the impact; `rates` is B, shape (3, 3)."""
-    cell, step = 1.2 / springs, 4.0 / (8 * springs)
+    cell, step = reach**0.5 / springs, 4.0 / (8 * springs)
     s = (cell * (np.arange(springs) + 0.5)) ** 2
     w, depth, u, forces = np.array([1.0, psi, across]), 0.0, np.zeros((2, springs)), np.zeros(3)
     while depth >= 0.0:

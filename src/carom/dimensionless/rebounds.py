@@ -17,6 +17,7 @@ from carom.dimensionless.elastic.record import KIND, KIND_SIGN, Record, new_reco
 from carom.dimensionless.lossy import law, layout
 from carom.dimensionless.lossy.law import Loss, LossNumbers, LossyRebounds, ScaleFreeLaw
 from carom.dimensionless.lossy.springs import march, metal
+from carom.dimensionless.lossy.springs.solids import SOLIDS
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic, record, work
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Matrix, Vector
@@ -117,7 +118,7 @@ def solved(
 
 def is_elastic(loss: int, parameter: Array, extra: Array) -> NDArray[np.bool_]:
     """Tell where so little is lost, 1 - e below 2e-10, that the impact is the elastic one."""
-    if loss != Loss.VISCOUS and loss not in march.SOLIDS:
+    if loss != Loss.VISCOUS and loss not in SOLIDS:
         raise refusal(
             "loss", loss, "has no solid in SOLIDS of dimensionless/lossy/springs/march.py"
         )

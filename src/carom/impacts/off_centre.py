@@ -14,9 +14,9 @@ from carom.bodies.rigid_motion import RigidMotion
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.lossy.springs.march import SOLIDS
 from carom.dimensionless.lossy.springs.motion import Inertia
 from carom.dimensionless.lossy.springs.off_centre import OffCentreSolution, solve_off_centre
+from carom.dimensionless.lossy.springs.solids import SOLIDS
 from carom.dimensionless.solution import Solution
 from carom.impacts.body_impact import ROUND, BodyImpact, with_normal
 from carom.impacts.exact import loss_numbers, solution_of

@@ -5,10 +5,8 @@
 
 vectors of two components where the inertia has a direction across, f that of springs in shear,
 whose Coulomb limit is what they bear in compression. The solid says what that is and what load it
-makes: hertz, thornton, metal and relaxing; a new one is a file beside them, its place in SOLIDS,
-and a line in `press`, in `stored` and, if it changes where the bodies turn, in `turn`. Springs are
-laid at the edge as it grows, every second step. Of second order in the number of springs; what
-comes of two numbers of springs is extrapolated.
+makes (solids). Springs are laid at the edge as it grows, every second step. Of second order in the
+number of springs; what comes of two numbers of springs is extrapolated.
 """
 
 from typing import NamedTuple
@@ -18,24 +16,14 @@ import numpy as np
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.law import LARGEST_PSI, Loss, keep_energy, why_not
-from carom.dimensionless.lossy.springs import (
-    hertz,
-    metal,
-    motion as at,
-    relaxing,
-    springs as of,
-    thornton,
-)
+from carom.dimensionless.lossy.springs import motion as at, solids, springs as of, thornton
 from carom.dimensionless.lossy.springs.motion import Inertia, Solid
 from carom.dimensionless.numerics.arrays import Array, Codes, Cube, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
-SOLIDS = {Loss.PLATE: hertz, Loss.PLASTIC: thornton, Loss.RELAXING: relaxing, Loss.METAL: metal}
-
 MOST_SPRINGS = 500
 SPARE_SPRINGS = 40
 PER_SPRING = 2  # steps of the loading to a spring
-UNKNOWN = -1  # in place of how many springs touch: a solid that is not marched
 LONGEST = 20 * PER_SPRING * MOST_SPRINGS
 ELASTIC_CLOCK = 1.26  # of the loading of elastic bodies
 STANDING = 1e-7  # speed at which the bodies turn; a step that ends faster is followed by another
@@ -56,6 +44,7 @@ FRAMES = 3
 
 TRIAL_SPRINGS = 40  # with which the clock of the loading is found
 LEAST_ERROR = 1e-6  # of psi_2, in max(1, psi_1)
+LARGEST_ERROR = 1e-3  # of bodies off their centre, in the same or in max(1, e)
 FEW, MANY = MOST_SPRINGS // 2, MOST_SPRINGS
 
 
@@ -111,8 +100,8 @@ def march(
         part = at.drift(inertia, h, now, state, new)
         clock += part * h if grows else 0.0
         met = touching
-        touching = press(solid, now, new, turned, springs, laid)
-        if touching == UNKNOWN:
+        touching = solids.press(solid, now, new, turned, springs, laid)
+        if touching == solids.UNKNOWN:
             return 0, clock
         if touching == 0:
             end(now, new, springs)
@@ -132,7 +121,7 @@ def march(
             if new[at.EDGE] >= widest:
                 of.lay(springs, laid, new[at.EDGE])
                 at.copy(new, turned)
-            turn(solid, new, springs, touching, state, inertia.ratio)
+            solids.turn(solid, new, springs, touching, state, inertia.ratio)
         at.copy(new, now)
     return 0, clock
 
@@ -147,48 +136,6 @@ def begin(psi_1: float, across: float, work: Arrays) -> None:
         work.rows[0] = 0.0
         work.rows[0, layout.AT_V], work.rows[0, layout.AT_PSI] = 1.0, psi_1
         work.rows[0, OTHER_PSI] = across
-
-
-@kernel
-def press(solid: Solid, now: Array, new: Array, turned: Array, springs: Array, laid: int) -> int:
-    """Fill in what the contact and its springs bear after a step; return how many touch."""
-    if solid.loss == Loss.PLASTIC.value:
-        return int(thornton.press(solid.parameter, now, new, turned, springs, laid))
-    if solid.loss == Loss.RELAXING.value:
-        return int(relaxing.press(solid.extra, solid.parameter, now, new, springs, laid))
-    if solid.loss == Loss.METAL.value:
-        y, strain = solid.parameter, solid.strain
-        return int(metal.press(y, strain, now, new, turned, springs, laid))
-    if solid.loss == Loss.PLATE.value:
-        return int(hertz.press(solid.parameter, now, new, springs, laid))
-    return UNKNOWN
-
-
-@kernel
-def turn(
-    solid: Solid, now: Array, springs: Array, touching: int, state: Array, ratio: float
-) -> None:
-    """Change what changes where the bodies turn."""
-    if solid.loss == Loss.PLASTIC.value:
-        thornton.turn(now, springs, touching, state, ratio)
-    elif solid.loss == Loss.METAL.value:
-        metal.turn(now, springs, touching)
-    elif solid.loss == Loss.PLATE.value:
-        hertz.turn(solid.parameter, now)
-
-
-@kernel
-def stored(solid: Solid, now: Array, springs: Array, touching: int) -> float:
-    """Return the energy in compression, of m_n V_1^2/2."""
-    if solid.loss == Loss.RELAXING.value:
-        return float(relaxing.stored(solid.extra, now[at.EDGE], springs, touching))
-    if solid.loss == Loss.METAL.value:
-        return float(metal.stored(now[at.EDGE], springs, touching))
-    if solid.loss == Loss.PLATE.value:
-        return float(hertz.stored(now[at.DEPTH]))
-    if solid.loss == Loss.PLASTIC.value:
-        return float(thornton.stored(now[at.EDGE], now[at.LOAD]))
-    return np.nan
 
 
 @kernel
@@ -262,7 +209,7 @@ def keep(
     row[layout.AT_Q], row[layout.AT_SHEAR_LOST] = state[at.FORCE], state[at.LOST]
     row[OTHER_PSI], row[OTHER_MOVED] = state[at.PSI_ACROSS], state[at.MOVED_ACROSS]
     row[OTHER_FORCE] = state[at.FORCE_ACROSS]
-    row[layout.AT_STORED] = stored(solid, now, springs, touching)
+    row[layout.AT_STORED] = solids.stored(solid, now, springs, touching)
     row[layout.AT_LOST] = 1.0 - now[at.SPEED] ** 2 - row[layout.AT_STORED]
     for j in range(touching):
         weight, most = of.weight_of(springs, j, touching, now[at.EDGE]), springs[of.NEXT, j]
@@ -318,8 +265,8 @@ def run(
 ) -> tuple[int, float]:
     """Run an impact of any psi_1, and that across; return its status, and the error of psi_2.
 
-    Numbers are Richardson's (1911), of two numbers of
-    springs, and the error is what he adds, but not below LEAST_ERROR, as that may be by chance.
+    Numbers are Richardson's (1911), of two numbers of springs, and the error is what he adds, but
+    not below LEAST_ERROR, as that may be by chance. Jams at grazing angles may not be resolved.
     """
     size = np.hypot(psi_1, across)
     status, error = why_not(size, inertia.chi), 0.0
@@ -340,6 +287,11 @@ def run(
             numbers[j] += more
             if not np.isfinite(numbers[j]):
                 status = Status.UNRESOLVED.value
+        e, before = numbers[layout.RESTITUTION], work.coarse[layout.RESTITUTION]
+        wrong = abs(e - before) > 4.0 * LARGEST_ERROR * max(abs(e), 1.0)
+        wrong = wrong or error > LARGEST_ERROR * max(speed, 1.0)
+        if wrong and not at.is_central(inertia):
+            status = Status.UNRESOLVED.value
         if at.is_central(inertia) and solid.loss == Loss.PLASTIC.value:
             thornton.come_to(solid.parameter, numbers)
         if at.is_central(inertia) and inertia.across == 0.0:
