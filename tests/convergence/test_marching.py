@@ -221,7 +221,7 @@ def test_every_solid_is_a_file_with_branches_of_its_own(
 
 
 def test_every_file_is_a_solid_or_part_of_the_march() -> None:
-    parts = {"__init__", "march", "motion", "off_centre", "solution", "springs"}
+    parts = {"__init__", "march", "motion", "off_centre", "solids", "solution", "springs"}
     files = {path.stem for path in Path(march.__file__).parent.glob("*.py")}
     assert files - parts == {solid.__name__.split(".")[-1] for solid in solids.SOLIDS.values()}
 
