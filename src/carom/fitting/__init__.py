@@ -187,7 +187,7 @@ def joint_fit(
     >>> fast = {"angle [deg]": [25, 50, 60, 75], "impulse_ratio": [0.2, 0.21, 0.19, 0.2]}
     >>> both = carom.joint_fit([slow, fast], pair=pair, share="friction", fixed={"restitution": 1})
     >>> print(both.verdict)
-    the sets agree in friction (p = 0.99)
+    the sets agree in friction (p = 0.98)
     """
     level, limited = checked_confidence(confidence), flag("robust", robust)
     sets = named_sets(data)

@@ -119,7 +119,7 @@ def _solution(
     solution = solve_off_centre(psi, across, inertia, numbers)
     if solution.status is not Status.SOLVED:
         numbers_of = f"psi_1 = {psi:.3g}, chi = {inertia.chi:.3g}, eps = {inertia.eps:.3g}"
-        why = f"the impact at {numbers_of} is {solution.status.message}"
+        why = f"the impact at {numbers_of} is not resolved by springs, as jams at grazing angles"
         raise refusal(
             "losses" if losses else "contact", losses or getattr(pair.first, "contact", None), why
         )

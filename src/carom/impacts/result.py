@@ -210,7 +210,8 @@ class ImpactResult(Outcome, Result):
 
     def _repr_html_(self) -> str:
         numbers = self.scalars()
-        rows = {GLOSSARY[name].meaning: GLOSSARY[name].text(numbers[name]) for name in SHOWN}
+        there = [name for name in SHOWN if name in numbers]  # in space there is no angle
+        rows = {GLOSSARY[name].meaning: GLOSSARY[name].text(numbers[name]) for name in there}
         times, unit = _phase_times(self.phases)
         phases = (
             f"{start:>10s} to {end:>8s} {unit}  {p.kind}"
