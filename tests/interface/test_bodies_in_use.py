@@ -73,7 +73,7 @@ def test_a_case_file_is_what_its_maker_gives(kind: str, tmp_path: Path) -> None:
     expected = json.loads(json.dumps(hit.to_dict()))
     assert answer == expected
     assert str(hit).startswith("Rebound")
-    assert "rebound" in hit._repr_html_()
+    assert "speed of the centres" in hit._repr_html_()
     again = pair_of(case_of(pair_of(case(FIRST[kind]))))
     assert again.inverse_mass == pytest.approx(hit.pair.inverse_mass, rel=1e-12)
     assert again.kappas == hit.pair.kappas
