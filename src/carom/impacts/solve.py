@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
+from numpy.typing import ArrayLike
+
 from carom.bodies.kinematics import Tangential, approach
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair, check_second_spin, checked_pair, checked_scales
@@ -25,9 +27,9 @@ class Inputs(TypedDict, total=False):
     speed: Value | None
     angle: Value | None
     normal_speed: Value | None
-    tangential_speed: Value | None
-    spin: Value
-    spin2: Value
+    tangential_speed: Value | ArrayLike | None
+    spin: Value | ArrayLike
+    spin2: Value | ArrayLike
     normal_spin: Value
     losses: LossLaw | None
     progress: Progress
@@ -46,9 +48,9 @@ def impact(
     speed: Value | None = None,
     angle: Value | None = None,
     normal_speed: Value | None = None,
-    tangential_speed: Value | None = None,
-    spin: Value = 0.0,
-    spin2: Value = 0.0,
+    tangential_speed: Value | ArrayLike | None = None,
+    spin: Value | ArrayLike = 0.0,
+    spin2: Value | ArrayLike = 0.0,
     normal_spin: Value = 0.0,
     losses: LossLaw | None = None,
     method: str | BoundaryElements = "exact",
@@ -73,10 +75,11 @@ def impact(
         Angle of incidence from the normal; a bare number is in radians.
     normal_speed, tangential_speed : float or str
         Components of the velocity of the first body relative to the second, in m/s, instead of
-        speed and angle.
+        speed and angle; of a `Body` of its centre of mass, in space two tangential ones.
     spin, spin2 : float or str
         Spin of the first body, and of the second if it is a sphere, in rad/s; positive spin adds
-        to the tangential speed of the contact point.
+        to the tangential speed of the contact point. Of a `Body` V_x = v_x - z omega; in space
+        three, right-handed about x, y and z, which points from the second body to the first.
     normal_spin : float or str
         Spin about the line of impact of the first body, less that of the second, in rad/s;
         positive is clockwise seen from the first body. The theory neglects it, and `validity` says
@@ -94,14 +97,15 @@ def impact(
 
     Returns
     -------
-    Impact or HalfspaceImpact
+    Impact, BodyImpact or HalfspaceImpact
         The rebound (psi_out, rebound_angle, spin_out, restitutions, energies), the phases and
         `validity`, and methods for the rest: history, fields, plot, animate, to_dataset, cite.
 
     Raises
     ------
     InputError
-        If a value is missing, given twice, out of range, or the bodies do not approach.
+        If a value is missing, given twice, out of range, or the bodies do not approach, or springs
+        do not resolve the impact of a `Body`, as in a jam at a grazing angle.
     RuntimeError
         If the boundary elements do not converge, as where friction times Dundurs' beta exceeds 1.
 
@@ -120,8 +124,9 @@ def impact(
         speeds = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
         speeds |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2}
         return _of_bodies(pair, speeds, losses, normal_spin, method)
-    approaching, tangential = approach(speed, angle, normal_speed, tangential_speed)
-    first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
+    along: Any = tangential_speed
+    approaching, tangential = approach(speed, angle, normal_speed, along)
+    first_spin, second_spin = (finite(n, s) for n, s in (("spin", spin), ("spin2", spin2)))
     about_normal = finite("normal_spin", normal_spin)
     check_second_spin(pair, spin2, spins=second_spin != 0.0)
     motion = Tangential(tangential, first_spin, second_spin)
