@@ -121,7 +121,7 @@ def impact(
     """
     checked_pair(pair, plates=True, any_shape=True)
     if not pair.is_round:
-        speeds = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
+        speeds: dict[str, Any] = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
         speeds |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2}
         return _of_bodies(pair, speeds, losses, normal_spin, method)
     along: Any = tangential_speed
