@@ -83,6 +83,8 @@ def test_a_key_of_another_kind_is_refused(tmp_path: Path) -> None:
     for key, value in {"gyration_radius": 0.1, "semi_axes": [1, 2, 3], "mass": 1.0}.items():
         with pytest.raises(carom.InputError, match=f"{key}: .* a rod has none"):
             pair_of(case({**ROD, key: value}))
+    with pytest.raises(carom.InputError, match="length: missing for a rod; give it in its table"):
+        pair_of(case({"kind": "rod", "radius": 0.01, "material": "steel"}))
     ball, lengths = {"radius": "5 mm", "material": "steel"}, carom.Grid({"first.length": [0.1]})
     with pytest.raises(carom.InputError, match=r"first\.length: a half-space has none"):
         carom.sweep(case(ball), lengths)

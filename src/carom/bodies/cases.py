@@ -5,6 +5,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping
 from contextlib import suppress
+from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -163,7 +164,11 @@ def has_shapes(case: Mapping[str, Any]) -> bool:
 def _made(kind: str, table: Mapping[str, Any]) -> Body:
     maker, allowed = MADE[kind]
     others = {*table} - {"kind", "material", *allowed}
-    refuse(*(refusal(n, table[n], f"a {kind} has none; leave it out") for n in sorted(others)))
+    needed = [n for n, p in signature(maker).parameters.items() if p.default is p.empty]
+    refuse(
+        *(refusal(n, table[n], f"a {kind} has none; leave it out") for n in sorted(others)),
+        *(f"{n}: missing for a {kind}; give it in its table" for n in needed if n not in table),
+    )
     stuff = read_material(_needed(table, kind, "", "material", "steel"))
     return maker(**{name: table[name] for name in allowed if name in table}, material=stuff)
 
