@@ -117,6 +117,15 @@ def bodies_and_losses(calls):
     centres = [(0.0, 0.0, 0.0), (0.0, 0.01, 0.02)]
     calls.add("clump", carom.shapes.clump, centres=centres, radii=0.01, **leaning)
     calls.add("clump, turned", carom.shapes.clump, centres=centres, radii=[0.01, 0.02], **turned)
+    heavy = {"mass": 0.1, "curvatures": (300.0, 200.0), "material": "steel"}
+    calls.add("Body", carom.Body, **heavy, inertia=1e-5, contact=(0.01, -0.02), name="rod")
+    whole = {"inertia": np.diag([1e-5, 2e-5, 2e-5]), "contact": (0.01, 0.0, -0.02)}
+    calls.add("Body, in space", carom.Body, **heavy, **whole)
+    egg = carom.Pair(carom.Body(**heavy, **whole), WALL, friction=0.2)
+    for name, at in {"": 0.0, ", sliding": [0.1, 0.2]}.items():
+        spins = {"spin": [1.0, 2.0, 3.0], "spin2": 0.0, "normal_spin": 0.0}
+        moving = {"normal_speed": 1.0, "tangential_speed": at, **spins}
+        calls.add(f"impact of a body{name}", carom.impact, pair=egg, **moving, losses=None)
     calls.add("Pair", carom.Pair, first=BALL, second=WALL, friction=0.2)
     calls.add("KelvinVoigt", carom.KelvinVoigt, restitution=0.9)
     calls.add("KelvinVoigt, time", carom.KelvinVoigt, loss_time=1e-6)

@@ -13,7 +13,7 @@ from carom.quantities.arrays import Array, numbers
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import Faults, checked_type, refusal
-from carom.quantities.units import Value, finite, positive
+from carom.quantities.units import Value, positive
 
 INERTIAS = "must be a positive number in kg m^2, or in space a symmetric 3 x 3 matrix of them"
 HEAVY = "of no body: each principal moment is at most the sum of both others"
@@ -160,11 +160,11 @@ class Body(Shape):
 
 
 def _inertia(name: str, value: Any) -> float | tuple[tuple[float, ...], ...]:
-    if np.ndim(value) == 0 or isinstance(value, str):
-        return positive(name, value)
     tensor = numbers(name, value, INERTIAS)
+    if tensor.ndim == 0:
+        return positive(name, value)
     scale = float(np.abs(tensor).max()) if tensor.shape == (3, 3) else 0.0
-    if not scale > 0.0 or np.abs(tensor - tensor.T).max() > SYMMETRIC * scale:
+    if not 0.0 < scale < np.inf or np.abs(tensor - tensor.T).max() > SYMMETRIC * scale:
         raise refusal(name, value, INERTIAS)
     moments = np.linalg.eigvalsh(tensor)
     if not moments[0] > 0.0:
@@ -175,10 +175,10 @@ def _inertia(name: str, value: Any) -> float | tuple[tuple[float, ...], ...]:
 
 
 def _place(name: str, value: Any) -> tuple[float, ...]:
-    values = value if isinstance(value, list | tuple) else np.asarray(value)
-    if np.ndim(values) != 1 or len(values) not in (2, 3):
+    values = numbers(name, value, PLACE)
+    if values.shape not in ((2,), (3,)) or not np.all(np.isfinite(values)):
         raise refusal(name, value, PLACE)
-    return tuple(finite(name, each) for each in values)
+    return tuple(values.tolist())
 
 
 def _curvatures(radius: Any, curvatures: Any) -> tuple[tuple[float, float], tuple[float, float]]:

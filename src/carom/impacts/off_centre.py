@@ -20,7 +20,7 @@ from carom.dimensionless.lossy.springs.solids import SOLIDS
 from carom.dimensionless.solution import Solution
 from carom.impacts.body_impact import ROUND, BodyImpact, with_normal
 from carom.impacts.exact import loss_numbers, solution_of
-from carom.quantities.arrays import Array
+from carom.quantities.arrays import Array, numbers
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import Faults, refusal, refuse
 from carom.quantities.units import finite, positive
@@ -91,13 +91,18 @@ def approach_of(pair: Pair, speeds: Mapping[str, Any]) -> float:
 
 def _vector(name: str, value: Any, size: int) -> Array:
     """Return so many finite numbers; none, or one that is zero, are zeros."""
-    if value is None or (np.ndim(value) == 0 and (size == 1 or value == 0.0)):
-        return np.full(size, 0.0 if value is None else finite(name, value))
-    values = value if isinstance(value, list | tuple) else np.asarray(value)
-    if size == 1 or np.ndim(values) != 1 or len(values) != size:
-        in_space = IN_SPACE.format(("two", "three")[size - 2], " and z" * (size - 2))
-        raise refusal(name, value, IN_PLANE if size == 1 else in_space)
-    return np.array([finite(name, each) for each in values])
+    if value is None:
+        return np.zeros(size)
+    if size == 1:
+        refuse(isinstance(value, list | tuple | np.ndarray) and refusal(name, value, IN_PLANE))
+        return np.array([finite(name, value)])
+    allowed = IN_SPACE.format(("two", "three")[size - 2], " and z" * (size - 2))
+    values = numbers(name, value, allowed)
+    if values.ndim == 0 and values == 0.0:
+        return np.zeros(size)
+    bad = values.shape != (size,) or not np.all(np.isfinite(values))
+    refuse(bad and refusal(name, value, allowed))
+    return values
 
 
 def _solution(
@@ -109,14 +114,14 @@ def _solution(
         pair.kappas[i] / pair.kappa * pair.psi(float(sliding[i]), scales.speed) for i in range(2)
     )
     elliptic = abs(pair._ellipse.along / pair._ellipse.across - 1.0) > ROUND
-    numbers = loss_numbers(pair, scales, losses)
-    yields = numbers.loss in (Loss.PLASTIC, Loss.METAL) and elliptic
+    loses = loss_numbers(pair, scales, losses)
+    yields = loses.loss in (Loss.PLASTIC, Loss.METAL) and elliptic
     refuse(yields and refusal("losses", losses, ROUND_ONLY))
     b = pair.inverse_mass
     if pair.friction == 0.0 or (pair.is_planar and abs(b[0, 2]) <= UNCOUPLED * b[2, 2]):
         return solution_of(pair, scales, psi if isfinite(psi) else 0.0, losses)
-    refuse(numbers.loss not in SOLIDS and refusal("losses", losses, MARCHED))
-    solution = solve_off_centre(psi, across, inertia, numbers)
+    refuse(loses.loss not in SOLIDS and refusal("losses", losses, MARCHED))
+    solution = solve_off_centre(psi, across, inertia, loses)
     if solution.status is not Status.SOLVED:
         numbers_of = f"psi_1 = {psi:.3g}, chi = {inertia.chi:.3g}, eps = {inertia.eps:.3g}"
         why = f"the impact at {numbers_of} is not resolved by springs, as jams at grazing angles"
