@@ -340,7 +340,7 @@ def test_14_kernels_of_like_and_unlike_materials():
 
 
 def test_16_a_body_that_slides_throughout_and_the_share_of_an_ellipse():
-    """(16.1) to (16.3) in both directions, at the border and inside; beyond it e differs. (16.4)."""
+    """(16.1) to (16.3) both ways, from the border on, beside which e differs; (16.4)."""
     mass, turning, x, z, mu = 0.02, 7e-6, -0.01, -0.02, 0.3
     size = {"mass": mass, "inertia": turning, "contact": (x, z), "curvature_radius": 0.003}
     pair = carom.Pair(carom.Body(**size, material=STEEL), carom.HalfSpace(STEEL), mu)
