@@ -337,3 +337,35 @@ def test_14_kernels_of_like_and_unlike_materials():
     like = carom.Pair(SPHERES.first, carom.HalfSpace(material=STEEL), friction=0.1)
     assert Materials(like.kappa).lateral == pytest.approx(nu / (1 - nu))
     assert like.lateral_ratio == pytest.approx(nu / (2 - nu))
+
+
+def test_16_a_body_that_slides_throughout_and_the_share_of_an_ellipse():
+    """(16.1) to (16.3) both ways, from the border on, beside which e differs; (16.4)."""
+    mass, turning, x, z, mu = 0.02, 7e-6, -0.01, -0.02, 0.3
+    size = {"mass": mass, "inertia": turning, "contact": (x, z), "curvature_radius": 0.003}
+    pair = carom.Pair(carom.Body(**size, material=STEEL), carom.HalfSpace(STEEL), mu)
+    normal, along, mixed = 1 / mass + x**2 / turning, 1 / mass + z**2 / turning, x * z / turning
+    chi, eps = pair.kappa / 2 * along / normal, mu * mixed / normal
+    zeta = pair.kappa / mu * mixed / normal
+    for sigma in (-1, 1):
+        r = (2 * chi + sigma * zeta) / (1 + sigma * eps)
+        for far in (1.0, 1.5):
+            psi = sigma * far * max(1, 2 * r - 1)
+            speeds = {"normal_speed": 1.0, "tangential_speed": mu * psi / pair.kappa}
+            hit = carom.impact(pair, **speeds)
+            closed = psi - 2 * (2 * chi * sigma + zeta) / (1 + sigma * eps)
+            assert_allclose([hit.psi_out, hit.normal_restitution], [closed, 1], rtol=2e-5)
+        speeds["tangential_speed"] *= 0.9 / far
+        assert abs(carom.impact(pair, **speeds).normal_restitution - 1) > 1e-4
+    wall = carom.Body(curvatures=(20, 300), material=GLASS)
+    touching = carom.Pair(carom.Sphere(radius=0.01, material=STEEL), wall, mu)
+    a, b = touching._ellipse[1:3]
+    slow = [
+        quad(lambda t, n=n: np.cos(t) ** n / np.hypot(np.cos(t) / a, np.sin(t) / b), 0, pi)[0]
+        for n in (2, 0)
+    ]
+    share = slow[0] / slow[1]
+    assert_allclose(share, a**2 * touching.effective_radius * 120 / 2, rtol=1e-12)  # d = 1
+    for other, kappa in zip((1 - share, share), touching.kappas, strict=True):
+        soft = sum((1 - m.poisson * other) / (2 * m.shear_modulus) for m in (STEEL, GLASS))
+        assert_allclose(kappa, 1 / soft / touching.effective_modulus, rtol=1e-12)
