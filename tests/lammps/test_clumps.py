@@ -32,10 +32,7 @@ def strikes(centres, friction, second):
         given = [{"centres": centres, "orientation": turn} for turn in turns]
     else:
         angles, psi = (each.ravel() for each in np.meshgrid(np.radians([10, 25, 40, 55, 80]), psi))
-        turns, psi = (
-            Rotation.from_euler("y", angles[:, np.newaxis]),
-            np.column_stack((psi, 0.0 * psi)),
-        )
+        turns, psi = Rotation.from_euler("y", angles[:, np.newaxis]), np.outer(psi, (1.0, 0.0))
         given = [{"centres": centres[:, [0, 2]], "angle": angle} for angle in angles]
     for turn, of_clump in zip(turns, given, strict=True):
         clump = carom.shapes.clump(**of_clump, radii=RADIUS, material=STEEL)
