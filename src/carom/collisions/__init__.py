@@ -8,7 +8,8 @@ from typing import Any, Literal, Protocol, Required, TypedDict, Unpack, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.pairs import Pair, check_second_spin, checked_pair
+from carom.bodies.checks import check_second_spin, checked_pair
+from carom.bodies.pairs import Pair
 from carom.collisions import records
 from carom.collisions.compiled import Motions, collide_all
 from carom.collisions.plates import PlateRule, plate_rule

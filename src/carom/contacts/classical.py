@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.pairs import Pair, with_friction
+from carom.bodies.checks import with_friction
+from carom.bodies.pairs import Pair
 from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.refusals import refusal, refuse
 

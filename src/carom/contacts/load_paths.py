@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom import plots
-from carom.bodies.pairs import ContactScales, Pair, with_friction
+from carom.bodies.checks import with_friction
+from carom.bodies.pairs import ContactScales, Pair
 from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
 from carom.contacts.in_contact import InContact

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.bodies.checks import checked_pair
 from carom.bodies.kinematics import Rebound, Tangential, components, inertia
-from carom.bodies.pairs import Pair, checked_pair
+from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.arrays import Array, along_the_same, numbers, refuse_where, together
 from carom.quantities.keywords import known_keywords

@@ -10,7 +10,8 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.bodies.pairs import Pair, Scales, checked_scales, with_friction
+from carom.bodies.checks import checked_scales, with_friction
+from carom.bodies.pairs import Pair, Scales
 from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dem.base import Codes, ContactLaw, Law, LawStatus, status_of
 from carom.dem.coefficients import SPRING

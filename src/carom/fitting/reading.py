@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from carom.bodies.cases import check_case, pair_of
+from carom.bodies.checks import alike, checked_pair
 from carom.bodies.kinematics import Tangential, inertia
-from carom.bodies.pairs import Pair, alike, checked_pair
+from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace
 from carom.datasets import observables
 from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES

@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies import pairs
+from carom.bodies import checks
 from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair, Scales
 from carom.dimensionless.adhesion import STICKING, Adhering, solve_adhering
@@ -165,7 +165,7 @@ def adhesive_impact(
     [0.0, 0.599, 0.997]
     """
     given = (normal_speed, tangential_speed, spin, spin2)
-    speed, motion = _motion(pairs.checked_pair(pair), given)
+    speed, motion = _motion(checks.checked_pair(pair), given)
     energy, scales = _energy(pair, work_of_adhesion), _scales(pair, speed, motion)
     psi = pair.psi(motion.contact_velocity(pair), speed)
     solution = solve_adhering(psi, pair.chi, sticking_speed(pair, energy) / speed)
@@ -193,7 +193,7 @@ def _motion(pair: Pair, given: tuple[ArrayLike, ...]) -> tuple[Any, Tangential]:
         refuse_where(name, values, ~np.isfinite(values), FINITE)
     speed = read["normal_speed"]
     refuse_where("normal_speed", speed, speed <= 0.0, f"must be positive{APPROACH}")
-    pairs.check_second_spin(pair, given[3], spins=bool(np.any(read["spin2"])))
+    checks.check_second_spin(pair, given[3], spins=bool(np.any(read["spin2"])))
     speed, *motion = (_plain(np.broadcast_to(each, shape).copy()) for each in read.values())
     return speed, Tangential(*motion)
 
@@ -210,12 +210,12 @@ def _scales(pair: Pair, speed: Any, motion: Tangential) -> Scales:
     refuse(slides and refusal("friction", 0.0, needed))
     parts = speed, velocity, motion.tangential_speed, *carried
     if not np.ndim(speed):
-        return pairs.checked_scales(pair, *parts)
+        return checks.checked_scales(pair, *parts)
     with np.errstate(all="ignore"):
         scales = pair.scales(speed)
-        fits = pairs.scales_fit(pair, scales, *parts[1:])
+        fits = checks.scales_fit(pair, scales, *parts[1:])
     for each in () if np.all(fits) else np.nditer(parts):
-        pairs.checked_scales(pair, *map(float, each))
+        checks.checked_scales(pair, *map(float, each))
     return scales
 
 

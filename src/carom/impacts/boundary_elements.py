@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.bodies.checks import with_friction
 from carom.bodies.kinematics import Tangential, normal_inertia
-from carom.bodies.pairs import Pair, Scales, with_friction
+from carom.bodies.pairs import Pair, Scales
 from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless import solution as theory
 from carom.dimensionless.states import SlipAngle

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from carom.bodies.checks import checked_scales
 from carom.bodies.contact_shape import axes_of
 from carom.bodies.kinematics import by_angle, components, slope
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, Scales, checked_scales
+from carom.bodies.pairs import Pair, Scales
 from carom.bodies.rigid_motion import RigidMotion
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss

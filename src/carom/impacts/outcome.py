@@ -4,9 +4,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Protocol, cast
 
+from carom.bodies.checks import scales_fit
 from carom.bodies.kinematics import Kinematics
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Scales, scales_fit
+from carom.bodies.pairs import Scales
 from carom.bodies.shapes import describe
 from carom.quantities.elementwise import copysign, isfinite, where
 

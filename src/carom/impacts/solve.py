@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
 from numpy.typing import ArrayLike
 
+from carom.bodies.checks import check_second_spin, checked_pair, checked_scales
 from carom.bodies.kinematics import Tangential, approach
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, check_second_spin, checked_pair, checked_scales
+from carom.bodies.pairs import Pair
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords

@@ -10,8 +10,9 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from carom.bodies.checks import checked_pair
 from carom.bodies.losses import KelvinVoigt, ZenerPlate
-from carom.bodies.pairs import Pair, checked_pair
+from carom.bodies.pairs import Pair
 from carom.dem.base import Codes, Law
 from carom.dimensionless import rebound_tables as tables
 from carom.dimensionless.elastic.phases import Status

@@ -8,7 +8,8 @@ from math import inf
 import numpy as np
 from scipy.optimize import least_squares
 
-from carom.bodies.pairs import Pair, with_friction
+from carom.bodies.checks import with_friction
+from carom.bodies.pairs import Pair
 from carom.laws.exact import law_of
 from carom.laws.rigid import WaltonLaw
 from carom.quantities.arrays import Array

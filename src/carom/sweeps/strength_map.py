@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.cases import case_of
-from carom.bodies.pairs import Pair, checked_pair
+from carom.bodies.checks import checked_pair
+from carom.bodies.pairs import Pair
 from carom.impacts.peaks import UNCOUPLED
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.progress import Progress

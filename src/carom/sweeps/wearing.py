@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.bodies.checks import check_second_spin, checked_pair
 from carom.bodies.kinematics import Tangential, by_angle
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, check_second_spin, checked_pair
+from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere, describe
 from carom.dimensionless.lossy.law import checked_law
 from carom.impacts.exact import solve_exactly

@@ -8,7 +8,8 @@ from math import exp, pi, sqrt
 from typing import NamedTuple
 
 from carom import dem
-from carom.bodies.pairs import Pair, checked_pair, checked_scales
+from carom.bodies.checks import checked_pair, checked_scales
+from carom.bodies.pairs import Pair
 from carom.dem import damping
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.quantities.refusals import checked_type, one_of, refusal, refuse

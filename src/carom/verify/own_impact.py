@@ -5,7 +5,7 @@ from math import degrees
 from typing import Any, NamedTuple
 
 from carom.bodies.cases import Case, motion_of, pair_of
-from carom.bodies.pairs import checked_pair
+from carom.bodies.checks import checked_pair
 from carom.datasets.observables import convert_observables
 from carom.dem.base import Law
 from carom.impacts.exact import Impact

@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike
 
 from carom import dem
 from carom.bodies.cases import Case, losses_of, motion_of, pair_of
+from carom.bodies.checks import with_friction
 from carom.bodies.kinematics import approach, slope
-from carom.bodies.pairs import Pair, with_friction
+from carom.bodies.pairs import Pair
 from carom.dem.base import ContactLaw, Law
 from carom.dem.damping import damped_restitution
 from carom.dimensionless.numerics.hertz import DURATION

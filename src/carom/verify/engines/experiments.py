@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from carom.bodies.checks import checked_scales, with_friction
 from carom.bodies.materials import set_fields
-from carom.bodies.pairs import Pair, Scales, checked_scales, with_friction
+from carom.bodies.pairs import Pair, Scales
 from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dem.base import ContactLaw
 from carom.dimensionless.numerics import hertz

@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.bodies import cases
+from carom.bodies.checks import alike, with_friction
 from carom.bodies.losses import KelvinVoigt
-from carom.bodies.pairs import Pair, alike, with_friction
+from carom.bodies.pairs import Pair
 from carom.bodies.shapes import describe
 from carom.dem import FunctionLaw
 from carom.dem.base import LawStatus
