@@ -116,7 +116,7 @@ BAD = [
     (["impact", "--radius", "5 kg", *BALL[3:], *SPEED], "radius: '5 kg' .*value in m;.*'5 mm'"),
     ([*BALL, "--speed", "1,5 m/s"], "speed: '1,5 m/s' .*point, not a comma"),
     ([*BALL, *SPEED, "--second-material", "stel"], "material: 'stel' .*did you mean 'steel'"),
-    ([*BALL, *SPEED, "--against", "cone"], "kind: 'cone' .*half-space, sphere or cup"),
+    ([*BALL, *SPEED, "--against", "cone"], "kind: 'cone' .*half-space, sphere, cup, body"),
     ([*BALL, *SPEED, "--output", "x.xls"], "output file: 'x.xls' .*.nc or .csv"),
     ([*BALL, *SPEED, "--plot", "no/such/x.png"], "output file: .*folder must exist"),
     ([*BALL, *SPEED, "--output", "/proc/x.csv"], "output file: .*cannot be written"),

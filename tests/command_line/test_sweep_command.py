@@ -129,7 +129,7 @@ def test_file_that_the_case_names_is_written(run):
         ("[0.1, 0.3]", "[]", ("friction", "at least one")),
         ('["rebound_angle", "spin_out"]', '"spin_out"', ("outputs", "list of names")),
         ("[sweep]", '[output]\nplot = "hit.png"\n[sweep]', ("plot", "carom sweep draws none")),
-        ("[sweep.axes]", "[sweep.axes.first]", ("first.angle",)),
+        ("[sweep.axes]", "[sweep.axes.first]", ("first.friction",)),
         ("friction = [0.1, 0.3]", RADII, ("first.radius: it is given twice in [sweep.axes]",)),
     ],
 )

@@ -5,7 +5,8 @@ Those of the oracle are few: its answers on two grids differ by what it misses.
 
 import numpy as np
 import pytest
-from tests.oracles import random_bodies, struck_bodies
+from tests import random_bodies
+from tests.oracles import struck_bodies
 
 from carom.dimensionless.lossy.layout import PSI_OUT, RESTITUTION
 from carom.dimensionless.lossy.springs import march

@@ -152,7 +152,7 @@ def test_what_is_not_known_is_refused() -> None:
     }.items():
         with pytest.raises(carom.InputError, match=words[1]):
             carom.impact(pair, normal_speed=1.0, **{more: words[0]})
-    with pytest.raises(carom.InputError, match="speed: 1e-190 m/s .* floating point cannot hold"):
+    with pytest.raises(carom.InputError, match=r"speed: 1e-190 m/s .* floating point cannot hold"):
         carom.impact(pair, normal_speed=1e-190)
     with pytest.raises(carom.InputError, match=r"normal_speed: .* the contact points part at"):
         carom.impact(pair, normal_speed=1.0, spin=-300.0)

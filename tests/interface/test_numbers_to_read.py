@@ -19,7 +19,7 @@ from carom.quantities.prefixes import DIGITS, READ, column, prefixed, shared, sp
 from carom.quantities.texts import read_text
 
 UNITS = sorted({entry.unit for entry in GLOSSARY.values()})
-UNCHANGED = {"1", "rad/s", "kg/m^3", "m^2/N", "m/s^2"}
+UNCHANGED = {"1", "rad/s", "kg/m^3", "m^2/N", "m/s^2", "1/m", "kg m^2"}
 WRITTEN = [  # SI value, its unit, how people write it
     *((0.000187666, "m", "187.666 µm"), (0.005, "m", "5 mm")),
     (1.25, "m", "1.25 m"),
@@ -31,6 +31,7 @@ WRITTEN = [  # SI value, its unit, how people write it
     *((0.583044, "m/s", "583.044 mm/s"), (4.1e-3, "kg", "4.1 g")),
     *((4.1e-6, "kg", "4.1 mg"), (4.1e-9, "kg", "4.1 µg")),
     (12.0, "kg", "12 kg"),
+    *((300.0, "1/m", "300 1/m"), (8.3e-6, "kg m^2", "8.3e-06 kg m^2")),
     (12e3, "kg", "12000 kg"),  # no megagrams
     *((0.000463285, "J", "463.285 µJ"), (2.5e-4, "N s", "250 µN s")),
     *((0.02, "N m", "20 mN m"), (3e-7, "N m s", "300 nN m s")),

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from tests import random_bodies
 from tests.checks import FLOOR
-from tests.oracles import random_bodies, struck_bodies
+from tests.oracles import struck_bodies
 
 import carom
 from carom.dimensionless.lossy.springs import march

@@ -158,7 +158,12 @@ def pair_of(case: Mapping[str, Any]) -> Pair:
 
 def has_shapes(case: Mapping[str, Any]) -> bool:
     """Tell whether a body of a case is neither sphere nor half-space nor cup."""
-    return any(case.get(body, {}).get("kind") in MADE for body in ("first", "second"))
+    return any(_kind(case.get(body)) in MADE for body in ("first", "second"))
+
+
+def _kind(table: Any) -> str:
+    kind = table.get("kind") if isinstance(table, Mapping) else None
+    return kind if isinstance(kind, str) else ""
 
 
 def _made(kind: str, table: Mapping[str, Any]) -> Body:

@@ -71,6 +71,8 @@ COMMON = {  # of most texts: for these pint, which takes a quarter of a second, 
 }
 TOUGHNESS = "Pa m^0.5"  # the only unit with half a power: read as it is usually written, no other
 WEAR_COEFFICIENT = "m^2/N"
+CURVATURE = "1/m"
+PER_LENGTH = {"1/m": 1.0, "1/cm": 1e2, "1/mm": 1e3, "m^-1": 1.0, "cm^-1": 1e2, "mm^-1": 1e3}
 ROOT = r"(?:m(?:\^0\.5|\^\(1/2\)|\^1/2|1/2|½|\*\*0\.5)|sqrt\(m\)|√m)"
 SPELT_OUT = {  # as people write them, which the grammar has no words for; sizes by what is captured
     TOUGHNESS: (re.compile(rf"([kM]?)Pa(?:[ *·.]{ROOT}|√m)"), {"": 1.0, "k": 1e3, "M": 1e6}),
@@ -78,6 +80,7 @@ SPELT_OUT = {  # as people write them, which the grammar has no words for; sizes
         re.compile(r"(m?m)(?:\^3|³|3)/(?:\(N[ *·.]?m\)|N/?m)|(1/[MG]?Pa)"),
         {"mm": 1e-9, "m": 1.0, "1/Pa": 1.0, "1/MPa": 1e-6, "1/GPa": 1e-9},
     ),
+    CURVATURE: (re.compile(r"(1/[mc]?m|[mc]?m\^-1)"), PER_LENGTH),
 }
 FOLDED = str.maketrans("", "", BLANKS + "^*·⋅.(){}")
 
