@@ -17,7 +17,7 @@ from carom.quantities.units import Value, positive
 
 INERTIAS = "must be a positive number in kg m^2, or in space a symmetric 3 x 3 matrix of them"
 HEAVY = "of no body: each principal moment is at most the sum of both others"
-PLACE = "must be x and z in m from the centre of mass, or in space x, y and z"
+PLACE = "must be finite, x and z in m from the centre of mass, or in space x, y and z"
 CURVED = "must be two numbers in 1/m, along x and y, or a symmetric 2 x 2 matrix of them"
 ROUNDING = 1e-9  # of the largest moment, by which moments may miss the inequality of triangles
 SYMMETRIC = 1e-12
