@@ -29,7 +29,7 @@ from carom.quantities.units import finite, positive
 MARCHED = "off the centre of a body take StandardLinearSolid, Metal or ElasticPlastic"
 ROUND_ONLY = "how an ellipse yields is not known; take StandardLinearSolid, or leave losses out"
 IN_PLANE = "must be one number, as the bodies move in a plane; for space give an inertia of 3 x 3"
-IN_SPACE = "must be {} finite numbers, along x, y{}, as the bodies move in space"
+IN_SPACE = "must be {} numbers, along x, y{}, all finite, as the bodies move in space"
 UNCOUPLED = 1e-12  # b_nt over b_nn of a body that is struck through its centre
 
 
