@@ -52,7 +52,7 @@ BODY = (*SIZES, "material")
 PLATE: dict[str, Callable[[str, Any], float]] = {"thickness": positive, "width": positive}
 IN_SPACE = "in_space"
 CYLINDER = ("length", "radius", "edge_radius", "angle", "inner_radius")
-NUMBERS = ("length", "edge_radius", "curvature_radius", "mass", "inertia", "angle")
+SHAPE_NUMBERS = ("length", "edge_radius", "curvature_radius", "mass", "inertia", "angle")
 MADE: dict[str, tuple[Callable[..., Body], tuple[str, ...]]] = {  # bodies of other shapes
     "body": (Body, ("mass", "inertia", "contact", "curvature_radius", "curvatures")),
     "rod": (solids.rod, ("length", "radius", "angle", IN_SPACE)),

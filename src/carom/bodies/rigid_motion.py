@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from carom.bodies.kinematics import inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.bodies.smooth_body import Body
@@ -22,12 +23,12 @@ class Rigid(NamedTuple):
 def rigid(body: Any, side: float) -> Rigid:
     """Return a body whose contact is below (side -1) or above it; walls do not move."""
     if isinstance(body, Sphere):
-        moment = body.mass * body.gyration_ratio * body.radius**2
+        moment = inertia(body)
         place = np.array([0.0, 0.0, side * body.radius])
         return Rigid(1.0 / body.mass, place, np.eye(3) / moment, moment * np.eye(3))
     if isinstance(body, Body) and body.mass is not None:
-        inertia = np.asarray(body.inertia, dtype=np.float64)
-        whole = inertia if inertia.ndim else np.diag([0.0, float(inertia), 0.0])
+        tensor = np.asarray(body.inertia, dtype=np.float64)
+        whole = tensor if tensor.ndim else np.diag([0.0, float(tensor), 0.0])
         return Rigid(1.0 / body.mass, body.place, body.turning, whole)
     return Rigid(0.0, np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3)))
 

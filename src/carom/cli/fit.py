@@ -121,9 +121,8 @@ def fit_command(
     sources, cases = _sources(data, dataset), case or []
     count, sampling = _checked_numbers(advice, about, steps, seed)
     outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
-    check_outputs(
-        outputs, **_numbered("data", sources), **_numbered("case", list(dict.fromkeys(cases)))
-    )
+    inputs = {**_numbered("data", sources), **_numbered("case", [*dict.fromkeys(cases)])}
+    check_outputs(outputs, **inputs)
     how = table_format_of(column, columns, sheet, decimal, save_columns)
     options: dict[str, Any] = {
         "vary": None if vary is None else _names(vary),

@@ -25,7 +25,7 @@ INPUTS = (
     cases.RATIO,
     *(f"{body}.{size}" for body in BODIES for size in cases.SIZES),
     *(f"second.{size}" for size in cases.PLATE),
-    *(f"first.{size}" for size in cases.NUMBERS),
+    *(f"first.{size}" for size in cases.SHAPE_NUMBERS),
     *(f"{body}.material.{value}" for body in BODIES for value in ELASTIC),
     *CHOSEN,
 )

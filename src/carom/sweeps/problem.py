@@ -172,7 +172,7 @@ def _belongs(name: str, kind: str) -> bool:
 def _refuse_foreign(whole: Common) -> None:
     names = {*whole.design.names, *whole.fixed} - {"second.kind", "second.material"}
     foreign = {name for name in names if not any(_belongs(name, kind) for kind in whole.kinds)}
-    foreign |= {f"first.{name}" for name in cases.NUMBERS} & names
+    foreign |= {f"first.{name}" for name in cases.SHAPE_NUMBERS} & names
     bodies = " or ".join(whole.kinds)
     refuse(*(f"{name}: a {bodies} has none; leave it out" for name in sorted(foreign)))
 
