@@ -317,7 +317,7 @@ OPEN = {  # NaN or infinity that the docstring tells
     *("KelvinVoigt", "KelvinVoigt, time", "ElasticPlastic", "StandardLinearSolid", "step_error"),
     *("RoughLaw", "sweep", "force_error", "force_error, own", "memory", "Entry", "rank, own"),
     *("hit.spectrum", "hit.spectrum, n", "strength", "wear", "wear, components", "rank"),
-    *("Grid, range", "Metal", "adhesive_impact"),
+    *("Grid, range", "Metal", "adhesive_impact", "collide, judged"),
 }
 
 
