@@ -14,10 +14,11 @@ from tests.oracles import march as oracle
 import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.layout import PSI_OUT, RESTITUTION, TIME
+from carom.dimensionless.lossy.layout import PSI_OUT, RESTITUTION, SHEAR_LOST, TIME
 from carom.dimensionless.lossy.springs import march, solids
-from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia, Solid
+from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia, Solid, made_of
 from carom.dimensionless.lossy.springs.springs import WEIGHT
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.dimensionless.numerics.kernels import plain
 from carom.dimensionless.rebounds import lossy_rebounds
 from carom.dimensionless.solution import solve_lossy
@@ -72,6 +73,18 @@ def test_two_grids_give_1e_6_and_bound_the_error() -> None:
     assert np.max(wrong) < 3e-6
     assert np.median(wrong) < 2e-7
     assert np.max(wrong * np.maximum(1.0, np.abs(psi)) / answer) < 2.0
+
+
+def test_viscous_solids_are_those_of_the_exact_solution() -> None:
+    """Kelvin & Voigt's: another algorithm, without springs, gives e, psi_2 and what shear loses."""
+    psi, chi = random_impacts(1987, 60)
+    for p, c, e in zip(psi, chi, np.random.default_rng(5).uniform(0.05, 0.999, 60), strict=True):
+        exact = carom.solve(p, c, losses=carom.KelvinVoigt(restitution=e))
+        values = numbers(p, Inertia(c), made_of(int(Loss.VISCOUS), viscous_loss(e), 0.0))
+        assert values[RESTITUTION] == pytest.approx(e, abs=1e-7)
+        assert values[PSI_OUT] == pytest.approx(exact.psi_out, abs=2e-6 * max(1.0, abs(p)))
+        near = 1e-4 * max(1.0, 0.5 * p * p)
+        assert values[SHEAR_LOST] == pytest.approx(exact.shear_lost, abs=near)
 
 
 def test_plates_keep_their_speed_where_they_turn() -> None:
@@ -197,11 +210,10 @@ def test_friction_takes_what_the_motion_loses(psi: float, inertia: Inertia, soli
     assert 1.25 * share * work == pytest.approx(lost, rel=3e-3)
 
 
-MARCHED = [loss for loss in Loss if loss is not Loss.VISCOUS]
 PARTS = ("press", "stored", "turn")
 
 
-@pytest.mark.parametrize("loss", MARCHED, ids=lambda loss: loss.name)
+@pytest.mark.parametrize("loss", Loss, ids=lambda loss: loss.name)
 def test_every_solid_is_a_file_with_branches_of_its_own(
     loss: Loss, monkeypatch: pytest.MonkeyPatch
 ) -> None:

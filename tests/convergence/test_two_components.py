@@ -8,7 +8,7 @@ from tests.oracles import march_in_space as oracle
 from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.layout import PSI_OUT, RESTITUTION
 from carom.dimensionless.lossy.springs import march
-from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia, Solid
+from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia, Solid, made_of
 
 Array = NDArray[np.float64]
 
@@ -20,6 +20,7 @@ SOLIDS = {
     "yielding": Solid(int(Loss.PLASTIC), 0.4),
     "metal": Solid(int(Loss.METAL), 0.4, 0.0, 0.004),
     "relaxing": Solid(int(Loss.RELAXING), 0.3, 1.0),
+    "viscous": made_of(int(Loss.VISCOUS), 0.3, 0.0),
 }
 OUT = [RESTITUTION, PSI_OUT, march.PSI_ACROSS]
 

@@ -140,13 +140,15 @@ def test_what_is_not_known_is_refused() -> None:
     for ask in (egg.fields, egg.contact, egg.wear, egg.peaks):
         with pytest.raises(carom.InputError, match="known of round contacts in a plane"):
             ask(**({"at": 0.5 * egg.duration} if ask in (egg.fields, egg.contact) else {}))
+    viscous = hit_of(case(), losses=carom.KelvinVoigt(restitution=0.9))
+    with pytest.raises(carom.InputError, match="losses: .* which is not known off the centre"):
+        viscous.contact(at=0.5 * viscous.duration)
     with pytest.raises(carom.InputError, match="spectra are those of spheres"):
         egg.spectrum()
     pair = pair_of(case())
     for more, words in {
         "method": ("halfspace", "method: 'halfspace' .* of spheres only"),
         "normal_spin": (3.0, "normal_spin: 3.0 .* of spheres only"),
-        "losses": (carom.KelvinVoigt(0.9), "losses: .* off the centre of a body take"),
         "spin2": (3.0, "spin2: 3.0 .* the second body does not move"),
         "spin": ([1.0, 2.0, 3.0], "spin: .* the bodies move in a plane"),
     }.items():

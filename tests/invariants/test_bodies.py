@@ -235,6 +235,7 @@ def test_a_second_sphere_is_a_body_like_it():
 
 
 LOSSES = {
+    "viscous": carom.KelvinVoigt(loss_time="2 us"),
     "relaxing": carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="20 us"),
     "yielding": carom.ElasticPlastic(yield_velocity="0.1 m/s"),
     "metal": carom.Metal(flow_stress="300 MPa"),

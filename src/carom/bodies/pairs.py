@@ -23,6 +23,7 @@ from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
 ROUND = (Sphere, HalfSpace, Cup)
+UNCOUPLED = 1e-12  # b_nt over b_nn of bodies that are struck through their centres
 LEAST, MOST = 1e-100, 1e100  # of the numbers of an impact
 
 
@@ -151,6 +152,11 @@ class Pair(Printed):
     def inverse_mass(self) -> Array:
         """Inverse mass B at the contact along x, y and the normal, in 1/kg, shape (3, 3)."""
         return np.sum([inverse_mass_of(body) for body in self.moving], axis=0)
+
+    @property
+    def is_central(self) -> bool:
+        """Whether the bodies are struck through their centres: friction leaves the normal motion."""
+        return bool(np.all(np.abs(self.inverse_mass[:2, 2]) <= UNCOUPLED * self.inverse_mass[2, 2]))
 
     @cached_property
     def _ellipse(self) -> Ellipse:

@@ -118,7 +118,7 @@ def solved(
 
 def is_elastic(loss: int, parameter: Array, extra: Array) -> NDArray[np.bool_]:
     """Tell where so little is lost, 1 - e below 2e-10, that the impact is the elastic one."""
-    if loss != Loss.VISCOUS and loss not in SOLIDS:
+    if loss not in SOLIDS:
         raise refusal(
             "loss", loss, "has no solid in SOLIDS of dimensionless/lossy/springs/march.py"
         )

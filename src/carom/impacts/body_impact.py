@@ -11,6 +11,8 @@ import numpy as np
 
 from carom.bodies.contact_shape import axes_of
 from carom.bodies.rigid_motion import RigidMotion
+from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.springs.off_centre import OffCentreSolution
 from carom.dimensionless.states import History, SlipAngle
 from carom.impacts.exact import Impact
 from carom.impacts.outcome import PAIR, RESULTS
@@ -20,6 +22,7 @@ from carom.io.labels import Finding, Validity
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import refusal, refuse
 
+AT_EDGE = "viscous bodies bear most at the edge, which is not known off the centre; see history"
 FLAT = "what happens inside is known of round contacts in a plane; history has the forces"
 ROUND = 1e-9  # by which both axes of a contact may differ that is round
 PARTS = {2: ("", "_across"), 3: ("_x", "_y", "_z")}  # how names of components end
@@ -274,6 +277,9 @@ class BodyImpact(Impact):
         shape = self.pair._ellipse
         flat = self.pair.is_planar and abs(shape.along / shape.across - 1.0) <= ROUND
         refuse(not flat and refusal("pair", str(self.pair), FLAT))
+        if isinstance(self.solution, OffCentreSolution):
+            viscous = self.solution._losses.loss == Loss.VISCOUS
+            refuse(viscous and refusal("losses", self.losses, AT_EDGE))
 
     def _semi_axis(self, share: float) -> float:
         longer = max(self.pair._ellipse.along, self.pair._ellipse.across)

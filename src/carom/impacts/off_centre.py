@@ -17,7 +17,6 @@ from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.lossy.springs.motion import Inertia
 from carom.dimensionless.lossy.springs.off_centre import OffCentreSolution, solve_off_centre
-from carom.dimensionless.lossy.springs.solids import SOLIDS
 from carom.dimensionless.solution import Solution
 from carom.impacts.body_impact import ROUND, BodyImpact, with_normal
 from carom.impacts.exact import loss_numbers, solution_of
@@ -26,11 +25,9 @@ from carom.quantities.prefixes import text
 from carom.quantities.refusals import Faults, refusal, refuse
 from carom.quantities.units import finite, positive
 
-MARCHED = "off the centre of a body take StandardLinearSolid, Metal or ElasticPlastic"
-ROUND_ONLY = "how an ellipse yields is not known; take StandardLinearSolid, or leave losses out"
+ROUND_ONLY = "how an ellipse yields is not known; take KelvinVoigt, or leave losses out"
 IN_PLANE = "must be one number, as the bodies move in a plane; for space give an inertia of 3 x 3"
 IN_SPACE = "must be {} numbers, along x, y{}, all finite, as the bodies move in space"
-UNCOUPLED = 1e-12  # b_nt over b_nn of a body that is struck through its centre
 
 
 def solve_bodies(pair: Pair, speeds: Mapping[str, Any], losses: LossLaw | None) -> BodyImpact:
@@ -118,10 +115,8 @@ def _solution(
     loses = loss_numbers(pair, scales, losses)
     yields = loses.loss in (Loss.PLASTIC, Loss.METAL) and elliptic
     refuse(yields and refusal("losses", losses, ROUND_ONLY))
-    b = pair.inverse_mass
-    if pair.friction == 0.0 or (pair.is_planar and abs(b[0, 2]) <= UNCOUPLED * b[2, 2]):
+    if pair.friction == 0.0 or (pair.is_planar and pair.is_central):
         return solution_of(pair, scales, psi if isfinite(psi) else 0.0, losses)
-    refuse(loses.loss not in SOLIDS and refusal("losses", losses, MARCHED))
     solution = solve_off_centre(psi, across, inertia, loses)
     if solution.status is not Status.SOLVED:
         numbers_of = f"psi_1 = {psi:.3g}, chi = {inertia.chi:.3g}, eps = {inertia.eps:.3g}"

@@ -95,6 +95,7 @@ def march(
             if laid >= springs.shape[1] - 1:
                 return 0, clock
             of.lay(springs, laid, now[at.EDGE])
+            springs[of.NEXT, laid] = at.viscosity(solid) * now[at.SPEED]
             laid += 1
         since += grows
         part = at.drift(inertia, h, now, state, new)
@@ -178,7 +179,7 @@ def kick_and_stretch(
     half = state[at.PSI] - 0.5 * dt * braked
     half_across = state[at.PSI_ACROSS] - 0.5 * dt * braked_across
     step = of.step_of(g, theta, dt, state[at.PSI], half, -braked)
-    if inertia.across > 0.0:
+    if inertia.across > 0.0 or at.viscosity(solid) > 0.0:
         across = of.step_of(g, theta, dt, state[at.PSI_ACROSS], half_across, -braked_across)
         force, aside, square = of.stretch_both(
             springs, touching, new[at.EDGE], step, across, inertia.ratio
@@ -186,6 +187,8 @@ def kick_and_stretch(
         state[at.FORCE], state[at.FORCE_ACROSS] = force, aside
     else:
         state[at.FORCE], square = of.stretch(springs, touching, new[at.EDGE], step)
+    ends = complex(2.0 * half - state[at.PSI], 2.0 * half_across - state[at.PSI_ACROSS])
+    square += pull_edge(solid, inertia.ratio, ends, new, springs, touching, state)
     losing = square * g / theta
     state[at.LOST] += 1.875 * inertia.chi * dt * (state[at.LOSING] + losing)
     state[at.LOSING] = losing
@@ -195,6 +198,27 @@ def kick_and_stretch(
     state[at.PSI_ACROSS] = half_across - 0.5 * dt * braked_across
     state[at.MOVED] += half * dt
     state[at.MOVED_ACROSS] += half_across * dt
+
+
+@kernel
+def pull_edge(
+    solid: Solid,
+    ratio: float,
+    psi: complex,
+    new: Array,
+    springs: Array,
+    touching: int,
+    state: Array,
+) -> float:
+    """Add what the edge of viscous bodies bears while it grows; return its m^2, weighed."""
+    viscosity = at.viscosity(solid)
+    if viscosity == 0.0 or new[at.SPEED] <= 0.0:
+        return 0.0
+    pull = of.slid(viscosity * psi, viscosity * new[at.SPEED], ratio)
+    weight = of.share(new[at.EDGE], springs[of.X, touching - 1])
+    state[at.FORCE] += weight * pull.real
+    state[at.FORCE_ACROSS] += weight * pull.imag
+    return float(weight * (pull.real**2 + pull.imag**2 / ratio) / solid.extra**2)
 
 
 @kernel

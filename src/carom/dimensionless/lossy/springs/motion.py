@@ -50,6 +50,7 @@ class Solid(NamedTuple):
     strain: float = 0.0  # of a metal at yield
 
 
+AT_ONCE = 1e-12  # relaxation time of a solid that is as viscous as Kelvin & Voigt's
 ELASTIC = Solid(Loss.PLATE.value, 0.0)
 
 
@@ -58,7 +59,15 @@ def made_of(loss: int, parameter: float, extra: float) -> Solid:
     """Return a solid from its loss and both numbers; of most kinds the second means nothing."""
     if loss == Loss.METAL.value:
         return Solid(loss, parameter, 0.0, extra)
+    if loss == Loss.VISCOUS.value:
+        return Solid(loss, AT_ONCE, parameter / AT_ONCE, 0.0)
     return Solid(loss, parameter, extra if loss == Loss.RELAXING.value else 0.0, 0.0)
+
+
+@kernel
+def viscosity(solid: Solid) -> float:
+    """Return what a spring bears over the rate of its change, where it bears that at once."""
+    return float(solid.parameter * solid.extra) if solid.loss == Loss.VISCOUS.value else 0.0
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""The solids that are marched: hertz, thornton, metal and relaxing.
+"""The solids that are marched: hertz, thornton, metal and relaxing, a viscous one among these.
 
 A new one is a file beside them, its place in SOLIDS, and a line in `press`, in `stored` and, if it
 changes where the bodies turn, in `turn`.
@@ -12,7 +12,8 @@ from carom.dimensionless.lossy.springs.motion import Solid
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 
-SOLIDS = {Loss.PLATE: hertz, Loss.PLASTIC: thornton, Loss.RELAXING: relaxing, Loss.METAL: metal}
+SOLIDS = {Loss.PLATE: hertz, Loss.PLASTIC: thornton, Loss.METAL: metal}
+SOLIDS |= {Loss.RELAXING: relaxing, Loss.VISCOUS: relaxing}
 
 UNKNOWN = -1  # in place of how many springs touch: a solid that is not marched
 
@@ -22,7 +23,7 @@ def press(solid: Solid, now: Array, new: Array, turned: Array, springs: Array, l
     """Fill in what the contact and its springs bear after a step; return how many touch."""
     if solid.loss == Loss.PLASTIC.value:
         return int(thornton.press(solid.parameter, now, new, turned, springs, laid))
-    if solid.loss == Loss.RELAXING.value:
+    if solid.loss in (Loss.RELAXING.value, Loss.VISCOUS.value):
         return int(relaxing.press(solid.extra, solid.parameter, now, new, springs, laid))
     if solid.loss == Loss.METAL.value:
         y, strain = solid.parameter, solid.strain
@@ -48,7 +49,7 @@ def turn(
 @kernel
 def stored(solid: Solid, now: Array, springs: Array, touching: int) -> float:
     """Return the energy in compression, of m_n V_1^2/2."""
-    if solid.loss == Loss.RELAXING.value:
+    if solid.loss in (Loss.RELAXING.value, Loss.VISCOUS.value):
         return float(relaxing.stored(solid.extra, now[at.EDGE], springs, touching))
     if solid.loss == Loss.METAL.value:
         return float(metal.stored(now[at.EDGE], springs, touching))

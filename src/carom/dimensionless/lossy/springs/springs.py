@@ -24,6 +24,7 @@ SOFTER = PRESSED
 SPRING_COLUMNS = 12
 
 SLIDES = 6  # of Newton's method
+CREEP = 1.0 - 0.5**0.5  # the first part of a step of a viscous spring
 SHORT_STEP = 1e-3  # of a step, in relaxation times: where its functions are series
 
 
@@ -252,31 +253,77 @@ def move(
     ratio: float,
 ) -> None:
     """Move a spring of two components, one complex number: it sticks, slips or stops on the way."""
-    g, limit, limit_end = step.extra, springs[LIMIT, j], springs[NEXT, j]
-    m = complex(springs[RELAXING, j], springs[RELAXING_ACROSS, j])
     u = complex(springs[U, j], springs[U_ACROSS, j])
-    bears = u + g * m
-    u, relaxed = u + moved, m * step.left + relaxing
-    stuck = u + g * relaxed
+    m = complex(springs[RELAXING, j], springs[RELAXING_ACROSS, j])
+    limits = springs[LIMIT, j], springs[NEXT, j], springs[RATE, j]
+    stuck = u + moved, m * step.left + relaxing
+    if step.left == 0.0:  # all has relaxed within the step
+        u, m = crept(u + step.extra / step.fading * psi, *stuck, *limits[:2], step, ratio)
+    else:
+        u, m = crossed(u, m, psi, *stuck, *limits, step, ratio)
+    springs[U, j], springs[U_ACROSS, j] = u.real, u.imag
+    springs[RELAXING, j], springs[RELAXING_ACROSS, j] = m.real, m.imag
+
+
+@kernel
+def crossed(
+    u: complex,
+    m: complex,
+    psi: complex,
+    held: complex,
+    relaxed: complex,
+    limit: float,
+    limit_end: float,
+    rate: float,
+    step: Step,
+    ratio: float,
+) -> tuple[complex, complex]:
+    """Return u and m after a step from those before, and those in stick; see `move`."""
+    g = step.extra
+    bears, stuck = u + g * m, held + g * relaxed
     start, end = (limit - abs(bears)) * step.give, (limit_end - abs(stuck)) * step.give
     unit = direction(bears)
     recovers = g * step.fading * (m * unit.conjugate()).real
-    slope = (springs[RATE, j] + recovers) * step.give - (psi * unit.conjugate()).real
+    slope = (rate + recovers) * step.give - (psi * unit.conjugate()).real
     least = lowest(start, slope * step.time, end)
-    if least < 0.0 and least == end:
-        part, drive = max(start, 0.0) / (max(start, 0.0) - end), stuck - bears
-        at, left = (1.0 - part) * limit + part * limit_end, 1.0 - part
-        began = direction(bears + part * drive)
-        slips = limit_end * turned(began, left * drive, at, limit_end, ratio)
-        relaxed = m + (limit * began - bears) * step.give  # to the limit, at once
-        relaxed = relaxed * step.slipping + (slips - limit * began) * step.forced
-        u = slips - g * relaxed
-    elif least < 0.0:
+    if least >= 0.0:
+        return held, relaxed
+    if least != end:
         back = slid(stuck, abs(stuck) + least, ratio) - stuck
-        u += back
-        relaxed += step.kept * back
-    springs[U, j], springs[U_ACROSS, j] = u.real, u.imag
-    springs[RELAXING, j], springs[RELAXING_ACROSS, j] = relaxed.real, relaxed.imag
+        return held + back, relaxed + step.kept * back
+    part, drive = max(start, 0.0) / (max(start, 0.0) - end), stuck - bears
+    at, left = (1.0 - part) * limit + part * limit_end, 1.0 - part
+    began = direction(bears + part * drive)
+    slips = limit_end * turned(began, left * drive, at, limit_end, ratio)
+    m += (limit * began - bears) * step.give  # to the limit, at once
+    m = m * step.slipping + (slips - limit * began) * step.forced
+    return slips - g * m, m
+
+
+@kernel
+def crept(
+    began: complex,
+    held: complex,
+    relaxed: complex,
+    limit: float,
+    limit_end: float,
+    step: Step,
+    ratio: float,
+) -> tuple[complex, complex]:
+    """Return u and m after a step of a viscous solid, f = u + t u' with t = g theta, likewise.
+
+    Slip is along f, so that F = u + t psi, which began with a value, has F' = u' + t psi' - (F -
+    f)/t. Two implicit steps are one of second order, however short t is (Alexander 1977).
+    """
+    part = CREEP * step.time * step.fading / step.extra
+    lag = step.extra * relaxed
+    stuck = held + lag
+    first = began + CREEP * (stuck - began)
+    above = first - slid(first, limit + CREEP * (limit_end - limit), ratio)
+    last = stuck - (1.0 / CREEP - 1.0) * part * above / (1.0 + part)
+    bears = slid(last, limit_end, ratio)
+    u = bears + (last - bears) / (1.0 + part) - lag
+    return u, (bears - u) / step.extra
 
 
 @kernel
