@@ -141,7 +141,7 @@ def test_what_is_not_known_is_refused() -> None:
         with pytest.raises(carom.InputError, match="known of round contacts in a plane"):
             ask(**({"at": 0.5 * egg.duration} if ask in (egg.fields, egg.contact) else {}))
     viscous = hit_of(case(), losses=carom.KelvinVoigt(restitution=0.9))
-    with pytest.raises(carom.InputError, match="losses: .* which is not known off the centre"):
+    with pytest.raises(carom.InputError, match=r"losses: .* which is not known off the centre"):
         viscous.contact(at=0.5 * viscous.duration)
     with pytest.raises(carom.InputError, match="spectra are those of spheres"):
         egg.spectrum()

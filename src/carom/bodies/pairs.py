@@ -155,7 +155,7 @@ class Pair(Printed):
 
     @property
     def is_central(self) -> bool:
-        """Whether the bodies are struck through their centres: friction leaves the normal motion."""
+        """Whether the bodies are struck through their centres, so that friction only turns them."""
         return bool(np.all(np.abs(self.inverse_mass[:2, 2]) <= UNCOUPLED * self.inverse_mass[2, 2]))
 
     @cached_property

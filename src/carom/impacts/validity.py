@@ -162,7 +162,7 @@ def _solid(hit: ImpactResult) -> Finding | None:
         where = "HalfSpace(thickness=...) instead of ZenerPlate"
         return Finding("e", hit.normal_restitution, 1.0, None, f"{words}; give {where}", where)
     if hit.pair.friction > 0.0 and not hit.pair.is_central:
-        words = "not studied: how other solids of this e leave where they are struck off their centre"
+        words = "not studied: how other solids of this e leave, struck off their centre"
         return Finding("e", hit.normal_restitution, 1.0, None, words)
     oblique = bool(np.any(hit.psi_in))
     return judge_losses(numbers, hit.normal_restitution, hit.pair.chi, oblique=oblique)

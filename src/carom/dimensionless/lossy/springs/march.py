@@ -185,10 +185,9 @@ def kick_and_stretch(
             springs, touching, new[at.EDGE], step, across, inertia.ratio
         )
         state[at.FORCE], state[at.FORCE_ACROSS] = force, aside
+        square += pull_edge(solid, inertia.ratio, step, across, new, springs, touching, state)
     else:
         state[at.FORCE], square = of.stretch(springs, touching, new[at.EDGE], step)
-    ends = complex(2.0 * half - state[at.PSI], 2.0 * half_across - state[at.PSI_ACROSS])
-    square += pull_edge(solid, inertia.ratio, ends, new, springs, touching, state)
     losing = square * g / theta
     state[at.LOST] += 1.875 * inertia.chi * dt * (state[at.LOSING] + losing)
     state[at.LOSING] = losing
@@ -204,7 +203,8 @@ def kick_and_stretch(
 def pull_edge(
     solid: Solid,
     ratio: float,
-    psi: complex,
+    step: of.Step,
+    across: of.Step,
     new: Array,
     springs: Array,
     touching: int,
@@ -214,11 +214,12 @@ def pull_edge(
     viscosity = at.viscosity(solid)
     if viscosity == 0.0 or new[at.SPEED] <= 0.0:
         return 0.0
-    pull = of.slid(viscosity * psi, viscosity * new[at.SPEED], ratio)
+    pull, aside = viscosity * (step.psi + step.gained), viscosity * (across.psi + across.gained)
+    pull, aside = of.slid(pull, aside, viscosity * new[at.SPEED], ratio)
     weight = of.share(new[at.EDGE], springs[of.X, touching - 1])
-    state[at.FORCE] += weight * pull.real
-    state[at.FORCE_ACROSS] += weight * pull.imag
-    return float(weight * (pull.real**2 + pull.imag**2 / ratio) / solid.extra**2)
+    state[at.FORCE] += weight * pull
+    state[at.FORCE_ACROSS] += weight * aside
+    return float(weight * (pull**2 + aside**2 / ratio) / solid.extra**2)
 
 
 @kernel

@@ -2,9 +2,8 @@
 
 In shear each is a standard linear solid, f = u + g m, m' = u' - m/theta; g = 0 is an elastic one.
 In stick u grows as U does. In slip f = sigma N, so that m relaxes by itself, in the time
-(1 + g) theta. Springs of two components have a circle for a limit, and slip is along f; in slip f
-turns towards the velocity of the bodies. Across, they may be stiffer by a ratio: u is the
-deflection times the stiffness.
+(1 + g) theta. Springs of two components have a circle for a limit, and slip is along f. Across,
+they may be stiffer by a ratio: u is the deflection times the stiffness.
 """
 
 from typing import NamedTuple
@@ -24,7 +23,8 @@ SOFTER = PRESSED
 SPRING_COLUMNS = 12
 
 SLIDES = 6  # of Newton's method
-CREEP = 1.0 - 0.5**0.5  # the first part of a step of a viscous spring
+EACH = 1.0 - 0.5**0.5  # how far each of two implicit steps goes
+NO_SLIDE = 1e-12
 SHORT_STEP = 1e-3  # of a step, in relaxation times: where its functions are series
 
 
@@ -34,6 +34,7 @@ class Step(NamedTuple):
     time: float
     psi: float  # at its start
     moved: float  # by how much U grows
+    gained: float  # and psi
     relaxing: float  # by how much m grows with U
     extra: float  # g
     give: float  # 1/(1 + g)
@@ -136,7 +137,8 @@ def step_of(
     slipping, forced, _ = faded(time, (1.0 + extra) * relaxation)
     moved, relaxing = half * time, half * time * kept + growing * rate * time
     give, fading, forced = 1.0 / (1.0 + extra), 1.0 / relaxation, forced / (1.0 + extra)
-    return Step(time, psi, moved, relaxing, extra, give, fading, left, kept, slipping, forced)
+    moves = moved, rate * time, relaxing
+    return Step(time, psi, *moves, extra, give, fading, left, kept, slipping, forced)
 
 
 @kernel
@@ -220,8 +222,7 @@ def square(springs: Array, j: int, extra: float, ratio: float) -> float:
 @kernel
 def cut(springs: Array, j: int, most: float, ratio: float) -> None:
     """Cut what an elastic spring bears in shear to a limit."""
-    left = slid(complex(springs[U, j], springs[U_ACROSS, j]), most, ratio)
-    springs[U, j], springs[U_ACROSS, j] = left.real, left.imag
+    springs[U, j], springs[U_ACROSS, j] = slid(springs[U, j], springs[U_ACROSS, j], most, ratio)
 
 
 @kernel
@@ -230,10 +231,8 @@ def stretch_both(
 ) -> tuple[float, float, float]:
     """Move springs of two components on; return the integrals of f, of f across and of m^2."""
     force, aside, squares = 0.0, 0.0, 0.0
-    psi, moved = complex(step.psi, across.psi), complex(step.moved, across.moved)
-    relaxing = complex(step.relaxing, across.relaxing)
     for j in range(count):
-        move(springs, j, step, psi, moved, relaxing, ratio)
+        move(springs, j, step, across, ratio)
         along, beside = pulled(springs, j, step.extra)
         weight = weight_of(springs, j, count, edge)
         force += weight * along
@@ -243,150 +242,51 @@ def stretch_both(
 
 
 @kernel
-def move(
-    springs: Array,
-    j: int,
-    step: Step,
-    psi: complex,
-    moved: complex,
-    relaxing: complex,
-    ratio: float,
-) -> None:
-    """Move a spring of two components, one complex number: it sticks, slips or stops on the way."""
-    u = complex(springs[U, j], springs[U_ACROSS, j])
-    m = complex(springs[RELAXING, j], springs[RELAXING_ACROSS, j])
-    limits = springs[LIMIT, j], springs[NEXT, j], springs[RATE, j]
-    stuck = u + moved, m * step.left + relaxing
-    if step.left == 0.0:  # all has relaxed within the step
-        u, m = crept(u + step.extra / step.fading * psi, *stuck, *limits[:2], step, ratio)
-    else:
-        u, m = crossed(u, m, psi, *stuck, *limits, step, ratio)
-    springs[U, j], springs[U_ACROSS, j] = u.real, u.imag
-    springs[RELAXING, j], springs[RELAXING_ACROSS, j] = m.real, m.imag
+def move(springs: Array, j: int, step: Step, across: Step, ratio: float) -> None:
+    """Move a spring of two components on by two implicit steps in one.
 
-
-@kernel
-def crossed(
-    u: complex,
-    m: complex,
-    psi: complex,
-    held: complex,
-    relaxed: complex,
-    limit: float,
-    limit_end: float,
-    rate: float,
-    step: Step,
-    ratio: float,
-) -> tuple[complex, complex]:
-    """Return u and m after a step from those before, and those in stick; see `move`."""
-    g = step.extra
-    bears, stuck = u + g * m, held + g * relaxed
-    start, end = (limit - abs(bears)) * step.give, (limit_end - abs(stuck)) * step.give
-    unit = direction(bears)
-    recovers = g * step.fading * (m * unit.conjugate()).real
-    slope = (rate + recovers) * step.give - (psi * unit.conjugate()).real
-    least = lowest(start, slope * step.time, end)
-    if least >= 0.0:
-        return held, relaxed
-    if least != end:
-        back = slid(stuck, abs(stuck) + least, ratio) - stuck
-        return held + back, relaxed + step.kept * back
-    part, drive = max(start, 0.0) / (max(start, 0.0) - end), stuck - bears
-    at, left = (1.0 - part) * limit + part * limit_end, 1.0 - part
-    began = direction(bears + part * drive)
-    slips = limit_end * turned(began, left * drive, at, limit_end, ratio)
-    m += (limit * began - bears) * step.give  # to the limit, at once
-    m = m * step.slipping + (slips - limit * began) * step.forced
-    return slips - g * m, m
-
-
-@kernel
-def crept(
-    began: complex,
-    held: complex,
-    relaxed: complex,
-    limit: float,
-    limit_end: float,
-    step: Step,
-    ratio: float,
-) -> tuple[complex, complex]:
-    """Return u and m after a step of a viscous solid, f = u + t u' with t = g theta, likewise.
-
-    Slip is along f, so that F = u + t psi, which began with a value, has F' = u' + t psi' - (F -
-    f)/t. Two implicit steps are one of second order, however short t is (Alexander 1977).
+    Each ends with what slip along f leaves of f in stick. Together they are of second order,
+    however fast m relaxes (Alexander 1977, SIAM J. Numer. Anal. 14:1006). The limit is a parabola
+    in time, psi is straight.
     """
-    part = CREEP * step.time * step.fading / step.extra
-    lag = step.extra * relaxed
-    stuck = held + lag
-    first = began + CREEP * (stuck - began)
-    above = first - slid(first, limit + CREEP * (limit_end - limit), ratio)
-    last = stuck - (1.0 / CREEP - 1.0) * part * above / (1.0 + part)
-    bears = slid(last, limit_end, ratio)
-    u = bears + (last - bears) / (1.0 + part) - lag
-    return u, (bears - u) / step.extra
+    u, m = springs[U, j], springs[RELAXING, j]
+    v, n = springs[U_ACROSS, j], springs[RELAXING_ACROSS, j]
+    limit, rises = springs[LIMIT, j], springs[RATE, j] * step.time
+    bends, g, time = springs[NEXT, j] - limit - rises, step.extra, EACH * step.time
+    fades = 1.0 / (1.0 + time * step.fading)
+    for part in (EACH, 1.0):
+        moved = time * (step.psi + part * step.gained)
+        aside = time * (across.psi + part * across.gained)
+        pull, beside = u + moved + g * fades * (m + moved), v + aside + g * fades * (n + aside)
+        kept, kept_beside = slid(pull, beside, limit + part * (rises + part * bends), ratio)
+        moved -= (pull - kept) / (1.0 + g * fades)
+        aside -= (beside - kept_beside) / (1.0 + g * fades)
+        more = 1.0 / EACH - 1.0 if part < 1.0 else 1.0
+        u, m = u + more * moved, m + more * ((m + moved) * fades - m)
+        v, n = v + more * aside, n + more * ((n + aside) * fades - n)
+    springs[U, j], springs[RELAXING, j] = u, m
+    springs[U_ACROSS, j], springs[RELAXING_ACROSS, j] = v, n
 
 
 @kernel
-def slid(pull: complex, limit: float, ratio: float) -> complex:
+def slid(pull: float, beside: float, limit: float, ratio: float) -> tuple[float, float]:
     """Return what is left of a pull where slip along it takes it back to the limit.
 
     Newton's method for the slip l: its components become 1/(1 + l) and 1/(1 + ratio l) of what they
     were, so that 1/size is nearly linear in l.
     """
-    size, slip = abs(pull), 0.0
-    if size <= limit or limit <= 0.0 or ratio == 1.0:
-        return pull * (min(size, max(limit, 0.0)) / size if size > 0.0 else 1.0)
-    left = pull
-    for _ in range(SLIDES):
+    square = pull * pull + beside * beside
+    if limit <= 0.0:
+        return 0.0, 0.0
+    if square <= limit * limit:
+        return pull, beside
+    slip, size = np.sqrt(square) / limit - 1.0, limit
+    for _ in range(SLIDES if ratio != 1.0 else 0):
         along, across = 1.0 / (1.0 + slip), 1.0 / (1.0 + ratio * slip)
-        left = complex(pull.real * along, pull.imag * across)
-        size = abs(left)
-        steep = left.real**2 * along + left.imag**2 * across * ratio
-        slip = max(slip + (size / limit - 1.0) * size * size / steep, 0.0)
-    return left * (limit / size)
-
-
-@kernel
-def turned(began: complex, drive: complex, limit: float, end: float, ratio: float) -> complex:
-    """Return the direction of a spring that slips while it is driven, and its limit changes.
-
-        limit angle' = (p_y cos - r p_x sin + (r - 1) limit' sin cos)/(cos^2 + r sin^2)
-
-    p is the drive, r the ratio. The angle is that to (r p_x, p_y + (r - 1) limit' sin), of which
-    the sine is taken in the middle; without a ratio this is exact for an even limit.
-    """
-    middle, grown = 0.5 * (limit + end), end - limit
-    pull = complex(ratio * drive.real, drive.imag + (ratio - 1.0) * grown * began.imag)
-    if ratio == 1.0:
-        return towards(began, pull, middle)
-    half = towards(began, pull, 2.0 * middle * eased(began, ratio))
-    pull = complex(ratio * drive.real, drive.imag + (ratio - 1.0) * grown * half.imag)
-    return towards(began, pull, middle * eased(half, ratio))
-
-
-@kernel
-def eased(unit: complex, ratio: float) -> float:
-    """Return cos^2 + ratio sin^2."""
-    return float(unit.real**2 + ratio * unit.imag**2)
-
-
-@kernel
-def towards(began: complex, pull: complex, limit: float) -> complex:
-    """Return a direction turned towards a pull: limit * angle' = -|pull| sin(angle).
-
-    That makes the tangent of half of the angle fade evenly.
-    """
-    along = direction(pull)
-    angle = began * along.conjugate()
-    fades = np.exp(-abs(pull) / limit) if limit > 0.0 else 0.0
-    near, far = 1.0 + angle.real, fades * fades * (1.0 - angle.real)
-    if near + far == 0.0:
-        return along
-    return along * complex(near - far, 2.0 * fades * angle.imag) / (near + far)
-
-
-@kernel
-def direction(vector: complex) -> complex:
-    """Return a vector of length 1 in a direction; of none, none."""
-    size = abs(vector)
-    return vector / size if size > 0.0 else 0.0 * vector
+        x, y = (pull * along) ** 2, (beside * across) ** 2
+        size = np.sqrt(x + y)
+        change = (size / limit - 1.0) * size * size / (x * along + y * across * ratio)
+        slip = max(slip + change, 0.0)
+        if abs(change) < NO_SLIDE * (1.0 + slip):
+            break
+    return pull / (1.0 + slip), beside / (1.0 + ratio * slip)
