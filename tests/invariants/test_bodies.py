@@ -15,7 +15,7 @@ CASES = list(random_bodies.impacts(1, 24))  # jams, spheres, bodies and curved w
 HITS = [random_bodies.strike(*case) for case in CASES[:12]]
 FLAT = [case for case in CASES if case[0].is_planar]
 SOLID = [case for case in CASES if not case[0].is_planar]
-SPRINGS = (200, 400)
+SPRINGS = (400, 800)
 OUT = ("psi_out", "normal_restitution", "spin_out", "spin2_out", "dissipated_energy")
 
 
@@ -69,7 +69,7 @@ def test_forces_take_what_the_bodies_lose(number):
 
 def work_of_springs(hit, count):
     """Return the work of friction, by each spring's force and slip, of m_n V_1^2/2."""
-    inertia, kept = hit.solution._inertia, march.new_work(12_000, count + 40, count + 40)
+    inertia, kept = hit.solution._inertia, march.new_work(8 * count, count + 40, count + 40)
     solved = hit.solution.psi_in, 0.0, inertia, ELASTIC, count
     steps = march.trace(*solved, march.new_work(), kept)
     springs = kept.frames[: steps + 1]
@@ -94,7 +94,7 @@ def test_friction_takes_what_is_missing(case):
     hit = random_bodies.strike(*case)
     coarse, fine = (work_of_springs(hit, count) for count in SPRINGS)
     here = hit.dissipated_energy / hit.scales.energy
-    assert (4.0 * fine - coarse) / 3.0 == pytest.approx(here, rel=2e-5, abs=4e-6)
+    assert (4.0 * fine - coarse) / 3.0 == pytest.approx(here, rel=4e-6, abs=2e-6)
 
 
 def turned_about_normal(case, angle):
