@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from carom.dimensionless.lossy.law import Loss, ScaleFreeLaw, scale_free
 from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
-from carom.impacts.map_borders import border_variables
 from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
@@ -193,6 +192,8 @@ def regime_map(
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -
     """
+    from carom.impacts.map_borders import border_variables  # half a second, for maps alone
+
     chis, incoming = _axes(chi, psi_1)
     e, _ = _ends(losses)
     sequences, rows = Sequences(losses, e), []
