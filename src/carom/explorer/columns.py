@@ -107,7 +107,10 @@ def _row(column: Column, written: Column, columns: Mapping[str, str]) -> dict[st
     return {
         "head": column.head,
         "letter": column.letter,
-        "first": [clipped(_shown(cell)) for cell in written.cells[:SHOWN_CELLS]],
+        "first": [
+            clipped(cell if isinstance(cell, str) else f"{cell:g}")
+            for cell in written.cells[:SHOWN_CELLS]
+        ],
         "own": own if _is_known(own) else "",
         "own_unit": "" if own_unit == unit else own_unit,
         "fits": [si for si in UNITS if _fits(unit, si)],
@@ -116,10 +119,6 @@ def _row(column: Column, written: Column, columns: Mapping[str, str]) -> dict[st
         "name": name if _is_known(name) else "",
         "chosen": chosen if is_unit(chosen) and chosen != unit else "",
     }
-
-
-def _shown(cell: Any) -> str:
-    return cell if isinstance(cell, str) else f"{cell:g}"
 
 
 def _parts(words: str) -> tuple[str, str]:

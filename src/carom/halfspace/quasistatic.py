@@ -94,10 +94,8 @@ class Patch:
         """Return the state at the first touch."""
         apart = self.grid.apart
         none, nothing = np.zeros_like(apart), np.zeros((2, *apart.shape))
-        position = (0.0, np.zeros(3))
-        rates = (none, nothing)
-        tractions = (none, nothing, none, nothing)
-        return ContactState(*position, *tractions, apart, nothing, nothing, rates, 1.0)
+        surfaces = (none, nothing, none, nothing, apart, nothing, nothing)
+        return ContactState(0.0, np.zeros(3), *surfaces, (none, nothing), 1.0)
 
     def bound(self, pressure: Field) -> Field:
         """Return what friction bears under a pressure, over the coefficient of friction."""

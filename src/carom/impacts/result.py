@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.outcome import PAIR, InTime, Outcome, history_columns
+from carom.impacts.sequences import SIGNS
 from carom.impacts.spectrum import read_frequencies, spectrum_dataset
 from carom.io.labels import MARKS, Finding, Validity, labelled, phases_at
 from carom.plots.result import Result, card
@@ -318,7 +319,7 @@ def _impact_text(hit: ImpactResult) -> str:
     lines = listed({name: scalars[name] for name in shown}, width=58)
     times, unit = _phase_times(hit.phases)
     phases = [
-        f"  {_slip(p.kind, p.sign):14s}{start:>12s} {end:>12s}"
+        f"  {p.kind + SIGNS[p.sign]:14s}{start:>12s} {end:>12s}"
         f" {_in_degrees(angle.mean)} {_in_degrees(angle.largest)}   {p.cause}"
         for p, (start, end), angle in zip(hit.phases, times, hit.slip_angles, strict=True)
     ]
@@ -339,7 +340,3 @@ def _phase_times(phases: Sequence[Phase]) -> tuple[list[tuple[str, str]], str]:
 
 def _in_degrees(angle: float) -> str:
     return "-".rjust(9) if isnan(angle) else f"{degrees(angle):9.2f}"
-
-
-def _slip(kind: str, sign: int) -> str:
-    return kind if sign == 0 else f"{kind} {'+' if sign > 0 else '-'}"

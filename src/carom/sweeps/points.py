@@ -70,15 +70,15 @@ def strength_values(
         speed = np.hypot(_number(outcome.normal_speed, i), _number(outcome.tangential_speed, i))
         for name in names:
             quantity, body = WANTED[name]
-            if body in bodies:
-                outputs[name][i] = _value(quantity, bodies[body], speed)
+            if body not in bodies:
+                continue
+            struck = bodies[body]
+            if quantity in BEARABLE:
+                outputs[name][i] = speed * BEARABLE[quantity](struck)
+            else:
+                peak = struck.peak(quantity) if quantity in MEASURES else struck.intensity()
+                outputs[name][i] = peak.value
     return outputs
-
-
-def _value(quantity: str, body: StruckBody, speed: float) -> float:
-    if quantity in BEARABLE:
-        return float(speed * BEARABLE[quantity](body))
-    return body.peak(quantity).value if quantity in MEASURES else body.intensity().value
 
 
 def _entry(record: Any, i: int) -> Any:
