@@ -62,14 +62,11 @@ def limit_of(history: xr.Dataset) -> Array:
     return np.asarray(float(history["friction"]) * history["normal_force"].values)
 
 
-def stick_line(stick: Array, contact: Array) -> Array:
+def _stick(history: xr.Dataset) -> Array:
     """Return the radius of the stick zone while there is one, to where it has shrunk to nothing."""
+    stick, contact = history["stick_radius"].values, history["contact_radius"].values
     before = np.concatenate([[0.0], stick[:-1]])
     return np.where((stick > 0.0) | (before > 0.0) | (contact == 0.0), stick, np.nan)
-
-
-def _stick(history: xr.Dataset) -> Array:
-    return stick_line(history["stick_radius"].values, history["contact_radius"].values)
 
 
 def _lost(history: xr.Dataset) -> Array:
@@ -227,10 +224,9 @@ def radii_panel(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw the radii of the contact and of its stick zone; what lies between slips."""
     time = time_axis(axis, dataset)
     contact, unit, scale = style.scaled(dataset, "contact_radius")
-    stick = dataset["stick_radius"].values * scale
     axis.plot(time, contact, color=style.BLACK, label="contact, $b$")
-    line = stick_line(stick, contact)
-    axis.plot(time, line, color=style.BLUE, ls=style.DASHES[1], label="stick zone, $a$")
+    stick = _stick(dataset) * scale
+    axis.plot(time, stick, color=style.BLUE, ls=style.DASHES[1], label="stick zone, $a$")
     style.span(axis, y=(0.0, 1.06 * contact.max()))
     axis.set_ylabel(f"$a$, $b$\u00a0({unit})")
     legend_above(axis, 2)

@@ -29,16 +29,8 @@ from carom.quantities.glossary import NEEDED_STRENGTHS
 from carom.quantities.statuses import WordedStatus
 from carom.sweeps.inputs import leaf
 
-
-class Wanted(NamedTuple):
-    """An output of a sweep that is of one of the bodies."""
-
-    quantity: str
-    body: str
-
-
-WANTED = {
-    f"{quantity}_{body}": Wanted(quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES
+WANTED = {  # outputs of a sweep that are of one of the bodies: quantity and body
+    f"{quantity}_{body}": (quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES
 }
 BEARABLE: dict[str, Callable[[StruckBody], float]] = {  # as a multiple of the speed of the impact
     "yield_speed": lambda body: growth(body.yield_ratio()),
@@ -55,7 +47,7 @@ def needed_strengths(outputs: Sequence[str]) -> tuple[str, ...]:
 
 def needed_by(output: str) -> tuple[str, ...]:
     """Return the strengths of its body that an output needs."""
-    return NEEDED_STRENGTHS[WANTED[output].quantity] if output in WANTED else ()
+    return NEEDED_STRENGTHS[WANTED[output][0]] if output in WANTED else ()
 
 
 def strength_values(

@@ -307,7 +307,7 @@ class SweepProblem:
                 allowed = "a sweep with losses or plates does not compute stresses; leave them out"
                 yield refusal("outputs", output, allowed)
                 continue
-            body = WANTED[output].body
+            _, body = WANTED[output]
             if self._common.fixed.get(f"{body}.material.young") == inf:
                 yield refusal("outputs", output, f"the {body} body is rigid and has no stress")
                 continue

@@ -11,7 +11,7 @@ from carom.bodies.checks import check_second_spin, checked_pair
 from carom.bodies.kinematics import Tangential, by_angle
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair
-from carom.bodies.shapes import Sphere, describe
+from carom.bodies.shapes import Sphere
 from carom.dimensionless.lossy.law import checked_law
 from carom.impacts.exact import solve_exactly
 from carom.impacts.outcome import Outcome, outcome_fits
@@ -223,9 +223,7 @@ def wear_of_many(
     else:
         columns |= {"area": spread, "spread_friction_work": pair.friction * many.total / spread}
         columns |= {} if per_load is None else {"spread_wear_depth": per_load * many.total / spread}
-    inputs: dict[str, Any] = {"first": describe(pair.first), "second": describe(pair.second)}
-    inputs |= {"friction": pair.friction}
-    inputs |= {} if losses is None else {"losses": losses._describe()}
+    inputs = pair._describe() | ({} if losses is None else {"losses": losses._describe()})
     return labelled_dataset(columns, coords, {"title": "wear by many impacts", "inputs": inputs})
 
 
