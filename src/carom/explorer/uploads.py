@@ -73,7 +73,8 @@ def answer(asked: dict[str, str]) -> dict[str, Any]:
     except Refused:  # of the bodies that the page sent
         raise
     except InputError as error:
-        words = _in_words_of_the_page(str(error), str(file), name)
+        subject, colon, rest = str(error).replace(str(file), name).partition(": ")
+        words = in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
         offer = lists(file, how)
         raise Refused("", words, **({"lists": offer} if offer else {})) from None
     finally:
@@ -85,11 +86,6 @@ def shown_name(name: str) -> str:
     """Return the name of a user's file, fit to be shown."""
     last = str(name).replace("\\", "/").rpartition("/")[2]
     return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME] or "file"
-
-
-def _in_words_of_the_page(message: str, path: str, name: str) -> str:
-    subject, colon, rest = message.replace(path, name).partition(": ")
-    return in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
 
 
 def _decoded(contents: str) -> bytes:
@@ -209,8 +205,9 @@ def _standing(law: Any, parameters: str) -> dict[str, str]:
 
 def _chart(dataset: xr.Dataset, name: str) -> dict[str, Any]:
     """Return a response against incidence: measured, by laws, and what is left."""
-    one = dataset.sel(response=name)
-    scale, unit = _scale(name, one["measured"].values)
+    one, scale, unit = dataset.sel(response=name), float(np.degrees(1.0)), "deg"
+    if GLOSSARY[name].unit != "rad":
+        scale, unit = prefixed(one["measured"].values, GLOSSARY[name].unit)
     along, laws = np.degrees(one["curve_incidence"].values), one["law"].values
     lines = {str(law): scale * one["curve_expected"].sel(law=law).values for law in laws}
     spinning = bool(dataset.attrs["spinning"])
@@ -265,11 +262,6 @@ def _lines(x: Array, lines: dict[str, Array]) -> dict[str, Any]:
 def _plain(values: Iterable[float]) -> list[float | None]:
     """Return numbers of a few digits, None for what is none."""
     return [float(f"{each:.{SHOWN_DIGITS}g}") if isfinite(each) else None for each in values]
-
-
-def _scale(name: str, values: Array) -> tuple[float, str]:
-    unit = GLOSSARY[name].unit
-    return (float(np.degrees(1.0)), "deg") if unit == "rad" else prefixed(values, unit)
 
 
 def words_of(pair: Pair) -> str:

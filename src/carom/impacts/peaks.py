@@ -270,7 +270,9 @@ def _line(name: str, row: dict[str, float], value: str) -> str:
 
 def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
     """Return whether the bodies of an impact bear it: yield with friction, tension, toughness."""
-    findings = (_yields(bodies), _tears(bodies), _cracks(bodies))
+    tension = _ratios("tension_ratio", bodies)  # falls so fast below that flaws hardly feel it
+    tears = _finding("tension_ratio", tension, bodies, []) if tension else None
+    findings = (_yields(bodies), tears, _cracks(bodies))
     return tuple(finding for finding in findings if finding is not None)
 
 
@@ -291,12 +293,6 @@ def _yields(bodies: dict[str, StruckBody]) -> Finding:
         return _finding("yield_ratio", ratios, bodies, broken)
     worst = max(ratios.values(), default=nan)
     return lacking("von Mises stress/Y", 1.0, "yield_strength", without, worst)
-
-
-def _tears(bodies: dict[str, StruckBody]) -> Finding | None:
-    """Return the finding on tension, which falls so fast with depth that flaws hardly feel it."""
-    ratios = _ratios("tension_ratio", bodies)
-    return _finding("tension_ratio", ratios, bodies, []) if ratios else None
 
 
 def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
