@@ -43,13 +43,10 @@ def judge(hit: ImpactResult, assumptions: Sequence[Assumption]) -> Validity:
     """Return the findings on an impact, of what its bodies bear and of these assumptions."""
     findings = (assumption(hit) for assumption in assumptions)
     there = tuple(finding for finding in findings if finding is not None)
-    return Validity((*doubts(hit.pair), _small_contact(hit), *hit._strength, *there))
-
-
-def _small_contact(hit: ImpactResult) -> Finding:
-    ratio, good = hit._size_ratio, "the contact is small compared with"
+    good = "the contact is small compared with the bodies"
     bad = f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most"
-    return judged("a_max/R*", ratio, SMALL_CONTACT, f"{good} the bodies", bad)
+    small = judged("a_max/R*", hit._size_ratio, SMALL_CONTACT, good, bad)
+    return Validity((*doubts(hit.pair), small, *hit._strength, *there))
 
 
 def _slow_contact(hit: ImpactResult) -> Finding:
