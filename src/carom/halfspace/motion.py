@@ -117,6 +117,7 @@ class LedgerEntry(NamedTuple, Generic[Number]):
     normal_stored: Number
     tangential_stored: Number
     lost: Number  # to friction
+    lost_across: Number  # of that, by slip across
     slip_angle: Number  # between slip and x, averaged over the work of friction
     slip_angle_max: Number
     slip_drag: Number  # what of the drag is that of slipping elements
@@ -162,6 +163,7 @@ def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry[floa
         0.5 * grid.force(state.pressure * (state.depth - grid.apart)),
         0.5 * grid.element * float(np.sum(state.traction * state.yielded)),
         float(work.sum()),
+        float(work[1].sum()),
         angle,
         largest,
         grid.element * float(state.traction[0, slips].sum()),
