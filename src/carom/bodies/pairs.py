@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.bodies.contact_shape import axes_of, check_shapes, curvatures_of, inverse_mass_of
 from carom.bodies.materials import Material, set_fields
-from carom.bodies.shapes import Cup, HalfSpace, Sphere
+from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.bodies.smooth_body import Body
 from carom.dimensionless.ellipse import Ellipse, contact_ellipse, stiffness_ratios
 from carom.quantities.arrays import Array
@@ -359,6 +359,11 @@ class Pair(Printed):
     @property
     def _materials(self) -> tuple[Material, Material]:
         return self.first.material, self.second.material
+
+    def _describe(self) -> dict[str, Any]:
+        """Return the bodies and their friction as plain numbers and words."""
+        bodies = {"first": describe(self.first), "second": describe(self.second)}
+        return bodies | {"friction": self.friction}
 
     def __str__(self) -> str:
         bodies = f"{self.first} on {self.second}"

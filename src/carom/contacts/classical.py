@@ -165,13 +165,10 @@ def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array,
     with np.errstate(all="ignore"):
         share, moved = np.asarray(across / most), _gross_displacement(pair, most)
         fits = np.isfinite(most) & np.isfinite(share) & np.isfinite(most * moved)
-    held, slides = np.all(fits), not np.all(np.abs(share) <= 1.0)
-    allowed = "its results are too large for floating point; check the units"
-    refuse(
-        refusal("normal_force", normal, allowed)
-        if not held
-        else slides and refusal("tangential_force", tangential, "Coulomb's law allows at most mu P")
-    )
+    large = "its results are too large for floating point; check the units"
+    refuse(not np.all(fits) and refusal("normal_force", normal, large))
+    allowed = "Coulomb's law allows at most mu P"
+    refuse(np.any(np.abs(share) > 1.0) and refusal("tangential_force", tangential, allowed))
     return share, most
 
 

@@ -11,7 +11,6 @@ import numpy as np
 from carom import plots
 from carom.bodies.checks import with_friction
 from carom.bodies.pairs import ContactScales, Pair
-from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
 from carom.contacts.in_contact import InContact
 from carom.contacts.load_steps import Control, Steps, followed, read_steps
@@ -174,8 +173,7 @@ class LoadPath(InContact, Result):
 
     def inputs(self) -> dict[str, Any]:
         """Return the inputs of the path except its steps, as plain numbers and words."""
-        first, second = describe(self.pair.first), describe(self.pair.second)
-        return {"first": first, "second": second, "friction": self.pair.friction}
+        return self.pair._describe()
 
     def _step(self, step: Any) -> int:
         n = len(self)

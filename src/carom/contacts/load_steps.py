@@ -93,24 +93,20 @@ def _directions_last(control: Control, first: bool = False) -> Control:
 
 
 def _one_of(most: int, **controls: Control) -> tuple[str, Array]:
+    """Return which control is given, in SI units, without a dimension if it is a single number."""
     chosen = {name: value for name, value in controls.items() if value is not None}
     if len(chosen) != 1:
         which = "not both" if chosen else "one of them"
         raise InputError(f"load path: give {' or '.join(controls)}, {which}")
     name, value = next(iter(chosen.items()))
-    return name, _values(name, value, most)
-
-
-def _values(name: str, control: ArrayLike | str, most: int) -> Array:
-    """Return a control as numbers in SI units, without a dimension if it is a single one."""
     allowed = "must be one or a list of numbers in SI units, or texts with a unit"
     if most == 2:
         allowed += ", or of shape (n, 2), along x and y"
-    values = numbers(name, control, allowed)
+    values = numbers(name, value, allowed)
     if values.ndim > most or values.size == 0 or (values.ndim == 2 and values.shape[1] != 2):
         raise refusal(name, values, allowed)
     _refuse_steps(name, values, ~np.isfinite(values), "must be finite")
-    return values
+    return name, values
 
 
 def _refuse_steps(name: str, values: Array, bad: NDArray[np.bool_], allowed: str) -> None:

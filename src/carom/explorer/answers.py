@@ -27,12 +27,24 @@ def answer(view: View) -> Answer:
     """Return what there is to see of a view, or raise Refused."""
     end = monotonic() + PROMPT_SECONDS
     scene = scene_of(view)
+    psi, out = exact_curve(scene)
     shown: Answer = {
         "query": view.query(),
         "carried": _carried(view, scene),
         "scene": scene.moving(),
-        "history": _history(scene),
-        "curve": _curve(scene),
+        "history": {
+            "share": _fine(scene.share),
+            "force": _fine(scene.force),
+            "limit": _fine(scene.limit),
+            "unit": scene.force_unit,
+            "energies": {name: _fine(part) for name, part in scene.energies.items()},
+        },
+        "curve": {
+            "psi": _fine(psi),
+            "out": _fine(out),
+            "borders": scene.borders.tolist(),
+            "at": [scene.psi_in, scene.psi_out] if scene.rubs else None,
+        },
         "undamped": list(view.undamped),
         "results": scene.results,
         "findings": scene.findings,
@@ -50,19 +62,20 @@ def laws(view: View) -> Answer:
 
 def _laws(view: View, scene: Scene, curves: list[LawCurve | None], left: str) -> Answer:
     missing = [label for label, law in zip(view.laid_over, curves, strict=True) if law is None]
-    return {"laws": [_law(scene, law) for law in curves if law is not None], left: missing}
-
-
-def _law(scene: Scene, law: LawCurve) -> Answer:
-    return {
-        "label": law.label,
-        "psi": _fine(law.psi_in),
-        "out": _fine(law.psi_out),
-        "at": or_none(law.at),
-        "off": or_none(law.at - scene.psi_out),
-        "share": _fine(law.share),
-        "force": _fine(law.force),
-    }
+    solved = [
+        {
+            "label": law.label,
+            "psi": _fine(law.psi_in),
+            "out": _fine(law.psi_out),
+            "at": or_none(law.at),
+            "off": or_none(law.at - scene.psi_out),
+            "share": _fine(law.share),
+            "force": _fine(law.force),
+        }
+        for law in curves
+        if law is not None
+    ]
+    return {"laws": solved, left: missing}
 
 
 def _carried(view: View, scene: Scene) -> Answer | None:
@@ -72,26 +85,6 @@ def _carried(view: View, scene: Scene) -> Answer | None:
     give = scene.losses.inelasticity if isinstance(scene.losses, ZenerPlate) else 0.0
     numbers = {"psi": scene.psi_in, "chi": scene.chi, "inelasticity": give}
     return {name: float(f"{number:.{CARRIED_DIGITS}g}") for name, number in numbers.items()}
-
-
-def _history(scene: Scene) -> Answer:
-    return {
-        "share": _fine(scene.share),
-        "force": _fine(scene.force),
-        "limit": _fine(scene.limit),
-        "unit": scene.force_unit,
-        "energies": {name: _fine(part) for name, part in scene.energies.items()},
-    }
-
-
-def _curve(scene: Scene) -> Answer:
-    psi, out = exact_curve(scene)
-    return {
-        "psi": _fine(psi),
-        "out": _fine(out),
-        "borders": scene.borders.tolist(),
-        "at": [scene.psi_in, scene.psi_out] if scene.rubs else None,
-    }
 
 
 def _fine(values: Array) -> list[float | None]:

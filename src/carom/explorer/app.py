@@ -71,10 +71,11 @@ def _host() -> str | None:
 
 def _add_parts(server: Flask) -> None:
     """Add the page, and what it is made of: a browser keeps it, and asks whether it is the same."""
+    html = cache(page)
 
     @server.get("/")
     def home() -> Response:
-        return Response(_page(), content_type="text/html; charset=utf-8")
+        return Response(html(), content_type="text/html; charset=utf-8")
 
     @server.get("/assets/<name>")
     def asset(name: str) -> Response:
@@ -144,11 +145,6 @@ def _add_fits(server: Flask, worker: Worker) -> None:
         return _json(worker.fit(**{name: sent[name] for name in UPLOADED}))
 
 
-@cache
-def _page() -> str:
-    return page()
-
-
 def _query() -> str:
     return request.query_string.decode("ascii", "replace")
 
@@ -164,8 +160,9 @@ def _one_line(error: Exception) -> Response:
         return _refusal("", str(error), 503, again=SECONDS_UNTIL_AGAIN, percent=error.percent)
     if isinstance(error, Refused):
         return _refusal(error.field, error.message, **error.more)
-    if isinstance(error, InputError):
-        return _refusal(*_parted(str(error)))
+    if isinstance(error, InputError):  # of the library, which begins with what it is about
+        name, _, rest = str(error).partition(": ")
+        return _refusal(name, rest) if name in FIELDS else _refusal("", str(error))
     if isinstance(error, Busy):
         return _refusal("", str(error), 503)
     if isinstance(error, RecursionError) and request.is_json:
@@ -174,12 +171,6 @@ def _one_line(error: Exception) -> Response:
         return _line(f"{error.code}: {error.name}", error.code or 500)
     log.error("%s: %s", type(error).__name__, " ".join(str(error).split())[:MOST_LOGGED])
     return _line(f"failed, {type(error).__name__}", 500)
-
-
-def _parted(refusal: str) -> tuple[str, str]:
-    """Return the field that a refusal of the library begins with, and the rest of it."""
-    name, colon, rest = refusal.partition(": ")
-    return (name, rest) if colon and name in FIELDS else ("", refusal)
 
 
 def _refusal(field: str, message: str, status: int = 400, **more: Any) -> Response:

@@ -43,20 +43,18 @@ SHOWN_CELLS = 3
 def taken(columns: Mapping[str, Column], ignored: Iterable[str]) -> list[dict[str, str]]:
     """Return for each column its head, what it was taken for, and the unit it was read in."""
     empty = [name.partition(" ")[0] for name in ignored if "(" in name]
-    return [_taken(name, columns[name], entry(name) in empty) for name in columns]
-
-
-def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
-    if not _is_known(name):
-        return {"head": column.head, "kind": "not used", "meaning": "", "unit": ""}
-    quantity = entry(base(name))
-    si, kind, meaning = GLOSSARY[quantity].unit, KINDS[quantity], plain_words(quantity)
-    if name != quantity:
-        kind, meaning = "standard deviation", f"of {meaning}"
-    if empty:
-        kind = "not used: no value in it"
-    unit = str(column.unit) or ("" if si == "1" else f"{si} (the head names no unit)")
-    return {"head": column.head, "kind": kind, "meaning": meaning, "unit": unit}
+    rows = []
+    for name, column in columns.items():
+        kind, meaning, unit, quantity = "not used", "", "", entry(base(name))
+        if quantity in KINDS:
+            si, kind, meaning = GLOSSARY[quantity].unit, KINDS[quantity], plain_words(quantity)
+            if name != quantity:
+                kind, meaning = "standard deviation", f"of {meaning}"
+            if entry(name) in empty:
+                kind = "not used: no value in it"
+            unit = str(column.unit) or ("" if si == "1" else f"{si} (the head names no unit)")
+        rows.append({"head": column.head, "kind": kind, "meaning": meaning, "unit": unit})
+    return rows
 
 
 def lists(file: Path, how: TableFormat) -> dict[str, Any] | None:
@@ -107,7 +105,10 @@ def _row(column: Column, written: Column, columns: Mapping[str, str]) -> dict[st
     return {
         "head": column.head,
         "letter": column.letter,
-        "first": [clipped(_shown(cell)) for cell in written.cells[:SHOWN_CELLS]],
+        "first": [
+            clipped(cell if isinstance(cell, str) else f"{cell:g}")
+            for cell in written.cells[:SHOWN_CELLS]
+        ],
         "own": own if _is_known(own) else "",
         "own_unit": "" if own_unit == unit else own_unit,
         "fits": [si for si in UNITS if _fits(unit, si)],
@@ -116,10 +117,6 @@ def _row(column: Column, written: Column, columns: Mapping[str, str]) -> dict[st
         "name": name if _is_known(name) else "",
         "chosen": chosen if is_unit(chosen) and chosen != unit else "",
     }
-
-
-def _shown(cell: Any) -> str:
-    return cell if isinstance(cell, str) else f"{cell:g}"
 
 
 def _parts(words: str) -> tuple[str, str]:

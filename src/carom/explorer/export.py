@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from carom.explorer.page import ASSETS, asset, assets_in, page, plotly_file
 from carom.explorer.tables import SOLVED_IMPACTS, tables
-from carom.io.paths import accessing, checked_folder
+from carom.io.paths import accessing, checked_folder, write_folder
 from carom.io.progress import Progress, advancing
 from carom.quantities.refusals import refusal, refuse
 
@@ -35,7 +35,10 @@ def export(folder: str | Path, progress: Progress = None) -> Copy:
         foreign = real.exists() and not _is_ours(real)
         refuse(foreign and refusal("folder", str(target), allowed))
         parts = _parts(progress)
-        _replace(real, parts)
+        if real.exists():
+            _replace(real, parts)
+        else:
+            write_folder(target, parts)
     return Copy(str(target), sum(map(len, parts.values())), len(parts))
 
 
@@ -64,18 +67,13 @@ def _parts(progress: Progress) -> dict[str, bytes]:
 
 
 def _replace(real: Path, parts: dict[str, bytes]) -> None:
-    """Write all beside its place, then put it there; a folder that exists stays the same one."""
-    existed = real.exists()
-    beside = real if existed else real.parent
-    with tempfile.TemporaryDirectory(prefix=".carom-", dir=beside) as room:
+    """Write all beside its place, then put it there; the folder stays the same one."""
+    with tempfile.TemporaryDirectory(prefix=".carom-", dir=real) as room:
         made, old = Path(room, "new"), Path(room, "old")
         for name, content in parts.items():
             place = made / name
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(content)
-        if not existed:
-            made.replace(real)
-            return
         old.mkdir()
         try:
             for name in COPIED:

@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import isfinite
 from pathlib import Path
-from typing import Any, NamedTuple
+from types import SimpleNamespace
+from typing import Any
 
 import xarray as xr
 from matplotlib.figure import Figure
@@ -38,16 +39,8 @@ from carom.plots import (
     save_figure,
     style as drawing,
 )
-from carom.plots.impact import (
-    ENERGIES,
-    LOST,
-    energies_panel,
-    forces_panel,
-    phase_handles,
-    radii_panel,
-    velocities_panel,
-)
-from carom.plots.legends import legend_above, legend_outside
+from carom.plots.impact import ENERGIES, LOST, impact_figure
+from carom.plots.legends import legend_above
 
 SCALES = Scales(
     **dict.fromkeys(("length", "radius", "force", "pressure", "tangential_length"), 1.0),
@@ -60,13 +53,6 @@ TANGENTIAL = {  # energies that psi_1 and chi tell, with the looks of what they 
     if name not in LOST
 }
 ENTRY_HEIGHT = 1.8  # mm that a law adds to the legend of the rebound curve
-
-
-class UnitBodies(NamedTuple):
-    """Bodies whose slip is along x alone."""
-
-    friction: float = 1.0
-    lateral_ratio: float = 0.0
 
 
 class NumbersImpact:
@@ -89,7 +75,7 @@ class NumbersImpact:
 
     def fields(self, time: float) -> xr.Dataset:
         """Return what the surface of the contact does at a time, in d_max/V_1."""
-        bodies: Any = UnitBodies()
+        bodies: Any = SimpleNamespace(friction=1.0, lateral_ratio=0.0)  # slip along x alone
         contact = contact_in_impact(bodies, SCALES, 0.0, self.solution, time, {})
         return _in_theory(surface_fields(contact))
 
@@ -105,22 +91,8 @@ def history_figure(view: View, _: float = 0.0) -> Figure:
     """Return forces, velocities, radii and energies against time."""
     if not view.in_numbers:
         return plot_impact(impact_of(view).history(HISTORY_TIMES))
-    return _without_units(NumbersImpact(view).history())
-
-
-@drawing.styled
-def _without_units(history: xr.Dataset) -> Figure:
-    size: Any = {"width": drawing.DOUBLE, "height": 112.0}
-    figure, axes = drawing.new_figure(2, 2, sharex=True, **size)
-    panels = (forces_panel, velocities_panel, radii_panel)
-    for axis, panel in zip(axes.flat, panels, strict=False):
-        panel(axis, history)
-    energies_panel(axes[1, 1], history, TANGENTIAL)
-    axes[1, 1].set_ylabel("share of tangential energy")
-    for axis in axes[0]:
-        axis.set_xlabel("")
-    legend_outside(figure, phase_handles(history), 5)
-    return figure
+    with drawing.style():
+        return impact_figure(NumbersImpact(view).history(), TANGENTIAL, "tangential energy")
 
 
 def contact_figure(view: View, time: float) -> Figure:

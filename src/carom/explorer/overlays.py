@@ -61,8 +61,8 @@ class LawCurve:
     psi_in: Array
     psi_out: Array
     at: float  # psi_2 at the present psi_1
-    share: Array
-    force: Array
+    share: Array  # times, of the exact duration
+    force: Array  # in the unit of the scene
 
 
 def exact_curve(scene: Scene) -> tuple[Array, Array]:
@@ -136,17 +136,11 @@ def _of_law(scene: Scene, label: str) -> LawCurve:
     at, share, force = float("nan"), np.array([]), np.array([])
     if np.isfinite(scene.psi_in):
         at = float(_rebound(law, scene.psi_in, scene.chi, scene.kappa))
-        share, force = _in_time(law, scene)
+        if isinstance(law, ContactLaw):  # a hard sphere has no contact to follow
+            course = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=FORCE_STEPS)
+            share = course["time"][::DRAWN_EVERY] / scene.lasts
+            force = (course["tangential_force"] * scene.force_scale)[::DRAWN_EVERY]
     return LawCurve(label, *_whole(scene, grid, half), at, share, force)
-
-
-def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:
-    """Return times as shares of the exact duration, and the force in the unit of the scene."""
-    if not isinstance(law, ContactLaw):
-        return np.array([]), np.array([])  # a hard sphere has no contact to follow
-    course = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=FORCE_STEPS)
-    force = course["tangential_force"] * scene.force_scale
-    return course["time"][::DRAWN_EVERY] / scene.lasts, force[::DRAWN_EVERY]
 
 
 @lru_cache(maxsize=KEPT_CURVES)

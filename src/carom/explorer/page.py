@@ -103,7 +103,10 @@ def config(*, static: bool = False) -> dict[str, Any]:
         "symbols": SYMBOLS,
         "energies": PAGE["energies"] | PAGE["energies_of_contact"],
         "presets": [preset._asdict() for preset in PRESETS],
-        "datasets": [{"name": name, "title": _title(name)} for name in dataset_names()],
+        "datasets": [
+            {"name": name, "title": read_table(path(name)).comments["title"]}
+            for name in dataset_names()
+        ],
     }
 
 
@@ -144,7 +147,3 @@ def _material(name: str) -> dict[str, float | None]:
     stuff = material(name)
     young = None if isinf(stuff.young) else stuff.young
     return {"young": young, "poisson": stuff.poisson, "density": stuff.density}
-
-
-def _title(name: str) -> str:
-    return str(read_table(path(name)).comments["title"])

@@ -133,38 +133,50 @@ def _of_bodies(view: View) -> Scene:
     give = pair.plate_give(hit.normal_speed)
     newtons, force_unit = prefixed(pair.friction * hit.max_force or hit.max_force, "N")
     return Scene(
-        psi_in=hit.psi_in,
-        psi_out=hit.psi_out,
+        **_in_both(hit, hit.solution, column, ENERGIES),
         chi=pair.chi,
         kappa=pair.kappa,
         restitution=hit.normal_restitution if give else view.restitution,
         losses=ZenerPlate(inelasticity=ZENER * give) if give else view.losses,
         borders=_borders(view, hit.solution, give),
-        lasts=hit.solution.duration,
         duration=hit.duration * seconds,
         time_unit=unit,
-        phases=_shares(hit.phases, hit.duration),
-        share=column["time"] / hit.duration,
         psi=column["contact_velocity"] / (scales.tangential_speed or np.inf),
         force=column["tangential_force"] * newtons,
         limit=pair.friction * column["normal_force"] * newtons,
         force_scale=pair.friction * scales.force * newtons,
         force_unit=force_unit,
-        energies=_energies(column, ENERGIES),
-        contact=column["contact_radius"] / hit.max_radius,
-        stick=column["stick_radius"] / hit.max_radius,
         rim=_rim(hit.solution, column["normal_velocity"] / hit.normal_speed),
-        tractions=_tractions(hit.solution),
         stage=stage_of_bodies(hit, column),
         results=rows_of(_scalars(hit), lossy=view.is_lossy),
         findings=findings_of(hit.validity.findings),
     )
 
 
-def _energies(column: Mapping[str, Array], names: Iterable[str]) -> dict[str, Array]:
-    """Return these energies as shares of their sum, which is zero where nothing moves."""
-    whole: Any = sum(column[name] for name in names)
-    return {name: column[name] / whole if whole.any() else column[name] for name in names}
+def _in_both(
+    outcome: Any,
+    solution: Solution | LossySolution,
+    column: Mapping[str, Array],
+    energies: Iterable[str],
+) -> dict[str, Any]:
+    """Return what a scene tells of bodies and of numbers alike, of the one or the other outcome."""
+    duration, radius = outcome.duration, outcome.max_radius
+    whole: Any = sum(column[name] for name in energies)  # zero where nothing moves
+    phases = (
+        phase._replace(start=phase.start / duration, end=phase.end / duration)
+        for phase in outcome.phases
+    )
+    return {
+        "psi_in": outcome.psi_in,
+        "psi_out": outcome.psi_out,
+        "lasts": solution.duration,
+        "phases": tuple(phases),
+        "share": column["time"] / duration,
+        "energies": {n: column[n] / whole if whole.any() else column[n] for n in energies},
+        "contact": column["contact_radius"] / radius,
+        "stick": column["stick_radius"] / radius,
+        "tractions": _tractions(solution),
+    }
 
 
 def _scalars(hit: Impact) -> Mapping[str, float]:
@@ -200,28 +212,20 @@ def _of_numbers(view: View) -> Scene:
     history = solution.history(HISTORY_TIMES)
     column = columns_of_numbers(history)
     return Scene(
-        psi_in=solution.psi_in,
-        psi_out=solution.psi_out,
+        **_in_both(solution, solution, column, ENERGIES_OF_CONTACT),
         chi=solution.chi,
         kappa=SOLID * solution.chi,
         restitution=solution.restitution if view.on_plate else view.restitution,
         losses=view.losses,
         borders=_borders(view, solution, view.inelasticity / ZENER),
-        lasts=solution.duration,
         duration=solution.duration,
         time_unit="d_max/V₁",
-        phases=_shares(solution.phases, solution.duration),
-        share=history.time / solution.duration,
         psi=history.psi,
         force=column["tangential_force"],
         limit=history.normal_force,
         force_scale=1.0,
         force_unit="µ F_max",
-        energies=_energies(column, ENERGIES_OF_CONTACT),
-        contact=history.contact_radius / solution.max_radius,
-        stick=history.stick_radius / solution.max_radius,
         rim=_rim(solution, history.speed),
-        tractions=_tractions(solution),
         stage=stage_of_numbers(solution, history, view.friction),
         results=rows_of(_numbers(solution, view), lossy=view.on_plate),
         findings=(),
@@ -259,7 +263,3 @@ def _rim(solution: Solution | LossySolution, speed: Array) -> Array:
         return np.zeros(speed.size)
     alpha = solution._losses.parameter
     return np.asarray(alpha * np.maximum(speed, 0.0) / solution.max_radius**2)
-
-
-def _shares(phases: tuple[Phase, ...], duration: float) -> tuple[Phase, ...]:
-    return tuple(p._replace(start=p.start / duration, end=p.end / duration) for p in phases)

@@ -30,11 +30,11 @@ def tables(advance: Advance) -> str:
     content = {
         "chi": [LEAST_CHI, LARGEST_CHI],
         "psi": LARGEST_PSI,
-        "rebounds": {_key(e): _packed(e, advance) for e in RESTITUTIONS},
-        "losses": {_key(e): _losses(e) for e in RESTITUTIONS},
+        "rebounds": {f"{e:g}": _packed(e, advance) for e in RESTITUTIONS},
+        "losses": {f"{e:g}": _losses(e) for e in RESTITUTIONS},
         "rows": {name: _row(name, sign) for name, sign in SIGNS.items()},
         "lossy": {name: _row(name, sign) for name, sign in SIGNS_OF_LOSSES.items()},
-        "prefixes": {unit: _prefixes(unit) for unit in ("s", "N", "J", "m", "m/s")},
+        "prefixes": {unit: sorted(READ[unit].items()) for unit in ("s", "N", "J", "m", "m/s")},
     }
     text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
     return f"Carom.tables = {text};\n"
@@ -68,11 +68,3 @@ def _losses(restitution: float) -> dict[str, float]:
 
 def _row(name: str, sign: str) -> dict[str, str]:
     return {"symbol": sign, "meaning": GLOSSARY[name].meaning, "unit": GLOSSARY[name].unit}
-
-
-def _prefixes(unit: str) -> list[tuple[int, str]]:
-    return sorted(READ[unit].items())
-
-
-def _key(restitution: float) -> str:
-    return f"{restitution:g}"

@@ -73,7 +73,8 @@ def answer(asked: dict[str, str]) -> dict[str, Any]:
     except Refused:  # of the bodies that the page sent
         raise
     except InputError as error:
-        words = _in_words_of_the_page(str(error), str(file), name)
+        subject, colon, rest = str(error).replace(str(file), name).partition(": ")
+        words = in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
         offer = lists(file, how)
         raise Refused("", words, **({"lists": offer} if offer else {})) from None
     finally:
@@ -85,11 +86,6 @@ def shown_name(name: str) -> str:
     """Return the name of a user's file, fit to be shown."""
     last = str(name).replace("\\", "/").rpartition("/")[2]
     return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME] or "file"
-
-
-def _in_words_of_the_page(message: str, path: str, name: str) -> str:
-    subject, colon, rest = message.replace(path, name).partition(": ")
-    return in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
 
 
 def _decoded(contents: str) -> bytes:
@@ -124,6 +120,7 @@ def shown_fit(
     """Return all that the page shows of a fit, as JSON can hold it."""
     problem, dataset = result._best.model.problem, result.to_dataset()
     drops = problem.is_normal and result.losses is not None
+    regimes = () if problem.is_normal else result.regimes.items()
     charts = [_drops(dataset)] if drops else [_chart(dataset, str(n)) for n in problem.responses]
     return {
         "name": name,
@@ -131,9 +128,9 @@ def shown_fit(
         "rows": len(problem.rows),
         "confidence": f"{100.0 * result.confidence:g} %",
         "parameters": [_parameter(each) for each in result.estimates.values() if _counts(each)],
-        "laws": _laws(result) if not problem.is_normal else _losses(result),
+        "laws": _losses(result) if problem.is_normal else _laws(result),
         "verdict": result.losses.verdict if drops and result.losses else result.comparison.verdict,
-        "regimes": [] if problem.is_normal else _regimes(result),
+        "regimes": [{"name": name, "rows": n} for name, n in regimes if n],
         "notes": [in_words(note) for note in result.notes if not note.startswith(SHOWN_ELSEWHERE)],
         "charts": charts,
         "columns": taken(cells, problem.ignored),
@@ -179,8 +176,12 @@ def _or_none(unit: str) -> str:
 
 
 def _laws(result: Fit) -> list[dict[str, str]]:
+    def values(law: LawFit) -> str:
+        named = law.values.items()
+        return ", ".join(f"{PARAMETERS[n][0]} = {GLOSSARY[n].text(value, 4)}" for n, value in named)
+
     standings = sorted(result.comparison, key=lambda each: each.excess)
-    return [_standing(each, _values(each)) for each in standings]
+    return [_standing(each, values(each)) for each in standings]
 
 
 def _losses(result: Fit) -> list[dict[str, str]]:
@@ -202,36 +203,23 @@ def _standing(law: Any, parameters: str) -> dict[str, str]:
     return {"law": law.law, "excess": excess, "weight": weight, "parameters": parameters}
 
 
-def _values(law: LawFit) -> str:
-    return ", ".join(
-        f"{PARAMETERS[name][0]} = {GLOSSARY[name].text(value, 4)}"
-        for name, value in law.values.items()
-    )
-
-
-def _regimes(result: Fit) -> list[dict[str, Any]]:
-    return [{"name": name, "rows": count} for name, count in result.regimes.items() if count]
-
-
 def _chart(dataset: xr.Dataset, name: str) -> dict[str, Any]:
     """Return a response against incidence: measured, by laws, and what is left."""
-    one = dataset.sel(response=name)
-    scale, unit = _scale(name, one["measured"].values)
-    along = np.degrees(one["curve_incidence"].values)
-    lines = {
-        str(law): scale * one["curve_expected"].sel(law=law).values for law in one["law"].values
-    }
+    one, scale, unit = dataset.sel(response=name), float(np.degrees(1.0)), "deg"
+    if GLOSSARY[name].unit != "rad":
+        scale, unit = prefixed(one["measured"].values, GLOSSARY[name].unit)
+    along, laws = np.degrees(one["curve_incidence"].values), one["law"].values
+    lines = {str(law): scale * one["curve_expected"].sel(law=law).values for law in laws}
     spinning = bool(dataset.attrs["spinning"])
     measured, residual, error = (scale * one[k].values for k in ("measured", "residual", "error"))
     return {
-        **_points(np.degrees(one["incidence"].values), measured, residual, error),
+        **_points(dataset, np.degrees(one["incidence"].values), measured, residual, error),
+        **_lines(along, lines),
         "response": name.replace("_", " "),
         "meaning": plain_words(name),
         "unit": _or_none(unit),
         "along": "incidence of the contact point" if spinning else "angle of incidence",
         "along_unit": "deg",
-        "row": dataset["row"].values.tolist(),
-        "lines": [_line(law, along, line) for law, line in lines.items()],
         "band": [_plain(scale * one[f"curve_{end}"].values) for end in ("low", "high")],
         "borders": _plain(np.degrees(dataset["border"].values)),
     }
@@ -245,38 +233,35 @@ def _drops(dataset: xr.Dataset) -> dict[str, Any]:
     measured, error = (dataset[f"restitution{end}"].values for end in ("", "_error"))
     residual = measured - np.interp(speeds, along, lines[laws[0]])
     return {
-        **_points(speeds, measured, residual, error),
+        **_points(dataset, speeds, measured, residual, error),
+        **_lines(along, lines),
         "response": "restitution",
         "meaning": "normal speed, after to before",
         "unit": "",
         "along": "normal speed before",
         "along_unit": "m/s",
-        "row": dataset["row"].values.tolist(),
-        "lines": [_line(law, along, line) for law, line in lines.items()],
         "band": [],
         "borders": [],
     }
 
 
-def _points(x: Array, measured: Array, residual: Array, error: Array) -> dict[str, Any]:
+def _points(
+    dataset: xr.Dataset, x: Array, measured: Array, residual: Array, error: Array
+) -> dict[str, Any]:
     with np.errstate(all="ignore"):
         scaled = residual / error
     points = {"x": x, "measured": measured, "error": error, "residual": residual, "scaled": scaled}
-    return {name: _plain(values) for name, values in points.items()}
+    rows = dataset["row"].values.tolist()
+    return {"row": rows, **{name: _plain(values) for name, values in points.items()}}
 
 
-def _line(law: str, x: Array, y: Array) -> dict[str, Any]:
-    return {"law": law, "x": _plain(x), "y": _plain(y)}
+def _lines(x: Array, lines: dict[str, Array]) -> dict[str, Any]:
+    return {"lines": [{"law": law, "x": _plain(x), "y": _plain(y)} for law, y in lines.items()]}
 
 
 def _plain(values: Iterable[float]) -> list[float | None]:
     """Return numbers of a few digits, None for what is none."""
     return [float(f"{each:.{SHOWN_DIGITS}g}") if isfinite(each) else None for each in values]
-
-
-def _scale(name: str, values: Array) -> tuple[float, str]:
-    unit = GLOSSARY[name].unit
-    return (float(np.degrees(1.0)), "deg") if unit == "rad" else prefixed(values, unit)
 
 
 def words_of(pair: Pair) -> str:

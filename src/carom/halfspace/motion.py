@@ -69,7 +69,9 @@ def move(
     yield now
     while True:
         state = now.step.state
-        length = min(longest, _edge_limit(now, spacing))
+        radius = max(sqrt(state.depth), 0.25 * spacing)  # of the edge, a = sqrt d
+        edge = EDGE_REACH * spacing * 2.0 * radius / max(abs(now.approach), SLOWEST)
+        length = min(longest, edge)
         approach = now.approach - 0.5 * length * NORMAL_RATE * now.force
         velocity = now.velocity - 0.5 * length * response * now.drag
         depth = state.depth + length * approach
@@ -90,12 +92,6 @@ def _apart(patch: Patch, displacement: Field) -> ContactStep:
     """Return the step at whose end the bodies do not touch."""
     state = patch.untouched()._replace(displacement=displacement)
     return ContactStep(state, state.yielded, state.yielded)
-
-
-def _edge_limit(now: BodyMotion, spacing: float) -> float:
-    """Return the time in which the edge, a = sqrt d, moves by EDGE_REACH elements."""
-    radius = max(sqrt(now.step.state.depth), 0.25 * spacing)
-    return EDGE_REACH * spacing * 2.0 * radius / max(abs(now.approach), SLOWEST)
 
 
 class LedgerEntry(NamedTuple, Generic[Number]):

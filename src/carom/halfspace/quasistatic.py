@@ -10,7 +10,10 @@ from carom.halfspace.grid import Grid, elements_across
 from carom.halfspace.traction import at_bound, solve_pressure, solve_traction
 from carom.halfspace.transforms import NO_MIRRORS, Field, Mask, Mirrors
 
-MOST_EXCHANGES = 60  # between normal and tangential contact
+TOLERANCE = 1e-6  # of the overlap, and of the largest bound
+EXCHANGED = 1e-5  # of either, in an exchange between normal and tangential contact
+TURNED = 1e-3  # of the largest pressure, by the direction of slip
+MOST_EXCHANGES = 60
 FIRST_TOLERANCE, NEXT_TOLERANCE = (1e-3, 0.03)  # first, and then of what changes
 RELAXED = 0.8  # of a change of direction: friction turned one way makes slip turn back
 TINY = 1e-300  # tractions of no motion are zero
@@ -19,18 +22,6 @@ SLIPPING = 1e-5  # of its bound: as near to that a traction slips
 
 CLOSING = 1e-3  # of the approach: a gap that closes by less tells nothing of the edge
 LARGEST_TURN = 0.5  # its cosine: slip that turns by more in a step starts anew
-
-
-class Tolerances(NamedTuple):
-    """How far the solvers go: of the overlap, of the largest bound, of either in an exchange."""
-
-    normal: float = 1e-6
-    tangential: float = 1e-6
-    exchange: float = 1e-5
-    turn: float = 1e-3  # of the largest pressure, by the direction of slip
-
-
-DEFAULT = Tolerances()
 
 
 class ContactState(NamedTuple):
@@ -74,30 +65,22 @@ class ContactStep(NamedTuple):
 class Patch:
     """Two bodies on a grid: a paraboloid and what it is pressed against."""
 
-    def __init__(self, compliance: Compliance, tolerances: Tolerances = DEFAULT) -> None:
-        self.compliance, self.tolerances = compliance, tolerances
+    def __init__(self, compliance: Compliance) -> None:
+        self.compliance = compliance
         self.grid = Grid(compliance.size, compliance.spacing, compliance.mirrors)
 
     @classmethod
-    def across(
-        cls,
-        elements: int,
-        materials: Materials,
-        mirrors: Mirrors = NO_MIRRORS,
-        tolerances: Tolerances = DEFAULT,
-    ) -> "Patch":
+    def across(cls, elements: int, materials: Materials, mirrors: Mirrors = NO_MIRRORS) -> "Patch":
         """Return the patch with so many elements across the contact of radius 1."""
         size = elements_across(elements)
-        return cls(Compliance(size, 2.0 / elements, materials, mirrors), tolerances)
+        return cls(Compliance(size, 2.0 / elements, materials, mirrors))
 
     def untouched(self) -> ContactState:
         """Return the state at the first touch."""
         apart = self.grid.apart
         none, nothing = np.zeros_like(apart), np.zeros((2, *apart.shape))
-        position = (0.0, np.zeros(3))
-        rates = (none, nothing)
-        tractions = (none, nothing, none, nothing)
-        return ContactState(*position, *tractions, apart, nothing, nothing, rates, 1.0)
+        surfaces = (none, nothing, none, nothing, apart, nothing, nothing)
+        return ContactState(0.0, np.zeros(3), *surfaces, (none, nothing), 1.0)
 
     def bound(self, pressure: Field) -> Field:
         """Return what friction bears under a pressure, over the coefficient of friction."""
@@ -129,18 +112,18 @@ class Patch:
 
     def _balance(self, asked: "_Asked", pressure: Field, traction: Field) -> "_Balance":
         """Return normal and tangential contact and slip direction, solved in turns."""
-        surface, tolerances = self.compliance, self.tolerances
+        surface = self.compliance
         turn, rough = np.zeros_like(traction), FIRST_TOLERANCE if surface.couples else 0.0
         for count in range(MOST_EXCHANGES):
             before, used = (pressure, traction), turn
             overlap = asked.depth - self.grid.apart - surface.normal_of_traction(traction)
-            finer = max(tolerances.normal, rough), max(tolerances.tangential, rough)
-            pressure, sunk = solve_pressure(surface, overlap, pressure, finer[0])
+            finer = max(TOLERANCE, rough)
+            pressure, sunk = solve_pressure(surface, overlap, pressure, finer)
             skewed = surface.tangential_of_pressure(pressure)
             since = asked.followed - np.where(pressure > 0.0, asked.early, 0.0)
             pull = since - skewed - used
             bound = self.bound(pressure)
-            traction, dragged = solve_traction(surface, pull, bound, traction, finer[1])
+            traction, dragged = solve_traction(surface, pull, bound, traction, finer)
             moved = since - skewed - dragged
             if count < TURNING_EXCHANGES:
                 slips = slipping(traction, bound)
@@ -148,8 +131,8 @@ class Patch:
                 turn = used + RELAXED * (turned - used)
             change = _change(before, (pressure, traction)) if surface.couples else 0.0
             own = pressure.max() * surface.tangential_diagonal
-            straight = np.abs(turn - used).max() <= tolerances.turn * own
-            if straight and max(change, 3.0 * rough) <= tolerances.exchange:
+            straight = np.abs(turn - used).max() <= TURNED * own
+            if straight and max(change, 3.0 * rough) <= EXCHANGED:
                 gap = np.maximum(sunk - overlap, 0.0)
                 return _Balance((pressure, traction), bound, skewed + dragged, gap, moved, used)
             rough = min(rough, NEXT_TOLERANCE * change)

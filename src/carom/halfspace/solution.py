@@ -212,10 +212,6 @@ class HalfspaceSolution:
         sampled = {name: np.interp(time, ledger.time, each) for name, each in columns.items()}
         return GridHistory(time=time, **sampled)
 
-    def snapshot(self, time: float) -> Snapshot:
-        """Return the kept step that ends nearest to a time."""
-        return min(self.snapshots, key=lambda kept: abs(kept.entry.time - time))
-
 
 def solve(
     psi: float,

@@ -88,11 +88,6 @@ class AdhesiveImpact(Outcome):
         with np.errstate(invalid="ignore"):  # nothing over no adhesion
             return cast(float, self.pair.kappa * slope**2 * self.solution.release)
 
-    @property
-    def dissipated_energy(self) -> float:
-        """Energy that shear loses at the receding edge, in J."""
-        return super().dissipated_energy
-
     def inputs(self) -> dict[str, Any]:
         """Return what the impact was made from, as plain numbers and words."""
         return super().inputs() | {NAME: self.work_of_adhesion}

@@ -211,7 +211,8 @@ class HalfspaceImpact(ImpactResult):
         >>> bool((abs(patch.traction_y) > 0.0).any())
         True
         """
-        shot = self.solution.snapshot(self._instant(at) / self.scales.time)
+        instant = self._instant(at) / self.scales.time
+        shot = min(self.solution.snapshots, key=lambda kept: abs(kept.entry.time - instant))
         step, grid = shot.step, self.solution.patch.grid
         friction, unit = self.pair.friction, self._pressure_unit
         traction = friction * unit * grid.whole_vector(step.state.traction)

@@ -30,8 +30,6 @@ REGIMES = (
     "gross slip through maximum penetration, then microslip",
     "gross slip throughout",
 )
-TOLERANCE = 1e-6  # of points of a border
-COARSE = 1e-3  # the same with losses, as such an impact takes a hundred times as long
 PLACE = "sequence of phases, its place in sequence_name"
 MET = "sequence of phases of one impact of the map or more"
 BORDER = {"units": "1", "long_name": "psi_in at which the regime changes"}

@@ -8,7 +8,6 @@ from carom.bodies.checks import scales_fit
 from carom.bodies.kinematics import Kinematics
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Scales
-from carom.bodies.shapes import describe
 from carom.quantities.elementwise import copysign, isfinite, where
 
 FAST = 1e4  # psi_1 over 1 and the most that friction takes of it: it slips throughout
@@ -198,9 +197,7 @@ class Outcome(Kinematics):
     def inputs(self) -> dict[str, Any]:
         """Return what the impact was made from, as plain numbers and words."""
         return {
-            "first": describe(self.pair.first),
-            "second": describe(self.pair.second),
-            "friction": self.pair.friction,
+            **self.pair._describe(),
             "normal_speed": self.normal_speed,
             **self.before._asdict(),
             **({} if self.losses is None else {"losses": self.losses._describe()}),

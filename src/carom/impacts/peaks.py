@@ -31,10 +31,10 @@ BODIES = ("first", "second")
 MEASURES = {"peak_von_mises": VON_MISES, "peak_shear": SHEAR, "peak_tension": TENSION}
 GROWTH = 2.5  # speeds go with stresses to this power: stress ~ sqrt(d_max) ~ V^(2/5)
 DEPTH = 0.2  # of viscous bodies, in radii of the largest contact: what lies deeper is told
-RATIOS = {  # what they are a share of, and what tells how much the body bears
-    "yield_ratio": ("von Mises stress/Y", ("yield_strength",)),
-    "tension_ratio": ("tension/strength", ("tensile_strength",)),
-    "toughness_ratio": ("K/K_c", ("fracture_toughness", "flaw_size")),
+RATIOS = {
+    "yield_ratio": "von Mises stress/Y",
+    "tension_ratio": "tension/strength",
+    "toughness_ratio": "K/K_c",
 }
 VERDICTS = {  # of whom, and the ending of the verb: it holds, it fails, it may fail
     "yield_ratio": (
@@ -270,7 +270,9 @@ def _line(name: str, row: dict[str, float], value: str) -> str:
 
 def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
     """Return whether the bodies of an impact bear it: yield with friction, tension, toughness."""
-    findings = (_yields(bodies), _tears(bodies), _cracks(bodies))
+    tension = _ratios("tension_ratio", bodies)  # falls so fast below that flaws hardly feel it
+    tears = _finding("tension_ratio", tension, bodies, []) if tension else None
+    findings = (_yields(bodies), tears, _cracks(bodies))
     return tuple(finding for finding in findings if finding is not None)
 
 
@@ -293,15 +295,9 @@ def _yields(bodies: dict[str, StruckBody]) -> Finding:
     return lacking("von Mises stress/Y", 1.0, "yield_strength", without, worst)
 
 
-def _tears(bodies: dict[str, StruckBody]) -> Finding | None:
-    """Return the finding on tension, which falls so fast with depth that flaws hardly feel it."""
-    ratios = _ratios("tension_ratio", bodies)
-    return _finding("tension_ratio", ratios, bodies, []) if ratios else None
-
-
 def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
     """Return the finding on flaws of brittle bodies, of any depth where that is not known."""
-    label = RATIOS["toughness_ratio"][0]
+    label = RATIOS["toughness_ratio"]
     brittle = {name: body for name, body in bodies.items() if body.is_brittle}
     if not brittle:
         return None
@@ -330,7 +326,7 @@ def _finding(
     name: str, ratios: dict[str, float], bodies: dict[str, StruckBody], broken: list[str]
 ) -> Finding:
     """Return a finding on known shares of a strength, some of which are surely `broken`."""
-    label = RATIOS[name][0]
+    label = RATIOS[name]
     which, ratio = max(ratios.items(), key=lambda one: one[1])
     beyond = broken or [body for body, share in ratios.items() if share > 1.0]
     depth = bodies[which].searched_depth

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.outcome import PAIR, InTime, Outcome, history_columns
+from carom.impacts.sequences import SIGNS
 from carom.impacts.spectrum import read_frequencies, spectrum_dataset
 from carom.io.labels import MARKS, Finding, Validity, labelled, phases_at
 from carom.plots.result import Result, card
@@ -206,7 +207,32 @@ class ImpactResult(Outcome, Result):
         return instant
 
     def __str__(self) -> str:
-        return _impact_text(self)
+        scalars, method = self.scalars(), self.inputs().get("method", "exact")
+        round_ones = self.pair.is_round
+        note = NOTES["bodies" if not round_ones else "lossy" if self.losses is not None else method]
+        coupled = method != "exact" and self.pair.dundurs_beta != 0.0
+        loses = self.losses is not None or self.pair.thickness is not None or coupled
+        hidden = set() if loses else {"lost_energy", "shear_lost_energy"}
+        hidden |= set() if loses or not round_ones else {"normal_restitution"}
+        if not scalars["shear_lost_energy"]:  # as of spheres that yield
+            hidden.add("shear_lost_energy")
+        shown = ["chi", *(n for n in scalars if n not in (*PAIR, *hidden))]
+        if len(self.pair.moving) == 1:
+            shown = [name for name in shown if not name.startswith("spin2")]
+        lines = listed({name: scalars[name] for name in shown}, width=58)
+        times, unit = _phase_times(self.phases)
+        phases = [
+            f"  {p.kind + SIGNS[p.sign]:14s}{start:>12s} {end:>12s}"
+            f" {_in_degrees(angle.mean)} {_in_degrees(angle.largest)}   {p.cause}"
+            for p, (start, end), angle in zip(self.phases, times, self.slip_angles, strict=True)
+        ]
+        columns = f"{f'from ({unit})':>12s} {f'to ({unit})':>12s} {'mean*':>9s} {'max*':>9s}"
+        head = f"  {'':14s}{columns}   ended by"
+        validity = self.validity
+        findings = [f"  {MARKS[f.holds]} {f.label:38s} {f.verdict}" for f in validity.findings]
+        theory = f"Validity: {validity.verdict}"
+        parts = ("Rebound", *lines, "Phases", head, *phases, note, theory, *findings)
+        return "\n".join(parts)
 
     def _repr_html_(self) -> str:
         numbers = self.scalars()
@@ -302,35 +328,6 @@ class ImpactResult(Outcome, Result):
         """Return the fields on a grid over the whole contact at a time."""
 
 
-def _impact_text(hit: ImpactResult) -> str:
-    scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
-    round_ones = hit.pair.is_round
-    note = NOTES["bodies" if not round_ones else "lossy" if hit.losses is not None else method]
-    coupled = method != "exact" and hit.pair.dundurs_beta != 0.0
-    loses = hit.losses is not None or hit.pair.thickness is not None or coupled
-    hidden = set() if loses else {"lost_energy", "shear_lost_energy"}
-    hidden |= set() if loses or not round_ones else {"normal_restitution"}
-    if not scalars["shear_lost_energy"]:  # as of spheres that yield
-        hidden.add("shear_lost_energy")
-    shown = ["chi", *(n for n in scalars if n not in (*PAIR, *hidden))]
-    if len(hit.pair.moving) == 1:
-        shown = [name for name in shown if not name.startswith("spin2")]
-    lines = listed({name: scalars[name] for name in shown}, width=58)
-    times, unit = _phase_times(hit.phases)
-    phases = [
-        f"  {_slip(p.kind, p.sign):14s}{start:>12s} {end:>12s}"
-        f" {_in_degrees(angle.mean)} {_in_degrees(angle.largest)}   {p.cause}"
-        for p, (start, end), angle in zip(hit.phases, times, hit.slip_angles, strict=True)
-    ]
-    columns = f"{f'from ({unit})':>12s} {f'to ({unit})':>12s} {'mean*':>9s} {'max*':>9s}"
-    head = f"  {'':14s}{columns}   ended by"
-    validity = hit.validity
-    findings = [f"  {MARKS[f.holds]} {f.label:38s} {f.verdict}" for f in validity.findings]
-    theory = f"Validity: {validity.verdict}"
-    parts = ("Rebound", *lines, "Phases", head, *phases, note, theory, *findings)
-    return "\n".join(parts)
-
-
 def _phase_times(phases: Sequence[Phase]) -> tuple[list[tuple[str, str]], str]:
     """Return start and end of each phase, as cells of two columns, and their unit."""
     cells, unit = column([time for p in phases for time in (p.start, p.end)], "s")
@@ -339,7 +336,3 @@ def _phase_times(phases: Sequence[Phase]) -> tuple[list[tuple[str, str]], str]:
 
 def _in_degrees(angle: float) -> str:
     return "-".rjust(9) if isnan(angle) else f"{degrees(angle):9.2f}"
-
-
-def _slip(kind: str, sign: int) -> str:
-    return kind if sign == 0 else f"{kind} {'+' if sign > 0 else '-'}"

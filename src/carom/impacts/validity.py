@@ -9,7 +9,6 @@ from math import inf, isfinite, isnan, nan, sqrt
 
 import numpy as np
 
-from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
 from carom.bodies.shapes import Sphere
@@ -44,23 +43,22 @@ def judge(hit: ImpactResult, assumptions: Sequence[Assumption]) -> Validity:
     """Return the findings on an impact, of what its bodies bear and of these assumptions."""
     findings = (assumption(hit) for assumption in assumptions)
     there = tuple(finding for finding in findings if finding is not None)
-    return Validity((*doubts(hit.pair), _small_contact(hit), *hit._strength, *there))
-
-
-def _small_contact(hit: ImpactResult) -> Finding:
-    ratio, good = hit._size_ratio, "the contact is small compared with"
+    good = "the contact is small compared with the bodies"
     bad = f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most"
-    return judged("a_max/R*", ratio, SMALL_CONTACT, f"{good} the bodies", bad)
+    small = judged("a_max/R*", hit._size_ratio, SMALL_CONTACT, good, bad)
+    return Validity((*doubts(hit.pair), small, *hit._strength, *there))
 
 
 def _slow_contact(hit: ImpactResult) -> Finding:
     transits = hit.duration / max(_transit(hit.pair), 1e-300)
+    name = "contact time/wave transit"
     if transits == 0.0:
-        return lacking("contact time/wave transit", SLOW_CONTACT, "density", _without_density(hit))
+        stuffs = {"first": hit.pair.first.material, "second": hit.pair.second.material}
+        without = {body: stuff for body, stuff in stuffs.items() if stuff.density is None}
+        return lacking(name, SLOW_CONTACT, "density", without)
     slow = transits >= SLOW_CONTACT
     good = "the contact lasts long enough to be quasi-static"
     bad = f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
-    name = "contact time/wave transit"
     return Finding(name, transits, SLOW_CONTACT, slow, good if slow else bad)
 
 
@@ -71,11 +69,6 @@ def _transit(pair: Pair) -> float:
     """
     bodies = [(body.reach, body.material) for body in pair.moving if not body.material.is_rigid]
     return max([4.0 * r * sqrt((m.density or inf) / m.young) for r, m in bodies], default=0.0)
-
-
-def _without_density(hit: ImpactResult) -> dict[str, Material]:
-    stuffs = {"first": hit.pair.first.material, "second": hit.pair.second.material}
-    return {name: stuff for name, stuff in stuffs.items() if stuff.density is None}
 
 
 def _weight(hit: ImpactResult) -> Finding | None:
@@ -131,15 +124,12 @@ def _slender(hit: ImpactResult) -> Finding | None:
 
 def _slips_aside(hit: ImpactResult) -> Finding | None:
     """Return the finding on slip that is not along the force, studied for round contacts alone."""
-    if hit.pair.friction == 0.0 or (hit.pair.dundurs_beta == 0.0 and _incompressible(hit.pair)):
+    pair = hit.pair  # with nu = 0 a traction moves the surface along itself alone
+    along = all(m.is_rigid or m.poisson == 0.0 for m in (pair.first.material, pair.second.material))
+    if pair.friction == 0.0 or (pair.dundurs_beta == 0.0 and along):
         return None
     words = "that slip is not quite along the force was studied for spheres only, there to 0.01"
     return _unknown("error of psi_2", f"off the centre; {words}")
-
-
-def _incompressible(pair: Pair) -> bool:
-    """Tell whether a traction moves the surface along itself alone: nu = 0."""
-    return all(m.is_rigid or m.poisson == 0.0 for m in (pair.first.material, pair.second.material))
 
 
 def _turns(hit: ImpactResult) -> Finding | None:

@@ -22,7 +22,7 @@ from carom.quantities.units import Value, counted, not_negative
 if TYPE_CHECKING:
     import xarray as xr
 
-MOST_RADII = 100_000
+MOST_RADII, PER_LOAD = 100_000, "m^2/N"  # the unit of coefficients of wear
 LEAST_RADII = 101  # radii at least among which the largest wear is sought
 MAP_POINTS = 101  # points of the map along x and y where none are asked for
 FRICTIONLESS = 1e-9  # with less friction nothing of it is felt, and psi_1 may be too large
@@ -83,7 +83,7 @@ def wear_of(
 ) -> xr.Dataset:
     """Return the wear of an impact as a dataset; arguments and errors as `Impact.wear`."""
     count = counted("n", n, 2, MOST_RADII)
-    per_load = None if coefficient is None else read_coefficient(coefficient)
+    per_load = None if coefficient is None else not_negative("coefficient", coefficient, PER_LOAD)
     side = np.linspace(-hit.max_radius, hit.max_radius, MAP_POINTS)
     dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, None)
     r, angle = np.hypot(at[..., 0], at[..., 1]), 2.0 * np.arctan2(at[..., 1], at[..., 0])
@@ -116,11 +116,6 @@ def wear_of(
         }
     attributes = {"title": "wear of the contact by one impact", "inputs": hit.inputs()}
     return labelled_dataset(variables, {"distance": distance, **coords}, attributes)
-
-
-def read_coefficient(coefficient: Value) -> float:
-    """Return a coefficient of wear in m^2/N, or raise InputError."""
-    return not_negative("coefficient", coefficient, "m^2/N")
 
 
 def rubbing(hit: ImpactResult, radii: Array) -> Rubbing:

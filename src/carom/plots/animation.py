@@ -22,7 +22,7 @@ from carom.io.progress import Advance, advancing
 from carom.plots import style
 from carom.plots.bands import BANDS
 from carom.plots.drawing import draws
-from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
+from carom.plots.impact import FORCES, HISTORY, RADII, force_at, forces_panel, phase_handles
 from carom.plots.look import Look
 from carom.plots.patch import patch_panel, patch_title
 from carom.quantities.refusals import InputError, refusal, refuse
@@ -81,7 +81,8 @@ def animate(
     total = len(frames) if isinstance(frames, Sized) else None
     shown_progress = (lambda *_: progress()) if callable(progress) else progress
     with advancing("animation", total, shown_progress, unit="frames") as advance:
-        pictures = _pictures(history, frames, RESOLUTION[ending], advance)
+        film = _Film(history, RESOLUTION[ending], advance)
+        pictures = map(film.picture, frames)
         first = next(pictures, None)
         if first is None:
             raise InputError("frames: an animation needs the fields of one instant or more")
@@ -118,21 +119,11 @@ def checked_animation(path: str | Path) -> Path:
     return target
 
 
-def _pictures(
-    history: xr.Dataset, frames: Iterable[xr.Dataset], resolution: int, advance: Advance
-) -> Iterator[Image.Image]:
-    """Yield the frames of the film as they are drawn."""
-    film = _Film(history, resolution)
-    for fields in frames:
-        yield film.picture(fields)
-        advance(1)
-
-
 class _Film:
     """The figure of the film: the patch redrawn for every frame, the force drawn once."""
 
-    def __init__(self, history: xr.Dataset, resolution: int) -> None:
-        self.history = history
+    def __init__(self, history: xr.Dataset, resolution: int, advance: Advance) -> None:
+        self.history, self.advance = history, advance
         self.figure, axes = style.new_figure(
             1, 2, width=style.DOUBLE, height=74.0, width_ratios=(1.0, 1.15)
         )
@@ -148,13 +139,16 @@ class _Film:
     def picture(self, fields: xr.Dataset) -> Image.Image:
         style.check_grid(fields, "traction_x", "y", "x")
         self._draw_patch(fields)
-        self._move_marker(fields)
+        time, force = force_at(self.history, fields)
+        self.line.set_xdata([time, time])
+        self.dot.set_data([time], [force])
         moving = (self.patch, self.line, self.dot)
         if self.still is None:
             self.still = self._draw_still(moving)
         self.canvas.restore_region(self.still)
         for artist in moving:
             self.figure.draw_artist(artist)
+        self.advance(1)
         return Image.fromarray(np.asarray(self.canvas.buffer_rgba())[..., :3].copy())
 
     def _draw_still(self, moving: tuple[Artist, ...]) -> Any:
@@ -182,13 +176,6 @@ class _Film:
         if self.still is None:
             text = style.label("traction_x", unit)
             self.figure.colorbar(shading, ax=self.patch, label=text, pad=0.02, aspect=28)
-
-    def _move_marker(self, fields: xr.Dataset) -> None:
-        time = float(fields["time"]) * style.scaled(self.history, "time").scale
-        limit = float(self.history["friction"]) * self.history["normal_force"].values
-        force = float(fields["tangential_force"])
-        self.line.set_xdata([time, time])
-        self.dot.set_data([time], [force * style.prefixed(limit, "N")[0]])
 
 
 def _write_gif(where: Path, pictures: Iterator[Image.Image]) -> None:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from carom.plots import style
 from carom.plots.bands import moment, phases
 from carom.plots.drawing import Drawable, checked_dataset, documented, looking
-from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
+from carom.plots.impact import FORCES, HISTORY, RADII, force_at, forces_panel, phase_handles
 from carom.plots.legends import legend_outside
 from carom.plots.look import WIDTH, Look
 from carom.plots.patch import patch_panel
@@ -191,11 +191,8 @@ def _scale_bar(axis: Axes, reach: float, unit: str) -> None:
 
 def _mark(axis: Axes, course: xr.Dataset, shown: list[xr.Dataset]) -> None:
     """Mark the instants of the patches in the course of the force."""
-    scale = style.scaled(course, "time").scale
-    limit = float(course["friction"]) * course["normal_force"].values
-    force = style.scaled(course, "tangential_force", like=limit).scale
     for letter, fields in zip(ascii_lowercase, shown, strict=False):
-        place = float(fields["time"]) * scale, float(fields["tangential_force"]) * force
+        place = force_at(course, fields)
         axis.plot(*place, "o", color=style.BLACK, ms=4.0, zorder=5)
         near: Any = {"xytext": (3, 3), "textcoords": "offset points", "weight": "bold"}
         style.stroke_white(axis.annotate(letter, place, zorder=6, **near))

@@ -153,22 +153,17 @@ def checked_dataset(
     dataset: Any, drawn: str, needed: tuple[str, ...], along: tuple[str, ...] = ()
 ) -> Any:
     """Return a dataset in which all is that is needed, or refuse it in words that begin as told."""
-    lacks = _lacking(dataset, needed, along)
+    lacks = ""
+    if not hasattr(dataset, "data_vars"):
+        lacks = f"is no dataset but of type {type(dataset).__name__}"
+    elif missing := [name for name in needed if name not in dataset.variables]:
+        lacks = f"has no {missing[0]}"
+    elif dataset[needed[0]].dims != along if along else not dataset[needed[0]].dims:
+        lacks = f"has no {needed[0]} along {' and '.join(along) or 'a dimension'}"
+    elif not dataset[needed[0]].size:
+        lacks = f"has no values of {needed[0]}"
     refuse(lacks and f"{drawn}; what was given {lacks}")
     return dataset
-
-
-def _lacking(dataset: Any, needed: tuple[str, ...], along: tuple[str, ...]) -> str:
-    """Return what keeps an object from being a dataset of a kind; nothing if it is one."""
-    if not hasattr(dataset, "data_vars"):
-        return f"is no dataset but of type {type(dataset).__name__}"
-    missing = [name for name in needed if name not in dataset.variables]
-    if missing:
-        return f"has no {missing[0]}"
-    lies = dataset[needed[0]].dims
-    if lies != along if along else not lies:
-        return f"has no {needed[0]} along {' and '.join(along) or 'a dimension'}"
-    return "" if dataset[needed[0]].size else f"has no values of {needed[0]}"
 
 
 def at_instant(*methods: str) -> Take:

@@ -68,9 +68,11 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         _draw_response(axes[2 * row : 2 * row + 2, column], dataset, name)
     for spare in axes[2 * down - 2 :, len(names) - across * (down - 1) :].flat:
         spare.set_axis_off()
+    spinning = bool(dataset.attrs.get("spinning", 1))
+    incidence = "incidence of the contact point" if spinning else "angle of incidence"
     for column in range(across):
         last = axes[2 * ((len(names) - 1 - column) // across) + 1, column]
-        last.set_xlabel("row" if _is_one(dataset) else _incidence(dataset))
+        last.set_xlabel("row" if _is_one(dataset) else f"{incidence} (deg)")
         last.tick_params(labelbottom=True)
     laws: list[Any] = [Line2D([], [], label=law, **stroke) for law, stroke in LAW_STYLES.items()]
     bands = [band.key(name) for name, band in REGIMES.items()]
@@ -233,8 +235,3 @@ def _label(name: str, unit: str) -> str:
     words, short = name.replace("_", " "), GLOSSARY[name].symbol if name in GLOSSARY else ""
     words = WORDS.get(name, words)
     return fill(f"{words} {short}", LABEL) + ("" if unit == "1" else f"\u00a0({unit})")
-
-
-def _incidence(dataset: xr.Dataset) -> str:
-    spinning = bool(dataset.attrs.get("spinning", 1))
-    return "incidence of the contact point (deg)" if spinning else "angle of incidence (deg)"

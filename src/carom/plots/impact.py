@@ -57,18 +57,16 @@ def _variable(name: str) -> Callable[[xr.Dataset], Array]:
     return lambda history: np.asarray(history[name].values, dtype=np.float64)
 
 
-def _limit(history: xr.Dataset) -> Array:
+def limit_of(history: xr.Dataset) -> Array:
+    """Return the largest force that friction bears, mu F_z, in N."""
     return np.asarray(float(history["friction"]) * history["normal_force"].values)
 
 
-def stick_line(stick: Array, contact: Array) -> Array:
+def _stick(history: xr.Dataset) -> Array:
     """Return the radius of the stick zone while there is one, to where it has shrunk to nothing."""
+    stick, contact = history["stick_radius"].values, history["contact_radius"].values
     before = np.concatenate([[0.0], stick[:-1]])
     return np.where((stick > 0.0) | (before > 0.0) | (contact == 0.0), stick, np.nan)
-
-
-def _stick(history: xr.Dataset) -> Array:
-    return stick_line(history["stick_radius"].values, history["contact_radius"].values)
 
 
 def _lost(history: xr.Dataset) -> Array:
@@ -81,8 +79,8 @@ FORCE, DASHED = "tangential_force", style.DASHES[1]
 CURVES: tuple[tuple[Curve, ...], ...] = (
     (
         Curve("$F_x$", _variable(FORCE), quantity=FORCE),
-        Curve(r"$\pm\mu F_z$", _limit, DASHED, FORCE),
-        Curve("", lambda history: -_limit(history), DASHED, FORCE),
+        Curve(r"$\pm\mu F_z$", limit_of, DASHED, FORCE),
+        Curve("", lambda history: -limit_of(history), DASHED, FORCE),
     ),
     (
         Curve("$V_x$", _variable("contact_velocity"), quantity="contact_velocity"),
@@ -110,6 +108,13 @@ def plot_impact(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     >>> steeper = carom.impact(pair, speed=2.0, angle="10 deg")
     >>> figure = carom.plots.plot_impact({"10 deg": steeper, "30 deg": hit}, width=140.0)
     """
+    return impact_figure(dataset)
+
+
+def impact_figure(
+    dataset: Any, energies: dict[str, tuple[str, str, str]] = ENERGIES, of: str = "energy"
+) -> Figure:
+    """Return what `plot_impact` draws, with these energies as shares of this one."""
     beside = 2 if style.room(style.DOUBLE) > TWO_COLUMNS else 1
     size: Any = {"width": style.DOUBLE, "height": 112.0}
     if beside == 1:
@@ -118,9 +123,11 @@ def plot_impact(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     if isinstance(dataset, dict):
         handles = overlay(axes.flat, dataset, CURVES)
     else:
-        panels = (forces_panel, velocities_panel, radii_panel, energies_panel)
-        for axis, panel in zip(axes.flat, panels, strict=True):
+        for axis, panel in zip(
+            axes.flat, (forces_panel, velocities_panel, radii_panel), strict=False
+        ):
             panel(axis, dataset)
+        energies_panel(axes.flat[3], dataset, energies, of)
         handles = phase_handles(dataset)
     for axis in axes[:-1].flat:
         axis.set_xlabel("")
@@ -181,14 +188,20 @@ def time_axis(axis: Axes, dataset: xr.Dataset) -> Array:
 
 def forces_panel(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw F_x between -mu F_z and mu F_z."""
-    time = time_axis(axis, dataset)
-    limit = float(dataset["friction"]) * dataset["normal_force"].values
+    time, limit = time_axis(axis, dataset), limit_of(dataset)
     force, unit, scale = style.scaled(dataset, "tangential_force", like=limit)
     style.zero_line(axis)
     axis.plot(time, force, color=style.BLUE, label="$F_x$")
     style.limit_lines(axis, time, limit * scale, r"$\pm\mu F_z$")
     axis.set_ylabel(style.label("tangential_force", unit))
     legend_above(axis, 2)
+
+
+def force_at(history: xr.Dataset, fields: xr.Dataset) -> tuple[float, float]:
+    """Return where the instant of fields is in the panel of the forces of a history."""
+    force = style.scaled(history, "tangential_force", like=limit_of(history)).scale
+    time = style.scaled(history, "time").scale
+    return float(fields["time"]) * time, float(fields["tangential_force"]) * force
 
 
 def velocities_panel(axis: Axes, dataset: xr.Dataset) -> None:
@@ -211,17 +224,16 @@ def radii_panel(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw the radii of the contact and of its stick zone; what lies between slips."""
     time = time_axis(axis, dataset)
     contact, unit, scale = style.scaled(dataset, "contact_radius")
-    stick = dataset["stick_radius"].values * scale
     axis.plot(time, contact, color=style.BLACK, label="contact, $b$")
-    line = stick_line(stick, contact)
-    axis.plot(time, line, color=style.BLUE, ls=style.DASHES[1], label="stick zone, $a$")
+    stick = _stick(dataset) * scale
+    axis.plot(time, stick, color=style.BLUE, ls=style.DASHES[1], label="stick zone, $a$")
     style.span(axis, y=(0.0, 1.06 * contact.max()))
     axis.set_ylabel(f"$a$, $b$\u00a0({unit})")
     legend_above(axis, 2)
 
 
 def energies_panel(
-    axis: Axes, dataset: xr.Dataset, energies: dict[str, tuple[str, str, str]] = ENERGIES
+    axis: Axes, dataset: xr.Dataset, energies: dict[str, tuple[str, str, str]], of: str
 ) -> None:
     """Draw how the energy is shared between motion, deformation, friction and other losses."""
     time = time_axis(axis, dataset)
@@ -238,7 +250,7 @@ def energies_panel(
     for area, (name, _, hatch) in zip(shares, drawn.values(), strict=True):
         area.set(label=name, hatch=hatch, edgecolor="0.35", linewidth=0.4)
     axis.set_ylim(0.0, 1.0)
-    axis.set_ylabel("share of energy")
+    axis.set_ylabel(f"share of {of}")
     legend_above(axis, 3, handlelength=1.0, handletextpad=0.3, columnspacing=0.5, fontsize="small")
 
 

@@ -137,13 +137,6 @@ def _key(dataset: xr.Dataset) -> Iterator[Any]:
     yield Patch(fc="0.4", label="root mean square")
 
 
-def _read_limit(value: Any) -> float:
-    allowed = f"must be positive, at most {LARGEST_LIMIT:g}"
-    limit = pure_number("limit", value, allowed)
-    refuse(not 0.0 < limit <= LARGEST_LIMIT and refusal("limit", value, allowed))
-    return limit
-
-
 @draws("an error map, what carom.verify.error_map returns", "error", "psi_in", "chi")
 def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack[Look]) -> Figure:
     """Draw the error of a contact law in psi_2 over psi_1 and chi, white where there is none.
@@ -171,7 +164,11 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
     style.check_grid(dataset, "error", "chi", "psi_in")
     psi, chi, error = (dataset[name].values for name in ("psi_in", "chi", "error"))
     finite = np.abs(error[np.isfinite(error)])
-    most = max(LEAST, float(finite.max(initial=0.0))) if limit is None else _read_limit(limit)
+    most = max(LEAST, float(finite.max(initial=0.0)))
+    if limit is not None:
+        allowed = f"must be positive, at most {LARGEST_LIMIT:g}"
+        most = pure_number("limit", limit, allowed)
+        refuse(not 0.0 < most <= LARGEST_LIMIT and refusal("limit", limit, allowed))
     figure, axis = style.single_axis(height=66.0)
     axis.set_facecolor("0.8")
     colors: Any = {"cmap": style.SIGNED_MAP, "vmin": -most, "vmax": most}

@@ -15,6 +15,7 @@ from carom.plots.look import AXES, RC, own_figure
 
 SPARE = 1.03  # letters on a screen are wider than their outlines
 SPACES = ("handlelength", "handletextpad", "columnspacing", "borderpad")  # of a legend
+SPACE = 0.5  # between the outlines of words, in sizes of the font
 HINTS = 1.1  # by which text can be wider on a screen than its outlines
 FONTS = [name for name in RC if name.startswith(("font.", "mathtext.", "text.usetex"))]
 LOWEST = 0.1  # of the height of a figure: axes are left at least so high
@@ -87,18 +88,11 @@ def font_size(size: str | float) -> float:
     return FontProperties(size=size).get_size_in_points()
 
 
-def text_width(text: str, size: str | float = "small") -> float:
-    """Return how wide a line of text may be, in points."""
-    fonts = _fonts()
-    words = [_em_width(word, fonts) for word in text.split(" ")]
-    spaces = (len(words) - 1) * _em_width(" ", fonts)
-    return HINTS * font_size(size) * (sum(words) + spaces)
-
-
-def _em_width(word: str, fonts: tuple[str, ...]) -> float:
-    """Return how wide a word is, in sizes of the font."""
-    ends = [_outline(text, 100.0, fonts).x1 for text in ("||", f"|{word}|")]
-    return float(ends[1] - ends[0]) / 100.0
+def text_width(text: str) -> float:
+    """Return how wide a line of small text may be, in points."""
+    size, fonts, words = font_size("small"), _fonts(), text.split(" ")
+    inked = sum(_outline(word, size, fonts).width for word in filter(None, words))
+    return HINTS * (inked + SPACE * size * (len(words) - 1))
 
 
 @lru_cache(4096)

@@ -114,15 +114,11 @@ def settings(look: Look) -> dict[str, Any]:
         except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
             raise refusal("style", wanted, STYLES) from error
         changed = {n: v for n, v in RC.items() if before[n] != v and n not in kept}
-        grounds = [RC[f"{what}.facecolor"] for what in ("figure", "axes")]
-        if any(_is_dark(ground) for ground in grounds):
-            raise refusal("style", wanted, "its ground is dark, and Carom draws black lines")
+        for ground in ("figure.facecolor", "axes.facecolor"):
+            *color, opacity = to_rgba(RC[ground])
+            if opacity and np.dot(color, LUMINANCE) < DARK:
+                raise refusal("style", wanted, "its ground is dark, and Carom draws black lines")
     return chosen | changed
-
-
-def _is_dark(ground: Any) -> bool:
-    *color, opacity = to_rgba(ground)
-    return bool(opacity and np.dot(color, LUMINANCE) < DARK)
 
 
 def wanted_width(look: Look) -> float | None:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import to_rgb
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, PathPatch
 
@@ -96,15 +96,10 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
 
 def _colours(groups: set[Group]) -> dict[Group, Any]:
-    most = max(MANY, *(group.reversals for group in groups)) if groups else MANY
-    shares = np.linspace(0.0, DARKEST, most + 1)
-
-    def mixed(group: Group) -> Any:
-        ends = REGIMES[group.regime].face, DARK[group.regime]
-        share = shares[group.reversals]
-        return tuple((1.0 - share) * np.array(to_rgb(ends[0])) + share * np.array(to_rgb(ends[1])))
-
-    return {group: mixed(group) for group in groups}
+    most = max([MANY, *(group.reversals for group in groups)])
+    ends = {name: [REGIMES[name].face, dark] for name, dark in DARK.items()}
+    shades = {name: LinearSegmentedColormap.from_list(name, ends[name]) for name in ends}
+    return {group: shades[group.regime](DARKEST * group.reversals / most) for group in groups}
 
 
 def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> None:

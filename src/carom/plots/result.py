@@ -96,19 +96,17 @@ def card(
         f"<td style='text-align:left'>{escape(text)}</td></tr>"
         for name, text in rows.items()
     )
+    look = "max-width:100%;background:white"
+    picture = ""
+    if figure is not None:
+        picture = f"<img alt='{escape(title)}' style='{look}' src='{source(figure, DPI)}'>"
     below = f"<pre style='margin:0.5em 0'>{escape(notes)}</pre>" if notes else ""
     return (
         f"<div><strong>{escape(title)}</strong>"
         "<div style='display:flex;flex-wrap:wrap;gap:1em;align-items:center'>"
         f"<table style='font-size:90%'>{cells}</table>"
-        f"{'' if figure is None else image(title, figure)}</div>{below}</div>"
+        f"{picture}</div>{below}</div>"
     )
-
-
-def image(title: str, figure: "Figure") -> str:
-    """Return a figure as an image of HTML that holds its pixels."""
-    look = "max-width:100%;background:white"
-    return f"<img alt='{escape(title)}' style='{look}' src='{source(figure, DPI)}'>"
 
 
 def source(figure: "Figure", dpi: float) -> str:

@@ -43,7 +43,7 @@ def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     >>> len(figure.axes)
     2
     """
-    names = [name for name in SPEEDS if name in dataset and _finite(dataset, name).size]
+    names = [n for n in SPEEDS if n in dataset and np.isfinite(dataset[n].values).any()]
     refuse(not names and "plot_strength: no speed in this dataset is finite; there is no limit")
     if dataset.sizes["angle"] < 2:
         raise InputError("plot_strength: one angle makes no curve; give two or more")
@@ -60,11 +60,6 @@ def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     for axis in axes.flat[len(names) :]:
         axis.set_axis_off()
     return figure
-
-
-def _finite(dataset: xr.Dataset, name: str) -> Array:
-    values = np.asarray(dataset[name].values, dtype=np.float64)
-    return values[np.isfinite(values)]
 
 
 def _table(dataset: xr.Dataset, name: str) -> Array:

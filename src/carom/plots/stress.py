@@ -3,7 +3,6 @@
 from typing import Any, Unpack
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
@@ -66,7 +65,10 @@ def plot_stress(
         ticks = MaxNLocator(TICKS).tick_values(low, high)
         bar.set_ticks([tick for tick in ticks if low <= tick <= high])
     column, row, largest = _largest(dataset, variable)
-    _mark_contact(axis, dataset, length)
+    if "contact_radius" in dataset:
+        contact = float(dataset["contact_radius"]) * length
+        bar_below: Any = {"color": "black", "lw": 3.0, "solid_capstyle": "butt"}
+        axis.plot([-contact, contact], [0.0, 0.0], clip_on=False, **bar_below)
     place = column * length, row * length
     (mark,) = axis.plot(*place, "+", ms=7.0, mew=1.3, color="black", clip_on=False, zorder=5)
     style.stroke_white(mark, 2.8)
@@ -96,10 +98,3 @@ def _largest(dataset: Drawable, variable: str) -> tuple[float, float, float]:
     values = dataset[variable].values
     row, column = np.unravel_index(np.argmax(np.abs(values)), values.shape)
     return float(dataset["x"][column]), float(dataset["z"][row]), float(values[row, column])
-
-
-def _mark_contact(axis: Axes, dataset: xr.Dataset, length: float) -> None:
-    if "contact_radius" in dataset:
-        contact = float(dataset["contact_radius"]) * length
-        ends, surface = [-contact, contact], [0.0, 0.0]
-        axis.plot(ends, surface, color="black", lw=3.0, clip_on=False, solid_capstyle="butt")

@@ -215,7 +215,7 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
 def label(name: str, unit: str | None = None) -> str:
     """Return the label of an axis: symbol and unit; what the symbol means stands in the caption."""
     entry = GLOSSARY[name]
-    unit = entry.unit if unit is None else unit
+    unit = (entry.unit if unit is None else unit).replace("^2", "²")
     return entry.symbol if unit == "1" else f"{entry.symbol}\u00a0({unit})"
 
 

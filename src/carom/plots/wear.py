@@ -57,7 +57,7 @@ def _profile(axis: Axes, dataset: xr.Dataset, name: str) -> None:
         axis.set_title(f"largest at {where}" if beside else "largest in the centre")
     style.span(axis, distance)
     axis.set_ylim(bottom=0.0)
-    axis.set(xlabel=style.label("distance", unit), ylabel=_label(name, unit_of_values))
+    axis.set(xlabel=style.label("distance", unit), ylabel=style.label(name, unit_of_values))
 
 
 def _map(figure: Figure, axis: Axes, dataset: xr.Dataset, name: str) -> None:
@@ -72,8 +72,4 @@ def _map(figure: Figure, axis: Axes, dataset: xr.Dataset, name: str) -> None:
     axis.set(xlabel=style.label("x", unit), ylabel=style.label("y", unit))
     reach = MARGIN * edge
     style.span(axis, np.clip(x, -reach, reach), np.clip(y, -reach, reach))
-    figure.colorbar(shading, ax=axis, label=_label(name, unit_of_values), pad=0.02, aspect=28)
-
-
-def _label(name: str, unit: str) -> str:
-    return style.label(name, unit.replace("^2", "²"))
+    figure.colorbar(shading, ax=axis, label=style.label(name, unit_of_values), pad=0.02, aspect=28)

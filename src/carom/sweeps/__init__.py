@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
+from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager, closing, nullcontext
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -91,11 +91,15 @@ def sweep(
         total = prod(design.shape)
         done = total - sum(points_in(box) for box in record.todo)
         showing = advancing("solving the sweep", total, progress, unit="points", done=done)
-        results = closing(those.results(record.todo))
-        with _telling_what_is_safe(record), results as blocks, showing as advance:
-            for box, values in blocks:
-                record.write(box, values)
-                advance(points_in(box))
+        try:
+            with closing(those.results(record.todo)) as blocks, showing as advance:
+                for box, values in blocks:
+                    record.write(box, values)
+                    advance(points_in(box))
+        except SweepStopped as error:
+            raise SweepStopped(f"{error}; {record.safe()}") from None
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(record.safe()) from None
         return record.dataset()
 
 
@@ -109,13 +113,3 @@ def _record(
         return record
     refuse(resume and "resume: there is no store to continue; give the store, too")
     return nullcontext(MemoryRecord(problem))
-
-
-@contextmanager
-def _telling_what_is_safe(record: BlockRecord) -> Iterator[None]:
-    try:
-        yield
-    except SweepStopped as error:
-        raise SweepStopped(f"{error}; {record.safe()}") from None
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(record.safe()) from None

@@ -1,7 +1,6 @@
 """Sweeps of bodies of any shape: each point is an impact of its own, case by case."""
 
 from collections.abc import Mapping, Sequence
-from math import prod
 from typing import Any
 
 import numpy as np
@@ -11,8 +10,8 @@ from carom.impacts.off_centre import approach_of
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.impacts.solve import impact
 from carom.quantities.refusals import InputError, refusal, refuse
-from carom.sweeps.designs import Box, Design, Values, chunk_shape
-from carom.sweeps.inputs import leaf, refuse_contradictions, variable
+from carom.sweeps.designs import Box, Design, Values, chunk_shape, points_in
+from carom.sweeps.inputs import leaf, refuse_contradictions
 from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import OF_LOSSES, OUTPUTS, SweepProblem, checked_outputs
 
@@ -49,24 +48,18 @@ class ShapeProblem(SweepProblem):
         return chunk_shape(self.design.shape, COST)
 
     def block(self, box: Box, threads: int | None = 1) -> Values:
-        shape = tuple(part.stop - part.start for part in box)
         inputs = self.design.inputs(box)
-        status = np.full(prod(shape), PointStatus.NOT_RUN, dtype=np.int8)
+        status = np.full(points_in(box), PointStatus.NOT_RUN, dtype=np.int8)
         outputs = {name: np.full(status.size, np.nan) for name in self.outputs}
         for i in range(status.size):
             status[i], numbers = point_of(self._at(inputs, i))
             for name in numbers.keys() & outputs.keys():
                 outputs[name][i] = numbers[name]
-        sampled = inputs.items() if self.design._sampled else ()
-        whole = {**{variable(n): v for n, v in sampled}, **outputs, "status": status}
-        return {name: values.reshape(shape) for name, values in whole.items()}
+        return self._laid_out(box, inputs, {**outputs, "status": status})
 
     def description(self) -> dict[str, Any]:
-        return {
-            "case": _plain(self._case),
-            "design": self.design._description(),
-            "outputs": list(self.outputs),
-        }
+        of_design = self.design._description()
+        return {"case": self._case, "design": of_design, "outputs": list(self.outputs)}
 
     def _at(self, inputs: Mapping[str, Any], i: int) -> cases.Case:
         """Return the case of a point."""
@@ -107,9 +100,3 @@ def point_of(case: cases.Case) -> tuple[PointStatus, dict[str, float]]:
         return PointStatus.SOLVED, impact(pair, **motion, losses=cases.losses_of(case)).scalars()
     except InputError:
         return PointStatus.UNRESOLVED, {}
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {str(name): _plain(part) for name, part in sorted(value.items())}
-    return [_plain(v) for v in value] if isinstance(value, list | tuple) else value

@@ -94,17 +94,13 @@ def checked_names(inputs: Iterable[Any], *, listing: bool = True) -> tuple[str, 
 
 def _unknown(name: Any, listing: bool) -> str:
     """Return what is wrong with a name, and the inputs that it stands for, the nearest, or all."""
-    whole = f"{heading(str(name))}: not an input of an impact; {_hint(name)}"
-    return whole if listing else whole.partition("; known names are")[0]
-
-
-def _hint(name: Any) -> str:
-    last = leaf(str(name))
+    last, what_to_do = leaf(str(name)), hint(name, INPUTS)
     if stands := meant(last, map(leaf, INPUTS)):
         places = [each for each in INPUTS if leaf(each) == stands]
         half = ", half of it" if "half" in remark(last, stands) else ""
-        return f"write {' or '.join(places)}{half}"
-    return hint(name, INPUTS)
+        what_to_do = f"write {' or '.join(places)}{half}"
+    whole = f"{heading(str(name))}: not an input of an impact; {what_to_do}"
+    return whole if listing else whole.partition("; known names are")[0]
 
 
 def refuse_contradictions(names: Iterable[str]) -> None:

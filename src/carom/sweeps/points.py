@@ -29,16 +29,8 @@ from carom.quantities.glossary import NEEDED_STRENGTHS
 from carom.quantities.statuses import WordedStatus
 from carom.sweeps.inputs import leaf
 
-
-class Wanted(NamedTuple):
-    """An output of a sweep that is of one of the bodies."""
-
-    quantity: str
-    body: str
-
-
-WANTED = {
-    f"{quantity}_{body}": Wanted(quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES
+WANTED = {  # outputs of a sweep that are of one of the bodies: quantity and body
+    f"{quantity}_{body}": (quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES
 }
 BEARABLE: dict[str, Callable[[StruckBody], float]] = {  # as a multiple of the speed of the impact
     "yield_speed": lambda body: growth(body.yield_ratio()),
@@ -55,7 +47,7 @@ def needed_strengths(outputs: Sequence[str]) -> tuple[str, ...]:
 
 def needed_by(output: str) -> tuple[str, ...]:
     """Return the strengths of its body that an output needs."""
-    return NEEDED_STRENGTHS[WANTED[output].quantity] if output in WANTED else ()
+    return NEEDED_STRENGTHS[WANTED[output][0]] if output in WANTED else ()
 
 
 def strength_values(
@@ -70,15 +62,15 @@ def strength_values(
         speed = np.hypot(_number(outcome.normal_speed, i), _number(outcome.tangential_speed, i))
         for name in names:
             quantity, body = WANTED[name]
-            if body in bodies:
-                outputs[name][i] = _value(quantity, bodies[body], speed)
+            if body not in bodies:
+                continue
+            struck = bodies[body]
+            if quantity in BEARABLE:
+                outputs[name][i] = speed * BEARABLE[quantity](struck)
+            else:
+                peak = struck.peak(quantity) if quantity in MEASURES else struck.intensity()
+                outputs[name][i] = peak.value
     return outputs
-
-
-def _value(quantity: str, body: StruckBody, speed: float) -> float:
-    if quantity in BEARABLE:
-        return float(speed * BEARABLE[quantity](body))
-    return body.peak(quantity).value if quantity in MEASURES else body.intensity().value
 
 
 def _entry(record: Any, i: int) -> Any:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, prod
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ from carom.impacts.outcome import PAIR, RESULTS
 from carom.io.labels import attributes, flags, spheres
 from carom.quantities.refusals import checked_type, hint, one_of, refusal, refuse
 from carom.quantities.units import not_negative
-from carom.sweeps.designs import Box, Design, Values, chunk_shape
+from carom.sweeps.designs import Box, Design, Values, chunk_shape, points_in
 from carom.sweeps.inputs import (
     BODIES,
     CODE,
@@ -251,8 +251,7 @@ class SweepProblem:
 
     def block(self, box: Box, threads: int | None = 1) -> Values:
         """Return outputs, sampled inputs and status of points, whatever the box; else NaN."""
-        shape = tuple(part.stop - part.start for part in box)
-        size, inputs = prod(shape), self.design.inputs(box)
+        size, inputs = points_in(box), self.design.inputs(box)
         status = np.full(size, PointStatus.NOT_A_NUMBER, dtype=np.int8)
         outputs = {name: np.full(size, np.nan) for name in self.outputs}
         for kind, where in self._common.groups(inputs):
@@ -263,8 +262,13 @@ class SweepProblem:
             )
             for name in self.outputs:
                 outputs[name][where] = values[name]
+        return self._laid_out(box, inputs, {**outputs, "status": status})
+
+    def _laid_out(self, box: Box, inputs: Values, results: Values) -> Values:
+        """Return results in the shape of a box, with inputs that are no coordinates."""
+        shape = tuple(part.stop - part.start for part in box)
         sampled = inputs.items() if self.design._sampled else ()
-        whole = {**{variable(n): v for n, v in sampled}, **outputs, "status": status}
+        whole = {**{variable(name): values for name, values in sampled}, **results}
         return {name: values.reshape(shape) for name, values in whole.items()}
 
     def variables(self) -> dict[str, VariableInfo]:
@@ -283,21 +287,17 @@ class SweepProblem:
         numbers = jsonable({**at_rest, **self._common.fixed})
         if self._common.yields:
             numbers[str(self._common.loss)] = FROM_STRENGTH
-        numbers |= self._strengths()
+        numbers |= {  # None where not known
+            f"{name}.{strength}": [choice.strengths.get(strength) for choice in choices]
+            for name, choices in self.design._choices.items()
+            if leaf(name) == "material"
+            for strength in self._common.strengths
+        }
         return {
             "case": dict(sorted(numbers.items())),
             "second": list(self._common.kinds),
             "design": self.design._description(),
             "outputs": list(self.outputs),
-        }
-
-    def _strengths(self) -> dict[str, Any]:
-        """Return the strengths of the materials that are inputs, None where not known."""
-        return {
-            f"{name}.{strength}": [choice.strengths.get(strength) for choice in choices]
-            for name, choices in self.design._choices.items()
-            if leaf(name) == "material"
-            for strength in self._common.strengths
         }
 
     def _unknown(self) -> Iterator[object]:
@@ -307,7 +307,7 @@ class SweepProblem:
                 allowed = "a sweep with losses or plates does not compute stresses; leave them out"
                 yield refusal("outputs", output, allowed)
                 continue
-            body = WANTED[output].body
+            _, body = WANTED[output]
             if self._common.fixed.get(f"{body}.material.young") == inf:
                 yield refusal("outputs", output, f"the {body} body is rigid and has no stress")
                 continue

@@ -72,7 +72,7 @@ def blank_dataset(
 
 def identity(problem: SweepProblem) -> dict[str, Any]:
     """Return what tells a sweep from others as JSON holds it, a hash for what is long."""
-    whole: dict[str, Any] = _condensed(json.loads(json.dumps(problem.description())))
+    whole: dict[str, Any] = _condensed(json.loads(json.dumps(problem.description(), default=dict)))
     return whole
 
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -98,18 +97,15 @@ def bearable_speeds(
 
 def _speeds_known(pair: Pair) -> list[str]:
     """Return which speeds the strengths of a pair give, or raise InputError if none."""
-    names = [
-        name
-        for name, (quantity, body) in WANTED.items()
-        if quantity in BEARABLE and _bears(getattr(pair, body).material, needed_by(name))
-    ]
+    names = []
+    for name, (quantity, body) in WANTED.items():
+        stuff = getattr(pair, body).material
+        known = all(getattr(stuff, strength) is not None for strength in needed_by(name))
+        if quantity in BEARABLE and known and not stuff.is_rigid:
+            names.append(name)
     if not names:
         raise InputError(
             "strength: no strength of either body is known; give yield_strength, tensile_strength, "
             "or fracture_toughness with flaw_size, to carom.Material or carom.material(name, ...)"
         )
     return names
-
-
-def _bears(material: Any, needed: Sequence[str]) -> bool:
-    return not material.is_rigid and all(getattr(material, name) is not None for name in needed)

@@ -11,17 +11,17 @@ from carom.bodies.checks import check_second_spin, checked_pair
 from carom.bodies.kinematics import Tangential, by_angle
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair
-from carom.bodies.shapes import Sphere, describe
+from carom.bodies.shapes import Sphere
 from carom.dimensionless.lossy.law import checked_law
 from carom.impacts.exact import solve_exactly
 from carom.impacts.outcome import Outcome, outcome_fits
-from carom.impacts.wear import MOST_RADII, largest, read_coefficient, rubbed, rubbed_at
+from carom.impacts.wear import MOST_RADII, PER_LOAD, largest, rubbed, rubbed_at
 from carom.io.labels import flags, labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
-from carom.quantities.units import Value, counted, positive
+from carom.quantities.units import Value, counted, not_negative, positive
 from carom.sweeps import points
 from carom.sweeps.points import PointStatus
 
@@ -207,7 +207,7 @@ def wear_of_many(
     """
     checked_pair(pair)
     count = counted("n", n, 2, MOST_RADII)
-    per_load = None if coefficient is None else read_coefficient(coefficient)
+    per_load = None if coefficient is None else not_negative("coefficient", coefficient, PER_LOAD)
     spread = None if area is None else positive("area", area)
     if losses is not None and any(map(np.ndim, checked_law(losses)._loss(pair, pair.scales(1.0)))):
         raise refusal("losses", losses, "wear takes one number; carom.sweep takes many")
@@ -223,9 +223,7 @@ def wear_of_many(
     else:
         columns |= {"area": spread, "spread_friction_work": pair.friction * many.total / spread}
         columns |= {} if per_load is None else {"spread_wear_depth": per_load * many.total / spread}
-    inputs: dict[str, Any] = {"first": describe(pair.first), "second": describe(pair.second)}
-    inputs |= {"friction": pair.friction}
-    inputs |= {} if losses is None else {"losses": losses._describe()}
+    inputs = pair._describe() | ({} if losses is None else {"losses": losses._describe()})
     return labelled_dataset(columns, coords, {"title": "wear by many impacts", "inputs": inputs})
 
 

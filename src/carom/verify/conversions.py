@@ -236,11 +236,9 @@ def recipes(
     >>> print(carom.verify.recipes(pair, 1.0)["LAMMPS Hertz"])
     hertz 1.5385e+11 0 tangential mindlin_rescale/force 1.9005e+11 0 0.2 damping velocity
     """
-    for name, law, kind in (
-        ("spring", spring, dem.LinearSpring),
-        ("mindlin", mindlin, dem.LammpsMindlin),
-    ):
-        checked_type(name, law, kind, f"must be a {kind.__name__}, e.g. carom.{kind.__name__}()")
+    allowed = "must be a {0}, e.g. carom.{0}()"
+    checked_type("spring", spring, dem.LinearSpring, allowed.format("LinearSpring"))
+    checked_type("mindlin", mindlin, dem.LammpsMindlin, allowed.format("LammpsMindlin"))
     e = damping.damped_restitution("restitution", wanted)
     k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping_from_restitution(e)
     ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio

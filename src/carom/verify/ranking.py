@@ -93,7 +93,31 @@ class Ranking(Result):
     standings: tuple[Standing, ...]
 
     def __str__(self) -> str:
-        return _table(self)
+        loses = any(s.restitution != 1.0 for s in self.standings)
+        rows = [
+            (
+                *(s.entry.label, s.max_error, s.worst, s.rms_error, or_none(s.force_error)),
+                *(step and step.steps for step in (s.step, s.fine_step)),
+                s.entry.used_by
+                + (f"; gains energy, {s.energy_gain:.2g} in psi" if s.energy_gain > 1e-9 else "")
+                + (f"; e = {s.restitution:.4g}" if loses else ""),
+            )
+            for s in self.standings
+        ]
+        head, *lines = text_table(COLUMNS, rows)
+        return "\n".join(
+            [
+                f"|error in psi_2| of contact laws at chi = {self.chi:g},"
+                f" kappa = {self.kappa:.4g}, {errors.in_words(self.psi_in)}",
+                *(["compared with viscoelastic bodies of the same restitution e"] if loses else []),
+                f"{head}  used by",
+                *lines,
+                "max, at: largest error, and its psi_1; force: rms error of the tangential force in"
+                " the worst impact, in mu P_max",
+                "steps: time steps per contact, enough that they add less error than the law has;"
+                f" fine: enough for an error below {FINE_ERROR:g}",
+            ]
+        )
 
     def _repr_html_(self) -> str:
         rows = {s.entry.label: f"{s.max_error:.3f} at psi_1 = {s.worst:g}" for s in self.standings}
@@ -247,32 +271,4 @@ def _standing(entry: Entry, impacts: Impacts) -> Standing:
         step=step,
         fine_step=fine_step,
         restitution=restitution,
-    )
-
-
-def _table(ranking: Ranking) -> str:
-    loses = any(s.restitution != 1.0 for s in ranking.standings)
-    rows = [
-        (
-            *(s.entry.label, s.max_error, s.worst, s.rms_error, or_none(s.force_error)),
-            *(step and step.steps for step in (s.step, s.fine_step)),
-            s.entry.used_by
-            + (f"; gains energy, {s.energy_gain:.2g} in psi" if s.energy_gain > 1e-9 else "")
-            + (f"; e = {s.restitution:.4g}" if loses else ""),
-        )
-        for s in ranking.standings
-    ]
-    head, *lines = text_table(COLUMNS, rows)
-    return "\n".join(
-        [
-            f"|error in psi_2| of contact laws at chi = {ranking.chi:g},"
-            f" kappa = {ranking.kappa:.4g}, {errors.in_words(ranking.psi_in)}",
-            *(["compared with viscoelastic bodies of the same restitution e"] if loses else []),
-            f"{head}  used by",
-            *lines,
-            "max, at: largest error, and its psi_1; force: rms error of the tangential force in the"
-            " worst impact, in mu P_max",
-            "steps: time steps per contact, enough that they add less error than the law has; fine:"
-            f" enough for an error below {FINE_ERROR:g}",
-        ]
     )

@@ -12,7 +12,6 @@ from carom.bodies import cases
 from carom.bodies.checks import alike, with_friction
 from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair
-from carom.bodies.shapes import describe
 from carom.dem import FunctionLaw
 from carom.dem.base import LawStatus
 from carom.impacts.exact import Impact
@@ -60,12 +59,6 @@ class ScoredCase:
         motion = cases.motion_of(_content(self.case))
         hit: Impact = impact(pair, losses=losses_of(self.restitution), **motion)
         return hit
-
-    @property
-    def inputs(self) -> dict[str, Any]:
-        """The bodies, as attributes of datasets."""
-        bodies = {"first": describe(self.pair.first), "second": describe(self.pair.second)}
-        return {**bodies, "friction": self.pair.friction}
 
 
 def scored_case(case: Any, chi: Any, own: Any, restitution: Any) -> ScoredCase:

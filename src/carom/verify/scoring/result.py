@@ -117,7 +117,10 @@ class Score(Result):
         groups = (*self.groups, self.overall)
         parts = [*_listed(self), *_table("By sequence of phases, for psi_1 > 0", groups)]
         parts += _table("By law", self.by_origin) if len(self.origins.distinct) > 1 else []
-        parts += _audited(self)
+        parts += ["Audit"]
+        for finding in self.audit:
+            found = f"{finding.name} = {finding.value:.3g}"
+            parts.append(f"  {MARKS[finding.holds]} {found:32s} {finding.verdict}")
         parts += [f"note: {note}" for note in self.notes]
         return "\n".join([*parts, verdict(self)])
 
@@ -223,13 +226,6 @@ def _table(title: str, groups: Sequence[Group]) -> list[str]:
     wide = max(44, *(len(group.name) for group in groups))
     numbers = "points:7d max~|error|:12.4e rms:11.4e mean:+11.3e"
     return [title, *text_table(f":<{wide}s {numbers}", groups)]
-
-
-def _audited(score: Score) -> list[str]:
-    return ["Audit"] + [
-        f"  {MARKS[finding.holds]} {finding.name + f' = {finding.value:.3g}':32s} {finding.verdict}"
-        for finding in score.audit
-    ]
 
 
 def _points(score: Score) -> dict[str, Any]:

@@ -79,7 +79,7 @@ def score_velocities(results: UserTable, case: ScoredCase, limit: float) -> Scor
         scored.friction_audit(points, restitution, limit),
         scored.restitution_audit(points, restitution, limit),
     )
-    return Scored(points, audit, notes, case.inputs)
+    return Scored(points, audit, notes, pair._describe())
 
 
 def _speeds(results: UserTable) -> tuple[Any, Any]:
