@@ -11,7 +11,7 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
-from carom.cli.options import ARGUMENTS, described, file_argument, file_option, whole_option
+from carom.cli.options import ARGUMENTS, TABLE, described, file_argument, file_option, whole_option
 from carom.cli.tables import table_format_of
 from carom.quantities.refusals import Faults, InputError, refusal, refuse
 from carom.quantities.units import whole
@@ -42,6 +42,7 @@ OPTIONS = {
     "fix": "A parameter that you know, with its value, e.g. restitution=0.98. You can repeat this "
     "option.",
     "confidence": "Confidence level of the intervals.",
+    **TABLE,
     "squares": typer.Option("--squares", help="Use least squares, in which outliers count fully."),
     "template": typer.Option("--template", help="Print an empty table to fill in, and exit."),
     "advice": whole_option("Number of further measurements to plan: print their best angles."),
@@ -70,11 +71,6 @@ def fit_command(
     share: str | None = None,
     fix: list[str] | None = None,
     confidence: str = "0.95",
-    column: list[str] | None = None,
-    columns: str | None = None,
-    sheet: str | None = None,
-    decimal: str | None = None,
-    save_columns: str | None = None,
     squares: bool = False,
     template: bool = False,
     advice: str | None = None,
@@ -86,6 +82,7 @@ def fit_command(
     report: str | None = None,
     output: str | None = None,
     as_json: bool = False,
+    **given: Any,
 ) -> None:
     """Fit friction, stiffness and restitution to measured rebounds.
 
@@ -123,7 +120,7 @@ def fit_command(
     outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
     inputs = {**_numbered("data", sources), **_numbered("case", [*dict.fromkeys(cases)])}
     check_outputs(outputs, **inputs)
-    how = table_format_of(column, columns, sheet, decimal, save_columns)
+    how = table_format_of(given)
     options: dict[str, Any] = {
         "vary": None if vary is None else _names(vary),
         "fixed": named_values("fix", fix, "restitution=0.98"),
