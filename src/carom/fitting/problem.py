@@ -3,12 +3,13 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammaln
 
+from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import convert_observables
 from carom.fitting.plates import THICKNESS
@@ -94,11 +95,6 @@ class FitProblem:
         return bool({"speed", "normal_speed"} & set(self.before))
 
     @property
-    def scales_with_speed(self) -> tuple[bool, ...]:
-        """Which responses are speeds or spins."""
-        return tuple(GLOSSARY[name].unit in ("m/s", "rad/s") for name in self.responses)
-
-    @property
     def is_normal(self) -> bool:
         """Whether every impact is a normal one, and nothing moves sideways."""
         return bool(np.all(np.abs(self.contact_velocity) <= NO_SPEED * self.motion.normal_speed))
@@ -122,24 +118,19 @@ class FitProblem:
     @cached_property
     def contact_velocity(self) -> Array:
         """Tangential velocity of the contact point before."""
-        _, whole, spin, spin2, _ = self.motion
-        radius2 = self.pair.moving[1].radius if len(self.pair.moving) > 1 else 0.0
-        return whole + self.pair.first.radius * spin + radius2 * spin2
-
-    @cached_property
-    def sizes(self) -> Array:
-        """What each response is of the order of: 1, the speed, or the spin that rolls with it."""
-        speed = float(np.median(np.hypot(*self.motion[:2])))
-        units = {"rad/s": speed / self.pair.first.radius, "m/s": speed}
-        units["s"] = float(self.pair.scales(speed).time)
-        return np.array([units.get(GLOSSARY[name].unit, 1.0) for name in self.responses])
+        along: Any = Tangential(*self.motion[1:4])  # type: ignore[arg-type]
+        return np.asarray(along.contact_velocity(self.pair))
 
     @cached_property
     def least_errors(self) -> Array:
         """The errors of the interpolated curves, by response."""
+        speed = float(np.median(np.hypot(*self.motion[:2])))  # of whose order a response is
+        units = {"rad/s": speed / self.pair.first.radius, "m/s": speed}
+        units["s"] = float(self.pair.scales(speed).time)
+        usual = np.array([units.get(GLOSSARY[name].unit, 1.0) for name in self.responses])
         sizes = np.abs(self.measured)
         largest = np.minimum(np.nanmax(sizes, axis=0), LARGER * np.nanmedian(sizes, axis=0))
-        return np.asarray(RESOLVED * np.maximum(largest, NEARLY_ZERO * self.sizes))
+        return np.asarray(RESOLVED * np.maximum(largest, NEARLY_ZERO * usual))
 
     def moved(self, changes: Mapping[str, Array]) -> IncomingMotion:
         """Return the motion before with some of its columns changed by so much."""
@@ -317,7 +308,7 @@ def scattered(
     sigma, least = np.ones((len(shares), *problem.present.shape)), problem.least_errors
     for place, there in enumerate(problem.present.T):
         sizes = expected[there, place] ** 2 / max(np.median(expected[there, place] ** 2), 1e-300)
-        parts = shares * problem.scales_with_speed[place]
+        parts = shares * (GLOSSARY[problem.responses[place]].unit in ("m/s", "rad/s"))
         shapes = np.sqrt(1.0 - parts + parts * sizes)
         scales = _scales(deviations[there, place] / shapes, used[place], loss)
         sigma[:, there, place] = np.maximum(scales[:, np.newaxis] * shapes, least[place])

@@ -20,20 +20,13 @@ from carom.fitting.reading import FROM_SURFACE, UNSIGNED
 from carom.fitting.repeats import about_repeats
 from carom.fitting.restrictions import ELASTIC_KAPPA, elastic_bounds
 from carom.io.remedies import REMEDIES
+from carom.io.user_table import AFTERWARDS
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
 
 ANGLES = ("angle", "contact_angle", "rebound_angle", "contact_rebound_angle")
 SPINS = ("spin", "spin2", "spin_out")
-TWINS = {  # what is taken for each other: before and after
-    "speed": "rebound_speed",
-    "normal_speed": "normal_speed_out",
-    "tangential_speed": "tangential_speed_out",
-    "angle": "rebound_angle",
-    "contact_angle": "contact_rebound_angle",
-    "spin": "spin_out",
-}
 NAMES = {  # and responses: of the centre, of the contact point, its negative
     "contact_restitution": ("tangential_restitution", "contact_beta"),
     "contact_beta": ("contact_restitution",),
@@ -75,7 +68,7 @@ def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]
 
 def _refuse_without_unit(problem: FitProblem, unit: str, words: str) -> None:
     """Raise InputError if spins of a file, without a unit, fit in this one instead of rad/s."""
-    columns = ((n, c) for n, c in problem.rows.cells.items() if n in (*SPINS, *UNSIGNED))
+    columns = ((n, c) for n, c in problem.rows.cells.items() if n in (*SPINS, UNSIGNED))
     bare = {each.head: name for name, each in columns if each.letter and not str(each.unit)}
     if unit and bare:
         asked = f"{next(iter(bare.values()))}: no unit; {words}"
@@ -172,7 +165,7 @@ def _scaled(words: str, problem: FitProblem, names: tuple[str, ...], factor: flo
 
 def _swapped(problem: FitProblem) -> Iterator[Trial]:
     """Yield the trial with columns before and after exchanged, if these have no gaps."""
-    pairs = {a: b for a, b in TWINS.items() if a in problem.before and b in problem.responses}
+    pairs = {a: b for a, b in AFTERWARDS.items() if a in problem.before and b in problem.responses}
     places = {b: problem.responses.index(b) for b in pairs.values()}
     after = {a: problem.measured[:, places[b]] for a, b in pairs.items()}
     speeds = [after[name] for name in ("speed", "normal_speed") if name in after]

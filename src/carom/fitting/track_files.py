@@ -43,7 +43,7 @@ def read_track(source: Any, how: TableFormat, rate: float | None, scale: float |
     table = read_table(source, **how._asdict(), what="track", lenient=True)
     refuse(len(table) > MOST_FRAMES and f"track: it has more than {MOST_FRAMES} frames; cut it")
     with Faults() as faults:
-        return _frames(_with_points(table.told(faults), faults), rate, scale, faults)
+        return _frames(_with_points(table.told(faults)), rate, scale)
 
 
 def _flat(frame: Any) -> Any:
@@ -54,7 +54,7 @@ def _flat(frame: Any) -> Any:
     return flat.reset_index(drop=True)
 
 
-def _with_points(table: UserTable, faults: Faults) -> UserTable:
+def _with_points(table: UserTable) -> UserTable:
     """Return the table with the names of columns that programs which track call otherwise."""
     points, clocks = _points(table), [n for n in table.names if n.endswith(CLOCKS)]
     new = dict(CALLED) | dict.fromkeys(clocks[:1], "time")
@@ -63,7 +63,8 @@ def _with_points(table: UserTable, faults: Faults) -> UserTable:
         ends = {"x": "x", "y": "y", "likelihood": "score", "score": "score"}
         new |= {f"{p}.{end}": mark + name for p in own[:1] for end, name in ends.items()}
     if len({tuple(map(str, table.cells[name].cells)) for name in clocks}) > 1:
-        faults.add(f"time: {' and '.join(clocks)} differ; give all points of a time in one row")
+        words = "differ; give all points of a time in one row"
+        table.faults.add(f"time: {' and '.join(clocks)} {words}")
     new = {old: name for old, name in new.items() if name not in table.names}
     return replace(table, cells={new.get(old, old): each for old, each in table.cells.items()})
 
@@ -74,8 +75,9 @@ def _points(table: UserTable) -> list[str]:
     return list(dict.fromkeys(point for point, _, end in parts if point and end in ("x", "y")))
 
 
-def _frames(table: UserTable, rate: float | None, scale: float | None, faults: Faults) -> Frames:
+def _frames(table: UserTable, rate: float | None, scale: float | None) -> Frames:
     """Return the frames that show the ball, and add to the faults what cannot be used."""
+    faults = table.faults
     clock = "time" if "time" in table.cells else "frame"
     units = {clock: "s" if clock == "time" else "1", **UNITS}
     faults.add(*_about_scale(table, scale), *_missing(table, rate, scale))

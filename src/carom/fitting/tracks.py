@@ -23,7 +23,7 @@ from carom.quantities.glossary import GLOSSARY
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import Faults, InputError, flag, refusal, refuse
-from carom.quantities.units import Value, finite, or_none, positive
+from carom.quantities.units import Value, finite, or_none, positive, within
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -111,11 +111,10 @@ def track(
     steepest = finite("plate_angle", plate_angle)
     refuse(abs(steepest) >= 0.5 * np.pi and refusal("plate_angle", plate_angle, "below 90 deg"))
     is_fitted = isinstance(gravity, str) and gravity == FITTED
-    downwards = None if is_fitted else _within("gravity", finite("gravity", gravity), GRAVITIES)
+    downwards = None if is_fitted else within("gravity", gravity, *GRAVITIES)
     down = None if y_down is None else flag("y_down", y_down)
     scale = _metres_per_pixel(pixels_per_mm, pixels_per_diameter, radius)
-    read = None if frame_rate is None else positive("frame_rate", frame_rate)
-    rate = None if read is None else _within("frame_rate", read, RATES)
+    rate = None if frame_rate is None else within("frame_rate", frame_rate, *RATES)
     how = table_format(columns, sheet, decimal)
     names = [str(e if isinstance(e, str | Path) else i) for i, e in enumerate(sources)]
     found = []
@@ -127,24 +126,17 @@ def track(
     return _dataset(names, found)
 
 
-def _within(name: str, value: float, ends: tuple[float, float]) -> float:
-    low, high = ends
-    span = f"must lie between {low:g} and {high:g} {GLOSSARY[name].unit}; check its unit"
-    refuse(not low <= value <= high and refusal(name, value, span))
-    return value
-
-
 def _metres_per_pixel(
     per_mm: Value | None, per_diameter: Value | None, radius: Value | None
 ) -> float | None:
     both = per_mm is not None and per_diameter is not None
     refuse(both and "pixels_per_mm: it gives the same as pixels_per_diameter; leave one out")
     if per_mm is not None:
-        return 1e-3 / _within("pixels_per_mm", positive("pixels_per_mm", per_mm), SCALES)
+        return 1e-3 / within("pixels_per_mm", per_mm, *SCALES)
     if per_diameter is None:
         return None
     refuse(radius is None and "radius: missing; pixels_per_diameter needs it, e.g. '5 mm'")
-    pixels = _within("pixels_per_diameter", positive("pixels_per_diameter", per_diameter), SCALES)
+    pixels = within("pixels_per_diameter", per_diameter, *SCALES)
     return 2.0 * positive("radius", radius) / pixels
 
 

@@ -40,6 +40,7 @@ EARLIER, LATER = ("before", "vor", "vorher"), ("after", "nach", "nachher")
 AFTERWARDS = {  # what is called like it, after an impact
     "angle": "rebound_angle",
     "speed": "rebound_speed",
+    "contact_angle": "contact_rebound_angle",
     "surface_angle": "surface_angle_out",
     **{name: f"{name}_out" for name in ("spin", "normal_speed", "tangential_speed")},
 }
@@ -100,9 +101,9 @@ class UserTable(Rows, Printed):
         return column
 
     def told(self, faults: Faults) -> "UserTable":
-        """Return the table as far as it could be read; what is wrong is added to the faults."""
+        """Return the table as far as it could be read; what is wrong is added to its faults."""
         faults.add(*self.wrong)
-        return replace(self, wrong=())
+        return replace(self, wrong=(), faults=faults)
 
     @property
     def case(self) -> Mapping[str, Any] | None:
@@ -187,12 +188,7 @@ def _with_unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def in_units(
-    table: UserTable,
-    names: Iterable[str],
-    gaps: Collection[str] = (),
-    faults: Faults | None = None,
-    *,
-    whole: bool = False,
+    table: UserTable, names: Iterable[str], gaps: Collection[str] = (), *, whole: bool = False
 ) -> UserTable:
     """Return a table with those columns in SI units whose names are known; the others are NaN.
 
@@ -200,20 +196,19 @@ def in_units(
     n/a stands for what was not measured: NaN, in columns of `gaps` and of their errors. A row in
     which none of these columns has a value is left out, unless the table is to stay whole.
 
-    Adds to the faults, which are raised as InputError if they are not given, a cell that is not a
-    number, a value that is missing in another column, a unit that does not fit, an error that has
-    no unit where its column has one, angles that cannot be in rad, and speeds of bodies that do not
-    approach.
+    Adds to the faults of the table, which raise InputError if nobody collects them, a cell that is
+    not a number, a value that is missing in another column, a unit that does not fit, an error that
+    has no unit where its column has one, angles that cannot be in rad, and speeds of bodies that do
+    not approach.
     """
-    faults = faults or Faults()
-    table, missing = table.told(faults), dict[str, Mask]()
+    table, missing = table.told(table.faults), dict[str, Mask]()
     columns = {name: np.full(len(table), nan) for name in table.names}
-    read = replace(table, columns=columns, missing=missing, faults=faults)
+    read = replace(table, columns=columns, missing=missing)
     there = {*names}.intersection(table.names)
     wanted = [name for name in table.names if name in there]
     for name in wanted:
         there.discard(name)
-        with faults.catching():
+        with table.faults.catching():
             gone = table.column(name).missing
             if gone.any():
                 missing[name] = gone
@@ -243,13 +238,13 @@ def with_errors(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(each for name in names for each in (name, name + ERROR))
 
 
-def others(table: UserTable, names: Iterable[str], faults: Faults | None = None) -> tuple[str, ...]:
+def others(table: UserTable, names: Iterable[str]) -> tuple[str, ...]:
     """Return the columns that are not known and mean nothing here, for a user to be told.
 
-    Adds to the faults, which are raised as InputError if they are not given, one that is likely to
-    be a known one misspelt, with the nearest, and an error without its column.
+    Adds to the faults of the table, which raise InputError if nobody collects them, one that is
+    likely to be a known one misspelt, with the nearest, and an error without its column.
     """
-    names, faults = list(names), faults or Faults()
+    names = list(names)
     unknown = tuple(name for name in table.names if name not in names)
     for name in unknown:
         column = table.cells[name]
@@ -265,10 +260,10 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
             asked += " It is that before the impact." * (known == "spin")
             asked += f" If so, {REMEDIES.get().columns({clipped(column.head): meaning})}"
             asked += ", with the unit that it has" * ("[" in meaning and not hint.endswith("]"))
-        faults.add(f"{heading(name)}: unknown column; {asked}")
+        table.faults.add(f"{heading(name)}: unknown column; {asked}")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
-            faults.add(f"{heading(name)}: its column {entry(name)!r} is missing")
+            table.faults.add(f"{heading(name)}: its column {entry(name)!r} is missing")
     return unknown
 
 
