@@ -9,7 +9,7 @@ import numpy as np
 import openpyxl
 import pytest
 from odf.opendocument import OpenDocumentSpreadsheet
-from odf.table import CoveredTableCell, Table, TableCell, TableRow
+from odf.table import CoveredTableCell, Table, TableCell, TableColumn, TableRow
 from odf.text import P
 from tests.checks import PAIR, refused
 
@@ -333,9 +333,15 @@ def test_a_percentage_of_a_sheet_is_not_taken_for_a_ratio_of_one(stored):
     )
 
 
-def document(*rows, hidden=()):
-    """Return an .ods of rows of numbers, texts, or attributes of a cell and what it shows."""
+def document(*rows, hidden=(), hidden_columns=()):
+    """Return an .ods of rows of numbers, texts, or attributes of a cell and what it shows.
+
+    Of columns it says that one is shown, and so many after it are hidden.
+    """
     book, sheet, file = OpenDocumentSpreadsheet(), Table(name="A"), io.BytesIO()
+    for place, count in enumerate(hidden_columns):
+        look = {"visibility": "collapse"} if place else {}
+        sheet.addElement(TableColumn(numbercolumnsrepeated=count, **look))
     for number, cells in enumerate(rows, 1):
         row = TableRow(**({"visibility": "filter"} if number in hidden else {}))
         for cell in cells:
@@ -414,8 +420,8 @@ def test_errors_at_the_edges_of_a_sheet_are_found(stored):
     assert [column.cells[0] for column in table.cells.values()] == [1.0, "#DIV/0!", "#DIV/0!"]
 
 
-def test_hidden_rows_are_read_and_said(stored):
-    """As a filter or a hand hides them; blank ones are not counted."""
+def test_what_is_hidden_is_read_and_said(stored):
+    """Rows, as a filter or a hand hides them, and columns; blank ones are not counted."""
     rows = [HEADS, *([10.0 * i, 1.0, -200.0 * i] for i in (1, 2, 3, 4)), [None] * 3]
     book = openpyxl.Workbook()
     for cells in rows:
@@ -428,6 +434,11 @@ def test_hidden_rows_are_read_and_said(stored):
         result = carom.fit(stored(content), pair=PAIR, fixed={"restitution": 1.0})
         assert told in result.notes
         assert result.to_dict()["rows"] == 4
+    book.active.column_dimensions.group("B", "E", hidden=True)
+    odf = document(HEADS, *rows[1:5], [""] * 3, hidden=(3, 4, 6), hidden_columns=(1, 3))
+    for content in (of_book(book), odf):
+        table = read_table(stored(content))
+        assert told.replace("4;", "4 and columns B and C;") in table.notes
     shown = carom.fit(stored(workbook(*rows[:5])), pair=PAIR, fixed={"restitution": 1.0})
     assert not [note for note in shown.notes if "hidden" in note]
 

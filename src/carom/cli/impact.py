@@ -15,8 +15,6 @@ from carom.quantities.refusals import InputError, one_of, refusal
 from carom.quantities.units import whole
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from carom.impacts.result import ImpactResult
 
 
@@ -145,28 +143,23 @@ def impact_command(
     solver = _method(method, {name: given[name] for name in ("elements", "steps")})
     motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
     hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
-    largest = _peaks(hit) if peaks else None
+    shown = _with_peaks(hit, as_json) if peaks else str(hit)
     paths = list(_store(hit, files))
-    typer.echo(_shown(hit, largest, as_json))
+    typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json and not peaks else shown)
     for path in paths:
         stored(path)
 
 
-def _peaks(hit: "ImpactResult") -> "xr.Dataset":
-    if not isinstance(hit, carom.results.Impact):
-        raise InputError(
-            "peaks: boundary elements give no stress below the surface; leave --method out"
-        )
-    return hit.peaks()
-
-
-def _shown(hit: "ImpactResult", peaks: "xr.Dataset | None", as_json: bool) -> str:
+def _with_peaks(hit: "ImpactResult", as_json: bool) -> str:
     from carom.impacts.peaks import peaks_record, peaks_text
 
+    if not isinstance(hit, carom.results.Impact):
+        words = "boundary elements give no stress below the surface; leave --method out"
+        raise InputError(f"peaks: {words}")
+    peaks = hit.peaks()
     if as_json:
-        more = {} if peaks is None else {"peaks": peaks_record(peaks)}
-        return json.dumps(hit.to_dict() | more, indent=2)
-    return str(hit) if peaks is None else f"{hit}\n{peaks_text(peaks)}"
+        return json.dumps(hit.to_dict() | {"peaks": peaks_record(peaks)}, indent=2)
+    return f"{hit}\n{peaks_text(peaks)}"
 
 
 def _method(name: str, numbers: Mapping[str, str | None]) -> Any:

@@ -284,7 +284,10 @@ class LossFit(Standing):
 
 @dataclass(frozen=True, eq=False)
 class LossComparison:
-    """Standings of laws of losses by Akaike's criterion: speeds, measured restitutions, errors."""
+    """Standings of laws of losses by Akaike's criterion: speeds, measured restitutions, errors.
+
+    Outliers are among them; of several responses the first counts.
+    """
 
     standings: tuple[LossFit, ...]
     speeds: Array
@@ -357,8 +360,10 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
         law = profile.best.model.law
         parameter = estimate_of(profile, law.names[0])
         standings.append(LossFit(law.name, excess[place], weights[place], profile.best, parameter))
-    measured, errors = _restitutions(problem, standings[0]._best)
-    return LossComparison(tuple(standings), problem.motion.normal_speed, measured, errors)
+    speeds, best = problem.motion.normal_speed, standings[0]._best
+    scale = 1.0 / speeds if problem.responses[0] == "normal_speed_out" else 1.0
+    errors = scale * best.sigma[:, 0] * best.scale[0]
+    return LossComparison(tuple(standings), speeds, scale * problem.measured[:, 0], errors)
 
 
 def _normal(problem: FitProblem) -> FitProblem | None:
@@ -373,10 +378,3 @@ def _normal(problem: FitProblem) -> FitProblem | None:
     names = tuple(problem.responses[place] for place in places)
     measured, errors = problem.measured[:, places], problem.errors[:, places]
     return replace(problem, responses=names, measured=measured, errors=errors)
-
-
-def _restitutions(problem: FitProblem, best: Best) -> tuple[Array, Array]:
-    """Return measured restitutions, outliers too, and their errors; the first response counts."""
-    is_speed = problem.responses[0] == "normal_speed_out"
-    scale = 1.0 / problem.motion.normal_speed if is_speed else 1.0
-    return scale * problem.measured[:, 0], scale * best.sigma[:, 0] * best.scale[0]

@@ -114,7 +114,7 @@ def _next_distance(inner: Array, outer: Array) -> Array:
         part = np.clip((1.0 - root_in) / (root_out - root_in), 0.05, 0.95)
         secant = inside + np.where(np.isfinite(bracket), bracket * part, 0.0)
         farther = inside * np.clip(1.02 / np.maximum(root_in, 1e-9), 1.05, 3.0)
-    return np.where(np.isfinite(outside), secant, farther)
+    return np.asarray(np.where(np.isfinite(outside), secant, farther))
 
 
 @dataclass(frozen=True, eq=False)

@@ -46,7 +46,8 @@ def give(pair: Pair, normal_speed: Array, values: Values) -> Array:
 
 def restitution(pair: Pair, normal_speed: Array, values: Values) -> Array:
     """Return the restitution at each speed."""
-    return np.minimum(_normal_motion()(give(pair, normal_speed, values))[..., 0], 1.0)
+    e = _normal_motion()(give(pair, normal_speed, values))[..., 0]
+    return np.asarray(np.minimum(e, 1.0))
 
 
 def duration(pair: Pair, normal_speed: Array, values: Values) -> Array:

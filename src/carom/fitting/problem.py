@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -221,12 +221,6 @@ def gaussian_mean(values: Array) -> float:
     return float((values * NORMAL_DENSITY).sum() / NORMAL_DENSITY.sum())
 
 
-@cache
-def normal_influence(loss: RobustLoss) -> float:
-    """Return the mean of r psi(r) over a standard normal distribution."""
-    return gaussian_mean(NORMAL * loss.influence(NORMAL))
-
-
 @dataclass(frozen=True, eq=False)
 class Weights:
     """What makes residuals independent and of unit variance: inverse Cholesky factors by row.
@@ -338,7 +332,7 @@ def scatter(residuals: Array, present: Mask, used: Array, loss: RobustLoss) -> A
 def _scales(residuals: Array, used: float, loss: RobustLoss) -> Array:
     """Return the scales of residuals along the last axis: mean r psi(r) as normal ones have it."""
     kept = max(1.0 - used / residuals.shape[-1], 0.05)
-    wanted = kept * normal_influence(loss)
+    wanted = kept * gaussian_mean(NORMAL * loss.influence(NORMAL))
     factor = np.sqrt(np.mean(residuals**2, axis=-1))
     for _ in range(50):
         scaled = residuals / np.maximum(factor, 1e-300)[..., np.newaxis]

@@ -18,7 +18,6 @@ from carom.impacts.validity import GRAVITY
 from carom.io.heads import table_format
 from carom.io.labels import labelled_dataset
 from carom.io.user_table import ERROR
-from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
@@ -156,7 +155,11 @@ def _measured(
     sign = min(motions, key=lambda each: motions[each].squares)
     motion, upright = motions[sign], frames._replace(y=sign * frames.y)
     values, errors, instant = at_impact(motion, tilt)
-    _check_instant(frames.time, motion.split, motion.origin + instant)
+    struck, (before, after) = motion.origin + instant, frames.time[motion.split - 1 :][:2].tolist()
+    seen = f"meet at {struck:.6g} s, but part between {before:.6g} and {after:.6g} s"
+    cure = "leave out frames in contact and wrong positions, or check gravity, the scale and the "
+    fault = f"track: the paths before and after {seen}; {cure}frame rate"
+    refuse(abs(struck - 0.5 * (before + after)) > after - before and fault)
     forwards = -1.0 if values[1] < 0.0 else 1.0
     values[[1, 3]] *= forwards
     row = dict(zip(SPEEDS, values.tolist(), strict=True))
@@ -165,22 +168,12 @@ def _measured(
     row |= {name: forwards * value for name, (value, _) in spins.items()}
     row |= {name + ERROR: error for name, (_, error) in spins.items()}
     about = {
-        "time": motion.origin + instant,
+        "time": struck,
         "frames": [motion.split, len(frames.time) - motion.split],
         "position_error": float(np.sqrt(motion.squares / motion.freedom)),
         "notes": [*frames.notes, *_doubts(upright, motion, gravity), *notes],
     }
     return row, about
-
-
-def _check_instant(time: Array, split: int, instant: float) -> None:
-    """Raise InputError if the paths do not meet between the frames at which they part."""
-    before, after = float(time[split - 1]), float(time[split])
-    room = 0.5 * (after - before)
-    seen = f"meet at {instant:.6g} s, but part between {before:.6g} and {after:.6g} s"
-    cure = "leave out frames in contact and wrong positions, or check gravity, the scale and the "
-    fault = f"track: the paths before and after {seen}; {cure}frame rate"
-    refuse(not before - room <= instant <= after + room and fault)
 
 
 def _spins(
