@@ -156,13 +156,11 @@ def _checked_numbers(
     from carom.fitting.advice import MOST_LISTED
     from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
 
-    if about is not None and advice is None:
-        raise refusal("for", about, "it has no effect without --advice; give that, too")
+    alone = about is not None and advice is None
+    refuse(alone and refusal("for", about, "it has no effect without --advice; give that, too"))
     count = None if advice is None else whole("advice", advice, 1, MOST_LISTED)
-    return count, (
-        whole("steps", steps, FEWEST_STEPS, MOST_STEPS),
-        whole("seed", seed, 0, MOST_SEED),
-    )
+    of_chain = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
+    return count, of_chain
 
 
 def _print(fit: "Fit | JointFit", advised: "Advice | None", as_json: bool) -> None:

@@ -104,9 +104,7 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
     array([-533.6, -551.5])
     """
     checked_pair(pair, plates=True)
-    checked_type(
-        "known", known, Mapping, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}"
-    )
+    checked_type("known", known, Mapping, "must be values by name, e.g. {'speed': 2, 'angle': 0.5}")
     quantities = {name: _values(name, value) for name, value in known.items()}
     along_the_same(**{str(name): value for name, value in known.items()})
     _check_name("wanted", wanted)

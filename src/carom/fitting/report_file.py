@@ -172,8 +172,8 @@ def _findings(fit: FitRecord) -> list[Finding]:
     for row in (int(np.argmax(normal)), int(np.argmin(normal))):
         speeds = {"normal_speed": float(normal[row]), "tangential_speed": float(along[row])}
         for finding in impact(fit.pair, **speeds).validity.findings:  # type: ignore[call-overload]
-            if worst.setdefault(finding.name, finding).holds:
-                worst[finding.name] = finding if not finding.holds else worst[finding.name]
+            if worst.setdefault(finding.name, finding).holds and not finding.holds:
+                worst[finding.name] = finding
     return [*worst.values()]
 
 
