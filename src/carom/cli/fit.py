@@ -11,8 +11,15 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
-from carom.cli.options import ARGUMENTS, TABLE, described, file_argument, file_option, whole_option
-from carom.cli.tables import table_format_of
+from carom.cli.options import (
+    ARGUMENTS,
+    TABLE,
+    described,
+    file_argument,
+    file_option,
+    table_format_of,
+    whole_option,
+)
 from carom.quantities.refusals import Faults, InputError, refusal, refuse
 from carom.quantities.units import whole
 

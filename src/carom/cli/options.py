@@ -3,12 +3,17 @@
 from collections import Counter
 from collections.abc import Callable, Mapping
 from inspect import Parameter, Signature, signature
-from typing import Annotated, Any, TypeVar, get_origin
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, get_origin
 
 import typer
 from typer.core import TyperCommand, TyperOption
 
+from carom.cli.cases import named_values, stored
+from carom.io.paths import checked_output, replace_whole
 from carom.quantities.refusals import InputError
+
+if TYPE_CHECKING:
+    from carom.io.heads import TableFormat
 
 Command = TypeVar("Command", bound=Callable[..., None])
 
@@ -96,6 +101,22 @@ def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
         return command
 
     return decorate
+
+
+def table_format_of(given: Mapping[str, Any], example: str = "omega=spin_out") -> "TableFormat":
+    """Return how a table is to be read by the options `TABLE`; it is stored if asked for."""
+    from carom.io.heads import as_toml, table_format
+
+    stored_as = given["save_columns"]
+    target = None if stored_as is None else checked_output(stored_as, (".toml",))
+    own = table_format(given["columns"], given["sheet"], given["decimal"])
+    names = named_values("column", given["column"], example)
+    how = own._replace(columns={**own.columns, **names})
+    if target is not None:
+        text = as_toml(how)
+        replace_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
+        stored(target)
+    return how
 
 
 def _with_help(parameter: Parameter, option: Any) -> Parameter:

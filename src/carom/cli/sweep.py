@@ -11,8 +11,7 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, outputs, read_case_file, require_some, stored, tell
-from carom.cli.options import TABLE, described, file_argument, whole_option
-from carom.cli.tables import table_format_of
+from carom.cli.options import TABLE, described, file_argument, table_format_of, whole_option
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
 from carom.quantities.refusals import refusal

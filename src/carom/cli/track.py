@@ -7,8 +7,7 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, stored
-from carom.cli.options import TABLE, described, file_argument
-from carom.cli.tables import table_format_of
+from carom.cli.options import TABLE, described, file_argument, table_format_of
 
 OPTIONS = {
     "data": file_argument(

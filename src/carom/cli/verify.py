@@ -9,8 +9,15 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, read_case_file, store, stored
-from carom.cli.options import TABLE, Commands, described, file_argument, file_option, whole_option
-from carom.cli.tables import table_format_of
+from carom.cli.options import (
+    TABLE,
+    Commands,
+    described,
+    file_argument,
+    file_option,
+    table_format_of,
+    whole_option,
+)
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
 from carom.quantities.units import finite, positive, whole

@@ -112,8 +112,8 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
     shape = together(quantities)
     with np.errstate(all="ignore"):
         result = np.asarray(getattr(_rebound(pair, quantities, wanted), wanted))
-    large = np.isinf(result).any()
-    refuse(large and "known: the results are too large for floating point; check the units")
+    large = "known: the results are too large for floating point; check the units"
+    refuse(np.isinf(result).any() and large)
     return np.broadcast_to(result, shape).copy() if shape else result.item()
 
 

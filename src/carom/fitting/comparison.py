@@ -223,12 +223,9 @@ class FitRecord:
         They come from Fisher's information at the best values; that of friction and kappa is
         `correlations["friction"]["kappa"]`.
         """
-        best = self._best
-        names = [name for name in best.model.free if self.estimates[name].determined]
-        places = [best.model.free.index(name) for name in names]
-        rows = best.information.correlations[np.ix_(places, places)].tolist()
-        named = (dict(zip(names, row, strict=True)) for row in rows)
-        return dict(zip(names, named, strict=True))
+        free, matrix = self._best.model.free, self._best.information.correlations.tolist()
+        told = {name: i for i, name in enumerate(free) if self.estimates[name].determined}
+        return {one: {other: matrix[i][j] for other, j in told.items()} for one, i in told.items()}
 
     @property
     def pair(self) -> Pair:

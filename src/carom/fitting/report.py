@@ -232,7 +232,11 @@ def as_text(fit: FitRecord) -> str:
         f"{problem.trials} row{'s' * (problem.trials != 1)}; "
         f"in brackets {100.0 * fit.confidence:g} % intervals by profile likelihood"
     )
-    lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
+    lines = [head]
+    for name, each in fit.estimates.items():
+        elastic = each.determined and not isnan(each.elastic)
+        beside = f"; the elastic constants give {each.elastic:.3g}" if elastic else ""
+        lines.append(f"  {name:{COLUMN}s} {each}{beside}")
     tells = [*summary(fit), *(f"note: {note}" for note in fit.notes)]
     return "\n".join([*lines, *tells, *([] if problem.is_normal else [str(fit.comparison)])])
 
@@ -244,13 +248,6 @@ def summary(fit: FitRecord) -> list[str]:
     regimes = "; ".join(f"{count} {name}" for name, count in fit.regimes.items() if count)
     by_regime = [] if fit._best.model.problem.is_normal else [f"rows by regime: {regimes}"]
     return [*([f"correlations: {pairs}"] if pairs else []), *by_regime]
-
-
-def _line(estimate: Estimate) -> str:
-    """Return an estimate, with what the bodies give beside it."""
-    if not estimate.determined or isnan(estimate.elastic):
-        return str(estimate)
-    return f"{estimate}; the elastic constants give {estimate.elastic:.3g}"
 
 
 def notes(fit: ProfiledFit, settled: Settled, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:

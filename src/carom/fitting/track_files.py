@@ -80,7 +80,8 @@ def _frames(table: UserTable, rate: float | None, scale: float | None) -> Frames
     faults = table.faults
     clock = "time" if "time" in table.cells else "frame"
     units = {clock: "s" if clock == "time" else "1", **UNITS}
-    faults.add(*_about_scale(table, scale), *_missing(table, rate, scale))
+    _check_scale(table, scale)
+    _check_columns(table, rate, scale)
     read: dict[str, Array] = {}
     for name in filter(table.cells.__contains__, units):
         column, size, si = table.cells[name], 1.0, units[name]
@@ -107,9 +108,8 @@ def _frames(table: UserTable, rate: float | None, scale: float | None) -> Frames
     return Frames(time[seen], x[seen], y[seen], mark[seen], table.notes)
 
 
-def _missing(table: UserTable, rate: float | None, scale: float | None) -> list[str]:
-    """Return what is wrong where positions, times or the frame rate are missing."""
-    faults = []
+def _check_columns(table: UserTable, rate: float | None, scale: float | None) -> None:
+    """Add to the faults that positions, times or the frame rate are missing."""
     if not {"x", "y"} <= {*table.cells}:
         there = ", ".join(heading(column.head) for column in table.cells.values())
         listed = f"column missing; the columns are {there}"
@@ -120,23 +120,24 @@ def _missing(table: UserTable, rate: float | None, scale: float | None) -> list[
         named = zip(columns, POSITIONS, bare, strict=False)
         heads = {column.head: name + unit for column, name, unit in named}
         remedy = REMEDIES.get().columns(heads or {"HEAD": "x"})
-        faults.append(f"x: {listed}; {say}: {remedy}")
+        table.faults.add(f"x: {listed}; {say}: {remedy}")
     if not {"time", "frame"} & {*table.cells}:
-        faults.append("time: column missing; give time, or frame with the frame rate")
+        table.faults.add("time: column missing; give time, or frame with the frame rate")
     elif "time" not in table.cells and rate is None:
-        faults.append("frame_rate: missing; the track has frames, give e.g. '1000 Hz'")
-    return faults
+        table.faults.add("frame_rate: missing; the track has frames, give e.g. '1000 Hz'")
 
 
-def _about_scale(table: UserTable, scale: float | None) -> list[str]:
-    """Return what is wrong with the scale of positions that need one, or must have none."""
+def _check_scale(table: UserTable, scale: float | None) -> None:
+    """Add to the faults a scale of positions that need none, or its lack."""
     units = {n: str(table.cells[n].unit).lower() for n in POSITIONS if n in table.cells}
     for name, unit in units.items():
         if scale is not None and unit not in ("", *PIXELS):
-            return [f"{name}: it is in {unit}; leave the scale of pixels out"]
+            table.faults.add(f"{name}: it is in {unit}; leave the scale of pixels out")
+            return
         if scale is None and (unit in PIXELS or (table.is_of_file and not unit)):
             heads = {table.cells[n].head: f"{n} [m]" for n in units if not units[n]}
             remedy = REMEDIES.get().columns(heads)
             lengths = "" if unit else f"; if it is a length, {remedy}, with its unit"
-            return [f"{name}: no unit; give pixels_per_mm or pixels_per_diameter{lengths}"]
-    return []
+            say = f"no unit; give pixels_per_mm or pixels_per_diameter{lengths}"
+            table.faults.add(f"{name}: {say}")
+            return

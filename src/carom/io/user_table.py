@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from carom.io.heads import is_open, spelled
 from carom.io.remedies import REMEDIES
-from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing
+from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing, named
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, clipped, heading, nearest, refuse
@@ -152,11 +152,17 @@ class UserTable(Rows, Printed):
             values = list(dict.fromkeys(f"{value:g}" for value in self[name][bad].tolist()))
             more = ["..."] * (len(values) > MOST_NAMED_VALUES)
             some = ", ".join([*values[:MOST_NAMED_VALUES], *more])
-            where = self.cells_named(self._letter(name), bad)
+            where = self.cells_named(name, bad)
             self.faults.add(f"{spelled(name)}: {some} in {where} cannot be used; {allowed}")
 
-    def _letter(self, name: str) -> str:
-        return self.cells[name].letter if name in self.cells else ""
+    def cells_named(self, name: str, where: Mask) -> str:
+        """Return the cells of a column, e.g. "cells B3 and B4"; rows if no file has letters."""
+        letter = self.cells[name].letter if name in self.cells else ""
+        if not letter:
+            return self.named(where)
+        if len(where) > 1 and where.all():
+            return f"every {self.word} of column {letter}"
+        return named("cell", [f"{letter}{row}" for row in self.rows[where]])
 
     def about_missing(self) -> tuple[str, ...]:
         """Return a note on the values that are missing in columns that have others, if any."""
@@ -165,7 +171,7 @@ class UserTable(Rows, Printed):
             count, called = int(gone.sum()), spelled(name)
             if name != entry(name) or gone.all():
                 continue
-            where = f"{called} in {self.cells_named(self._letter(name), gone)}"
+            where = f"{called} in {self.cells_named(name, gone)}"
             listed.append(f"{count} of {called}" if count > MOST_NAMED_ROWS else where)
             total += count
         missing = f"{total} value{'s' * (total > 1)} missing: {', '.join(listed)}"
@@ -212,7 +218,9 @@ def in_units(
             gone = table.column(name).missing
             if gone.any():
                 missing[name] = gone
-            _check_error_unit(name, table)
+            if (unit := _unit_of_values(name, table)) and not str(table.cells[name].unit):
+                missed = f"no unit, but {entry(name)} is in {unit}; write '{name} [{unit}]'"
+                raise InputError(f"{name}: {missed}")
             columns[name] = read_column(table, name, GLOSSARY[entry(name)].unit)
             there.add(name)
     if not whole:
@@ -224,7 +232,7 @@ def in_units(
 
 def _without_blank_rows(table: UserTable, wanted: Collection[str]) -> UserTable:
     """Return the rows in which one of these columns has a value."""
-    if not wanted or any(name not in table.missing for name in wanted):
+    if not wanted or not table.missing.keys() >= {*wanted}:
         return table
     blank = np.all([table.missing[name] for name in wanted], axis=0)
     if not blank.any() or blank.all():
@@ -280,8 +288,8 @@ def suggested(name: str, column: Column, names: Iterable[str]) -> tuple[str, str
     needs = is_open(known, unit) or (entry(known) in HEIGHTS and column.is_bare)
     if si == "rad" and hint == known and not unit:
         needs = bool(np.any(np.abs(column_in_si(known, si, "", column.cells)[0]) >= 0.5 * pi))
-    named = f"{known} [{USUAL_UNITS.get(si, si)}]" if needs else known if unit else hint
-    return hint, named
+    whole = f"{known} [{USUAL_UNITS.get(si, si)}]"
+    return hint, whole if needs else known if unit else hint
 
 
 def entry(name: str) -> str:
@@ -311,14 +319,6 @@ def _when(plain: str, names: Collection[str]) -> str:
     return name if name in names else ""
 
 
-def _check_error_unit(name: str, table: UserTable) -> None:
-    """Raise InputError for an error whose unit can only be guessed."""
-    unit = _unit_of_values(name, table)
-    if unit and not str(table.cells[name].unit):
-        whole = f"no unit, but {entry(name)} is in {unit}"
-        raise InputError(f"{name}: {whole}; write '{name} [{unit}]'")
-
-
 def _unit_of_values(name: str, table: UserTable) -> str:
     """Return the unit of the values of which a column has the errors, empty if it has none."""
     whole = entry(name)
@@ -330,7 +330,7 @@ def _check_values(name: str, table: UserTable, open_ended: bool) -> None:
     """Add to the faults what cannot be, as it is of another unit, or of bodies that part."""
     values, unit = table[name], str(table.cells[name].unit)
     if name in table.missing and not open_ended:
-        where = table.cells_named(table.cells[name].letter, table.missing[name])
+        where = table.cells_named(name, table.missing[name])
         table.faults.add(f"{spelled(name)}: no value in {where}; write it there, or delete the row")
     if unit in PERCENT and table.word == "row" and table.cells[name].letter:
         _check_percent(name, table)
@@ -367,7 +367,7 @@ def read_column(table: UserTable, name: str, si: str) -> Array:
     values, reason = column_in_si(called, si, column.unit, column.cells)
     wrong = ~np.isfinite(values)
     if wrong.any() and (wrong := wrong & ~column.missing).any():
-        where = table.cells_named(column.letter, wrong)
+        where = table.cells_named(name, wrong)
         cause = reason.removeprefix(f"{called}: ") or CORRECT_OR_DELETE
         raise InputError(f"{called}: not a number in {where}; {cause}")
     return values

@@ -144,7 +144,7 @@ def _refuse_nan(table: UserTable) -> None:
         column = table.cells[name]
         failed = np.fromiter(map(is_nan, column.cells), np.bool_, len(column.cells))
         if failed.any():
-            where = table.cells_named(column.letter, failed)
+            where = table.cells_named(name, failed)
             table.faults.add(f"{spelled(name)}: NaN in {where}; write '-' to leave such rows out")
 
 
