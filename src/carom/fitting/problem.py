@@ -90,6 +90,12 @@ class FitProblem:
         return bool(np.all(np.isfinite(self.errors) | ~self.present))
 
     @property
+    def exact(self) -> list[str]:
+        """What is taken as exact of the motion before: columns without errors that are not zero."""
+        moving = [name for name, values in self.before.items() if np.any(values)]
+        return [name for name in moving if name not in self.before_errors]
+
+    @property
     def has_speeds(self) -> bool:
         """Whether speeds are known, not only ratios of them."""
         return bool({"speed", "normal_speed"} & set(self.before))

@@ -62,12 +62,6 @@ def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]
     if not likely:
         return []
     _, words, unit = min(likely)
-    _refuse_without_unit(problem, unit, words)
-    return [words]
-
-
-def _refuse_without_unit(problem: FitProblem, unit: str, words: str) -> None:
-    """Raise InputError if spins of a file, without a unit, fit in this one instead of rad/s."""
     columns = ((n, c) for n, c in problem.rows.cells.items() if n in (*SPINS, UNSIGNED))
     bare = {each.head: name for name, each in columns if each.letter and not str(each.unit)}
     if unit and bare:
@@ -76,6 +70,7 @@ def _refuse_without_unit(problem: FitProblem, unit: str, words: str) -> None:
             remedy = REMEDIES.get().columns({head: f"{bare[head]} [{own}]" for head in bare})
             asked += f"; if they are in {own}, {remedy}"
         raise InputError(asked)
+    return [words]
 
 
 def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:

@@ -110,17 +110,13 @@ def _of_xlsx(file: IO[bytes]) -> Marks:
             is_formula = len(cell) and _kind(cell[0]) == "f"
             text = cell.get("t") == "e" and cell.findtext("{*}v")
             if is_formula and not cell.findtext("{*}v") and cell.get("t") != "str":  # of texts ""
-                text = _no_result(f"={cell[0].text or ''}")
+                text = NO_RESULT.format(f"={cell[0].text or ''}"[:LONGEST_FORMULA])
             if text:
                 sheet.marks.append(Mark(row, _column(cell, place), 1, 1, text))
         if len(element):
             sheet.width = max(sheet.width, _column(element[-1], len(element) - 1) + 1)
         element.clear()
     return sheet
-
-
-def _no_result(formula: str) -> str:
-    return NO_RESULT.format(formula[:LONGEST_FORMULA])
 
 
 def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
@@ -147,7 +143,7 @@ def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
             if "error" in kinds or (formula and ERROR_CELL.match(shown)):
                 text = shown
             elif formula and not kinds:
-                text = _no_result(formula)
+                text = NO_RESULT.format(formula[:LONGEST_FORMULA])
             if text:
                 sheet.marks.append(Mark(row, column, rows, columns, text))
             elif {"number-rows-spanned", "number-columns-spanned"} & {*own}:
