@@ -65,6 +65,18 @@ def pytest_addoption(parser):
     parser.addoption("--fuzz", type=int, default=1000, metavar="N", help=words)
 
 
+@pytest.fixture
+def stored(tmp_path):
+    """A function that stores the content of a user's file."""
+
+    def store(content, name="lab.csv"):
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return store
+
+
 @pytest.fixture(scope="session")
 def steel_ball():
     return carom.Sphere(radius="5 mm", material="steel")

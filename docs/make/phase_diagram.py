@@ -8,7 +8,7 @@ from run_pages import DOCS, store_small
 from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Kind
 from carom.dimensionless.states import KIND_NAMES
 from carom.plots import style
-from carom.quantities.causes import Cause
+from carom.quantities.statuses import Cause
 
 from page_blocks import page_with, table  # isort: skip  # run_pages says where it is
 

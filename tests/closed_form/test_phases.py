@@ -8,7 +8,7 @@ import pytest
 import carom
 from carom.dimensionless.elastic.phases import TRANSITIONS, Kind
 from carom.dimensionless.states import KIND_NAMES
-from carom.quantities.causes import Cause
+from carom.quantities.statuses import Cause
 
 STICK, PLUS, MINUS = ("stick", 0), ("slip", 1), ("slip", -1)
 GROSS_PLUS, GROSS_MINUS = ("gross slip", 1), ("gross slip", -1)

@@ -45,7 +45,7 @@ def test_its_table_goes_into_a_fit(run):
         ("(2) frame_rate: missing; the track has frames", TRACK[:2]),
         ("x: no unit; give pixels_per_mm", ("track", str(DATA / "track_tracker.txt"))),
         ("gravity: 'moon' cannot be used", (*TRACK, "--gravity", "moon")),
-        ("must lie between 0.001 and 1e+09 Hz; check its unit", (*TRACK[:3], "1 THz")),
+        ("must be from 0.001 to 1e+09 Hz; check its unit", (*TRACK[:3], "1 THz")),
         ("plate_angle:", (*TRACK, "--plate-angle", "95 deg")),
         ("column: 'x' cannot be used", (*TRACK, "--column", "x")),
         ("track: 'nowhere.csv' cannot be read", ("track", "nowhere.csv")),

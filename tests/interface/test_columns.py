@@ -25,16 +25,6 @@ RADIANS = [math.pi / 6, math.pi / 4]
 SPINS = [-2 * math.pi, -4 * math.pi]
 
 
-@pytest.fixture
-def stored(tmp_path):
-    def store(content):
-        path = tmp_path / "table.csv"
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
-    return store
-
-
 def read(source):
     return in_units(read_table(source), KNOWN, gaps=GAPS)
 

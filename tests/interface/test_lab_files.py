@@ -211,16 +211,6 @@ FILES = {
 }
 
 
-@pytest.fixture
-def stored(tmp_path):
-    def store(content, name="lab.csv"):
-        path = tmp_path / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
-    return store
-
-
 def columns_of(content):
     return WORDS if b"Winkel" in content or content[:2] in (b"PK", b"\xff\xfe") else None
 

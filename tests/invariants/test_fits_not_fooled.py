@@ -23,13 +23,12 @@ def bodies(radius=2.5e-3, friction=0.3):
 KAPPA = bodies().kappa
 
 
-def exact(names, restitution=0.95, speed=SPEED):
+def exact(names, restitution=0.95, speed=SPEED, angles=ANGLES, friction=MU):
     """What `impact` gives, without noise."""
     losses = carom.KelvinVoigt(restitution=restitution)
-    speeds = np.broadcast_to(speed, ROWS)
     hits = [
-        carom.impact(bodies(friction=MU), speed=v, angle=a, losses=losses)
-        for v, a in zip(speeds, ANGLES, strict=True)
+        carom.impact(bodies(friction=friction), speed=v, angle=a, losses=losses)
+        for v, a in zip(np.broadcast_to(speed, len(angles)), angles, strict=True)
     ]
     return {name: np.array([getattr(hit, name) for hit in hits]) for name in names}
 
@@ -79,11 +78,8 @@ def test_intervals_hold_with_outliers_and_stated_errors(truth):
 @pytest.mark.slow
 def test_intervals_hold_with_heavy_tails(truth):
     random = np.random.default_rng(2)
-
-    def draw():
-        return random.standard_t(4, ROWS)
-
-    hold_the_truth([noisy(truth, random, draw) for _ in range(40)])
+    tables = [noisy(truth, random, lambda: random.standard_t(4, ROWS)) for _ in range(40)]
+    hold_the_truth(tables)
 
 
 @pytest.mark.slow
@@ -130,9 +126,7 @@ COLUMNS = ("normal_restitution", "tangential_restitution", "rebound_angle")
 @pytest.fixture(scope="module")
 def few():
     """Nine impacts of friction 0.14, without noise; none of them is near the normal."""
-    losses, pair = carom.KelvinVoigt(restitution=0.95), bodies(friction=0.14)
-    hits = [carom.impact(pair, speed=SPEED, angle=angle, losses=losses) for angle in FEW]
-    return {name: np.array([getattr(hit, name) for hit in hits]) for name in COLUMNS}
+    return exact(COLUMNS, angles=FEW, friction=0.14)
 
 
 def with_a_bad_value(few, seed):
@@ -321,7 +315,7 @@ SIDES = ("rebound_angle", "spin_out", "normal_restitution", "tangential_restitut
 
 @pytest.fixture(scope="module")
 def sides():
-    return {name: exact([name], restitution=0.9)[name] for name in SIDES}
+    return exact(SIDES, restitution=0.9)
 
 
 def seen_from(sides, seed, from_surface):
@@ -345,10 +339,9 @@ def about_angles(result):
 @pytest.mark.parametrize("seed", range(21, 24))
 def test_angles_from_the_surface_are_noticed_where_the_fit_is_good_and_wrong(seed):
     """Angles to a degree, spins to a tenth: a friction of 0.22 to 0.25 for 0.14, a good fit."""
-    losses, pair = carom.KelvinVoigt(restitution=0.9), bodies(friction=0.14)
     angles, random = np.radians(np.arange(10.0, 50.0, 3.0)), np.random.default_rng(seed)
-    hits = [carom.impact(pair, speed=SPEED, angle=angle, losses=losses) for angle in angles]
-    rebound, spin = (np.array([getattr(h, n) for h in hits]) for n in ("rebound_angle", "spin_out"))
+    sides = exact(("rebound_angle", "spin_out"), restitution=0.9, angles=angles, friction=0.14)
+    rebound, spin = sides.values()
     rebound = rebound + random.normal(0.0, 0.02, len(angles))
     spin = spin + random.normal(0.0, 0.1 * np.median(np.abs(spin)), len(angles))
     speeds = {"speed": np.full(len(angles), SPEED), "spin_out": spin}
@@ -383,17 +376,15 @@ def test_advice_halves_the_interval():
 
     studies/fit_advice.csv has 0.45 to 0.50 of 60 sets, with and without stated errors.
     """
-    losses, ratios = carom.KelvinVoigt(restitution=0.95), []
+    ratios = []
     for seed in range(5):
         random = np.random.default_rng([20261124, seed])
 
         def table(angles, random=random):
             data = {"angle": angles, "speed": np.full(len(angles), SPEED)}
-            pair = bodies(friction=MU)
-            hits = [carom.impact(pair, speed=SPEED, angle=a, losses=losses) for a in angles]
+            values = exact(SIGMA, angles=angles)
             for name, size in SIGMA.items():
-                values = np.array([getattr(hit, name) for hit in hits])
-                data[name] = values + size * random.normal(size=len(angles))
+                data[name] = values[name] + size * random.normal(size=len(angles))
                 data[f"{name}_error"] = np.full(len(angles), size)
             return data
 

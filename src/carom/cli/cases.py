@@ -3,7 +3,7 @@
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -26,15 +26,6 @@ def named_values(option: str, texts: list[str] | None, example: str) -> dict[str
             raise refusal(option, text, f"{name} is given twice; leave one of them out")
         values[name] = value
     return values
-
-
-class Output(NamedTuple):
-    """Files a case asks for."""
-
-    plot: str | None
-    animation: str | None
-    data: str | None
-    spectrum: str | None
 
 
 def merged(case: "Case", flags: Mapping[str, Any]) -> "Case":
@@ -86,12 +77,10 @@ def read_case_file(path: str, *, losses: bool = False, swept: bool = False) -> "
     return case
 
 
-def outputs(case: "Case") -> Output:
-    """Return the files that a case asks for."""
+def outputs(case: "Case") -> dict[str, str]:
+    """Return the files that a case asks for, by what they hold."""
     table = case.get("output", {})
-    for name, value in table.items():
-        checked_type(name, value, str, "must be the name of a file")
-    return Output(*(table.get(name) for name in Output._fields))
+    return {n: checked_type(n, v, str, "must be the name of a file") for n, v in table.items()}
 
 
 def check_outputs(outputs: Mapping[str, str | None], **inputs: str | Path | None) -> None:

@@ -1,6 +1,7 @@
 """`carom curve`: psi_2 and restitution against psi_1."""
 
 import json
+from math import nan
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -84,7 +85,8 @@ def curve_command(
         stored(carom.save(dataset, output))
     if plot is not None:
         stored(carom.plots.save_figure(carom.plots.plot_curve(dataset), plot))
-    typer.echo(json.dumps(_record(dataset), indent=2) if as_json else _table(dataset))
+    records = _records(dataset)
+    typer.echo(json.dumps(records, indent=2) if as_json else _table(records))
     restitutions = dataset["contact_restitution"]
     require_some(int(restitutions.count()), restitutions.size)
 
@@ -120,32 +122,27 @@ def _export(
     stored(target)
 
 
-def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:
+def _records(dataset: "xr.Dataset") -> list[dict[str, Any]]:
     rows = []
     for index, chi in enumerate(dataset["chi"].values):
         part = dataset.isel(chi=index)
-        regimes = {str(name): float(psi) for name, psi in _borders(part)}
+        borders = zip(part["regime_border"].values, part["border"].values, strict=True)
+        regimes = {str(name): float(psi) for name, psi in borders}
         columns = {name: list(map(or_none, part[name].values)) for name in COLUMNS}
         rows.append({"chi": float(chi), "borders": regimes, **columns})
     return rows
 
 
-def _borders(part: "xr.Dataset") -> list[tuple[str, float]]:
-    return list(zip(part["regime_border"].values, part["border"].values, strict=True))
-
-
-def _table(dataset: "xr.Dataset") -> str:
+def _table(records: list[dict[str, Any]]) -> str:
     lines = []
-    step = max(1, (dataset.sizes["psi_in"] - 1) // (PRINTED_ROWS - 1))
-    for index, chi in enumerate(dataset["chi"].values):
-        part = dataset.isel(chi=index)
-        lines.append(f"chi = {chi:g}")
-        for name, psi in _borders(part):
-            lines.append(f"  from psi_1 = {psi:<8.6g} {name}")
+    for each in records:
+        lines.append(f"chi = {each['chi']:g}")
+        lines += [f"  from psi_1 = {psi:<8.6g} {name}" for name, psi in each["borders"].items()]
         lines.append(f"  {'psi_1':>12s} {'psi_2':>14s} {'e contact':>12s} {'e centre*':>12s}")
-        rows = part.isel(psi_in=slice(None, None, step))
-        for row in zip(*(rows[name].values for name in COLUMNS), strict=True):
-            lines.append("  {:12.6g} {:14.9f} {:12.6f} {:12.6f}".format(*row))
+        step = max(1, (len(each["psi_in"]) - 1) // (PRINTED_ROWS - 1))
+        for row in [*zip(*(each[name] for name in COLUMNS), strict=True)][::step]:
+            numbers = (nan if number is None else number for number in row)
+            lines.append("  {:12.6g} {:14.9f} {:12.6f} {:12.6f}".format(*numbers))
     notes = (
         "e contact: tangential velocity of the contact point after the impact, over that before",
         "e centre*: the same of the centre of a solid sphere that strikes without spin",

@@ -11,8 +11,15 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
-from carom.cli.options import ARGUMENTS, described, file_argument, file_option, whole_option
-from carom.cli.tables import table_format_of
+from carom.cli.options import (
+    ARGUMENTS,
+    TABLE,
+    described,
+    file_argument,
+    file_option,
+    table_format_of,
+    whole_option,
+)
 from carom.quantities.refusals import Faults, InputError, refusal, refuse
 from carom.quantities.units import whole
 
@@ -42,6 +49,7 @@ OPTIONS = {
     "fix": "A parameter that you know, with its value, e.g. restitution=0.98. You can repeat this "
     "option.",
     "confidence": "Confidence level of the intervals.",
+    **TABLE,
     "squares": typer.Option("--squares", help="Use least squares, in which outliers count fully."),
     "template": typer.Option("--template", help="Print an empty table to fill in, and exit."),
     "advice": whole_option("Number of further measurements to plan: print their best angles."),
@@ -70,11 +78,6 @@ def fit_command(
     share: str | None = None,
     fix: list[str] | None = None,
     confidence: str = "0.95",
-    column: list[str] | None = None,
-    columns: str | None = None,
-    sheet: str | None = None,
-    decimal: str | None = None,
-    save_columns: str | None = None,
     squares: bool = False,
     template: bool = False,
     advice: str | None = None,
@@ -86,6 +89,7 @@ def fit_command(
     report: str | None = None,
     output: str | None = None,
     as_json: bool = False,
+    **given: Any,
 ) -> None:
     """Fit friction, stiffness and restitution to measured rebounds.
 
@@ -123,7 +127,7 @@ def fit_command(
     outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
     inputs = {**_numbered("data", sources), **_numbered("case", [*dict.fromkeys(cases)])}
     check_outputs(outputs, **inputs)
-    how = table_format_of(column, columns, sheet, decimal, save_columns)
+    how = table_format_of(given)
     options: dict[str, Any] = {
         "vary": None if vary is None else _names(vary),
         "fixed": named_values("fix", fix, "restitution=0.98"),
@@ -159,13 +163,11 @@ def _checked_numbers(
     from carom.fitting.advice import MOST_LISTED
     from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
 
-    if about is not None and advice is None:
-        raise refusal("for", about, "it has no effect without --advice; give that, too")
+    alone = about is not None and advice is None
+    refuse(alone and refusal("for", about, "it has no effect without --advice; give that, too"))
     count = None if advice is None else whole("advice", advice, 1, MOST_LISTED)
-    return count, (
-        whole("steps", steps, FEWEST_STEPS, MOST_STEPS),
-        whole("seed", seed, 0, MOST_SEED),
-    )
+    of_chain = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
+    return count, of_chain
 
 
 def _print(fit: "Fit | JointFit", advised: "Advice | None", as_json: bool) -> None:

@@ -1,22 +1,20 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 import carom
-from carom.cli.cases import Output, check_outputs, merged, outputs, stored, tell_sweep
+from carom.cli.cases import check_outputs, merged, outputs, stored, tell_sweep
 from carom.cli.options import described, file_argument, whole_option
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, one_of, refusal
 from carom.quantities.units import whole
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from carom.impacts.result import ImpactResult
 
 
@@ -26,7 +24,6 @@ def _flag(name: str, example: str, of: str = "") -> Any:
     return typer.Option(help=f"{meaning}, e.g. {example}{'' if unit == '1' else f' [{unit}]'}.")
 
 
-Text = str | None
 METHODS = ("exact", "halfspace")
 ANIMATION_FRAMES = 60  # of an animation
 CASE_KEYS = {  # of what options give, in a case file, where they have other names there
@@ -102,40 +99,13 @@ OPTIONS = {
 
 @described(OPTIONS)
 def impact_command(
-    context: typer.Context,
     case: str | None = None,
-    radius: Text = None,
-    material: Text = None,
-    gyration_radius: Text = None,
-    inner_radius: Text = None,
-    against: Text = None,
-    second_radius: Text = None,
-    second_material: Text = None,
-    thickness: Text = None,
-    width: Text = None,
-    friction: Text = None,
-    speed: Text = None,
-    angle: Text = None,
-    normal_speed: Text = None,
-    tangential_speed: Text = None,
-    spin: Text = None,
-    spin2: Text = None,
-    normal_spin: Text = None,
-    restitution: Text = None,
-    loss_time: Text = None,
-    relaxation_time: Text = None,
-    modulus_ratio: Text = None,
-    yield_velocity: Text = None,
-    flow_stress: Text = None,
+    normal_spin: str | None = None,
     method: str = "exact",
-    elements: Text = None,
-    steps: Text = None,
     as_json: bool = False,
     plot: str | None = None,
-    animate: Text = None,
-    output: Text = None,
-    spectrum: Text = None,
     peaks: bool = False,
+    **given: str | None,
 ) -> None:
     """Solve one oblique impact of two bodies.
 
@@ -160,65 +130,58 @@ def impact_command(
     from carom.bodies.cases import LOSSES, MOTION, RATIO, losses_of, motion_of, pair_of, read_case
 
     named = (*CASE_KEYS, "friction", *MOTION, *LOSSES, RATIO)
-    flags = {CASE_KEYS.get(name, name): context.params[name] for name in named}
+    options = {**given, "plot": plot}
+    flags = {CASE_KEYS.get(name, name): options[name] for name in named}
     content = merged(read_case(case, losses=True) if case is not None else {}, flags)
     tell_sweep(content)
     files = outputs(content)
     losses = losses_of(content)
-    check_outputs({"plot": files.plot, "output": files.data, "spectrum": files.spectrum})
-    if files.animation is not None:
-        carom.plots.checked_animation(files.animation)
-    solver: Any = _method(method, elements, steps)
+    written = {"plot": files.get("plot"), "output": files.get("data")}
+    check_outputs(written | {"spectrum": files.get("spectrum")})
+    if "animation" in files:
+        carom.plots.checked_animation(files["animation"])
+    solver = _method(method, {name: given[name] for name in ("elements", "steps")})
     motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
     hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
-    largest = _peaks(hit) if peaks else None
+    shown = _with_peaks(hit, as_json) if peaks else str(hit)
     paths = list(_store(hit, files))
-    typer.echo(_shown(hit, largest, as_json))
+    typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json and not peaks else shown)
     for path in paths:
         stored(path)
 
 
-def _peaks(hit: "ImpactResult") -> "xr.Dataset":
-    if not isinstance(hit, carom.results.Impact):
-        raise InputError(
-            "peaks: boundary elements give no stress below the surface; leave --method out"
-        )
-    return hit.peaks()
-
-
-def _shown(hit: "ImpactResult", peaks: "xr.Dataset | None", as_json: bool) -> str:
+def _with_peaks(hit: "ImpactResult", as_json: bool) -> str:
     from carom.impacts.peaks import peaks_record, peaks_text
 
+    if not isinstance(hit, carom.results.Impact):
+        words = "boundary elements give no stress below the surface; leave --method out"
+        raise InputError(f"peaks: {words}")
+    peaks = hit.peaks()
     if as_json:
-        more = {} if peaks is None else {"peaks": peaks_record(peaks)}
-        return json.dumps(hit.to_dict() | more, indent=2)
-    return str(hit) if peaks is None else f"{hit}\n{peaks_text(peaks)}"
+        return json.dumps(hit.to_dict() | {"peaks": peaks_record(peaks)}, indent=2)
+    return f"{hit}\n{peaks_text(peaks)}"
 
 
-def _method(name: str, elements: Text, steps: Text) -> Any:
-    one_of("method", name, METHODS)
-    texts = {"elements": elements, "steps": steps}
-    if elements is None and steps is None:
-        return name
+def _method(name: str, numbers: Mapping[str, str | None]) -> Any:
     from carom.impacts.boundary_elements import RANGES
 
-    counts = {
-        key: whole(key, text, *RANGES[key]) for key, text in texts.items() if text is not None
-    }
+    one_of("method", name, METHODS)
+    counts = {n: whole(n, text, *RANGES[n]) for n, text in numbers.items() if text is not None}
     if name != "halfspace":
-        key, value = next(iter(counts.items()))
-        raise refusal(key, value, "it is an option of boundary elements; add --method halfspace")
-    return carom.BoundaryElements(**counts)
+        for key, value in counts.items():
+            words = "it is an option of boundary elements; add --method halfspace"
+            raise refusal(key, value, words)
+    return carom.BoundaryElements(**counts) if counts else name
 
 
-def _store(hit: "ImpactResult", files: Output) -> Iterator[Path]:
-    if files.data is not None:
-        yield carom.save(hit, files.data)
-    if files.spectrum is not None:
-        yield carom.save(hit.spectrum(), files.spectrum)
-    if files.plot is not None:
-        hit.plot(files.plot)
-        yield Path(files.plot)
-    if files.animation is not None:
-        hit.animate(files.animation, ANIMATION_FRAMES)
-        yield Path(files.animation)
+def _store(hit: "ImpactResult", files: Mapping[str, str]) -> Iterator[Path]:
+    if "data" in files:
+        yield carom.save(hit, files["data"])
+    if "spectrum" in files:
+        yield carom.save(hit.spectrum(), files["spectrum"])
+    if "plot" in files:
+        hit.plot(files["plot"])
+        yield Path(files["plot"])
+    if "animation" in files:
+        hit.animate(files["animation"], ANIMATION_FRAMES)
+        yield Path(files["animation"])

@@ -2,12 +2,18 @@
 
 from collections import Counter
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, TypeVar
+from inspect import Parameter, Signature, signature
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, get_origin
 
 import typer
 from typer.core import TyperCommand, TyperOption
 
+from carom.cli.cases import named_values, stored
+from carom.io.paths import checked_output, replace_whole
 from carom.quantities.refusals import InputError
+
+if TYPE_CHECKING:
+    from carom.io.heads import TableFormat
 
 Command = TypeVar("Command", bound=Callable[..., None])
 
@@ -21,15 +27,22 @@ def file_option(words: str) -> Any:
 
 COMMON: dict[str, Any] = {
     "as_json": typer.Option("--json", help="Print JSON instead of a table."),
-    "column": "The quantity in a column of your table that has another name, e.g. omega=spin, or "
-    "'w=spin [rpm]' with its unit. You can repeat this option.",
+    "plot": "Store a figure of the result: .png, .pdf or .svg.",
+}
+TABLE: dict[str, Any] = {  # how a user's table is read
+    "column": Annotated[
+        list[str] | None,
+        typer.Option(
+            help="The quantity in a column of your table that has another name, e.g. omega=spin, "
+            "or 'w=spin [rpm]' with its unit. You can repeat this option."
+        ),
+    ],
     "columns": file_option(
         "TOML file that says it for many columns, in a table [columns], as --save-columns writes."
     ),
     "sheet": "The sheet of a spreadsheet; FILE:SHEET says it, too.",
     "decimal": "Decimal sign of the numbers in the file, ',' or '.', where they leave it open.",
     "save_columns": file_option("Store --column, --sheet and --decimal for --columns: .toml."),
-    "plot": "Store a figure of the result: .png, .pdf or .svg.",
 }
 
 
@@ -71,17 +84,46 @@ class Commands(typer.Typer):
 
 
 def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
-    """Return a decorator that gives the parameters of a command their help, or option of typer."""
+    """Return a decorator that gives the parameters of a command their help, or option of typer.
+
+    Help lists them in the order of the options. A command with `**given` gets those options there
+    that it does not name: texts, or None, unless they say another type.
+    """
 
     def decorate(command: Command) -> Command:
-        of_typer = {**COMMON, **options}
-        for name in of_typer.keys() & command.__annotations__.keys():
-            option = of_typer[name]
-            option = typer.Option(help=option) if isinstance(option, str) else option
-            command.__annotations__[name] = Annotated[command.__annotations__[name], option]
+        own = dict(signature(command).parameters)
+        if own.pop("given", None):
+            text = Parameter("given", Parameter.KEYWORD_ONLY, default=None, annotation=str | None)
+            own |= {name: text for name in options if name not in own}
+        told = ((n, option) for n, option in {**options, **COMMON, **options}.items() if n in own)
+        shown = [_with_help(own.pop(name).replace(name=name), option) for name, option in told]
+        command.__signature__ = Signature([*own.values(), *shown])  # type: ignore[attr-defined]
         return command
 
     return decorate
+
+
+def table_format_of(given: Mapping[str, Any], example: str = "omega=spin_out") -> "TableFormat":
+    """Return how a table is to be read by the options `TABLE`; it is stored if asked for."""
+    from carom.io.heads import as_toml, table_format
+
+    stored_as = given["save_columns"]
+    target = None if stored_as is None else checked_output(stored_as, (".toml",))
+    own = table_format(given["columns"], given["sheet"], given["decimal"])
+    names = named_values("column", given["column"], example)
+    how = own._replace(columns={**own.columns, **names})
+    if target is not None:
+        text = as_toml(how)
+        replace_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
+        stored(target)
+    return how
+
+
+def _with_help(parameter: Parameter, option: Any) -> Parameter:
+    if get_origin(option) is not Annotated:
+        told = typer.Option(help=option) if isinstance(option, str) else option
+        option = Annotated[parameter.annotation, told]
+    return parameter.replace(kind=Parameter.KEYWORD_ONLY, annotation=option)
 
 
 def file_argument(words: str) -> Any:

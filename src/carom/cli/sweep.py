@@ -11,8 +11,7 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, outputs, read_case_file, require_some, stored, tell
-from carom.cli.options import described, file_argument, whole_option
-from carom.cli.tables import table_format_of
+from carom.cli.options import TABLE, described, file_argument, table_format_of, whole_option
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
 from carom.quantities.refusals import refusal
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
 
 OPTIONS = {
     "case": file_argument("Case file with a table [sweep], which says what to vary."),
+    **TABLE,
     "store": "Store the results in a Zarr folder while they are computed, e.g. sweep.zarr.",
     "resume": typer.Option("--resume", help="Continue the sweep in --store, or begin it."),
     "quantities": "Quantities to compute, separated by commas, e.g. 'rebound_angle, "
@@ -41,11 +41,6 @@ OPTIONS = {
 @described(OPTIONS)
 def sweep_command(
     case: str,
-    column: list[str] | None = None,
-    columns: str | None = None,
-    sheet: str | None = None,
-    decimal: str | None = None,
-    save_columns: str | None = None,
     store: str | None = None,
     resume: bool = False,
     quantities: str | None = None,
@@ -54,6 +49,7 @@ def sweep_command(
     workers: str | None = None,
     as_json: bool = False,
     progress: bool | None = None,
+    **given: Any,
 ) -> None:
     """Solve many impacts: a grid, a Latin hypercube or a table.
 
@@ -74,7 +70,7 @@ def sweep_command(
     content = read_case_file(case, losses=True, swept=True)
     file = _file(content) if output is None else output
     check_outputs({"output": file})
-    table = table_format_of(column, columns, sheet, decimal, save_columns, "omega=spin")
+    table = table_format_of(given, "omega=spin")
     design, chosen = plan(content, Path(case), table)
     if quantities is not None:
         chosen = [name.strip() for name in quantities.split(",")]
@@ -99,9 +95,10 @@ def _file(content: "Case") -> str | None:
     """Return the file that the case asks for; figures and spectra are of one impact."""
     files = outputs(content)
     for name, verb in (("plot", "draws"), ("animation", "draws"), ("spectrum", "computes")):
-        if (path := getattr(files, name)) is not None:
-            raise refusal(name, path, f"carom sweep {verb} none, carom impact does; leave it out")
-    return files.data
+        if name in files:
+            words = f"carom sweep {verb} none, carom impact does; leave it out"
+            raise refusal(name, files[name], words)
+    return files.get("data")
 
 
 @contextmanager

@@ -1,13 +1,13 @@
 """`carom track`: the motion before and after an impact from the positions of a video."""
 
 import json
+from typing import Any
 
 import typer
 
 import carom
 from carom.cli.cases import check_outputs, stored
-from carom.cli.options import described, file_argument
-from carom.cli.tables import table_format_of
+from carom.cli.options import TABLE, described, file_argument, table_format_of
 
 OPTIONS = {
     "data": file_argument(
@@ -22,6 +22,7 @@ OPTIONS = {
     "y_down": typer.Option(
         "--y-down/--y-up", help="Whether y is counted downwards (default: as the ball flies)."
     ),
+    **TABLE,
     "output": "Store the motions as a table for carom fit: .csv or .nc.",
 }
 
@@ -29,20 +30,12 @@ OPTIONS = {
 @described(OPTIONS)
 def track_command(
     data: list[str],
-    frame_rate: str | None = None,
-    pixels_per_mm: str | None = None,
-    pixels_per_diameter: str | None = None,
-    radius: str | None = None,
     plate_angle: str = "0 deg",
     gravity: str = "9.80665 m/s^2",
     y_down: bool | None = None,
-    column: list[str] | None = None,
-    columns: str | None = None,
-    sheet: str | None = None,
-    decimal: str | None = None,
-    save_columns: str | None = None,
     output: str | None = None,
     as_json: bool = False,
+    **given: Any,
 ) -> None:
     """Find speeds and spins before and after an impact from positions in a video.
 
@@ -57,18 +50,9 @@ def track_command(
     Many impacts: carom track 10deg.csv 20deg.csv 30deg.csv --frame-rate 1000 --pixels-per-mm 12
     """
     check_outputs({"output": output}, **{f"track {i}": each for i, each in enumerate(data)})
-    how = table_format_of(column, columns, sheet, decimal, save_columns, "'ball x=x [px]'")
-    motions = carom.track(
-        data,
-        frame_rate=frame_rate,
-        pixels_per_mm=pixels_per_mm,
-        pixels_per_diameter=pixels_per_diameter,
-        radius=radius,
-        plate_angle=plate_angle,
-        gravity=gravity,
-        y_down=y_down,
-        **how._asdict(),
-    )
+    how = table_format_of(given, "'ball x=x [px]'")._asdict()
+    how |= {name: value for name, value in given.items() if name not in TABLE}
+    motions = carom.track(data, plate_angle=plate_angle, gravity=gravity, y_down=y_down, **how)
     if output is not None:
         stored(carom.save(motions, output))
     from carom.fitting.tracks import as_records, as_text

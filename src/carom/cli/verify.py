@@ -9,8 +9,15 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, read_case_file, store, stored
-from carom.cli.options import Commands, described, file_argument, file_option, whole_option
-from carom.cli.tables import table_format_of
+from carom.cli.options import (
+    TABLE,
+    Commands,
+    described,
+    file_argument,
+    file_option,
+    table_format_of,
+    whole_option,
+)
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
 from carom.quantities.units import finite, positive, whole
@@ -238,6 +245,7 @@ SCORE_OPTIONS = {
     "contact is damped (default: that of the case, or 1).",
     "tolerance": "Largest |error in psi_2| that passes, and the limit of every finding of the "
     "audit; tuned laws of DEM codes reach 0.05 at best.",
+    **TABLE,
     "code": "Name of the program, for the report and the figure, e.g. LAMMPS.",
     "law": "Name of its contact law, for the report and the figure, e.g. mindlin.",
     "output": "Store the score: .csv or .nc.",
@@ -249,19 +257,11 @@ SCORE_OPTIONS = {
 def score_command(
     results: str,
     case: str | None = None,
-    chi: str | None = None,
-    restitution: str | None = None,
     tolerance: str = "0.01",
-    column: list[str] | None = None,
-    columns: str | None = None,
-    sheet: str | None = None,
-    decimal: str | None = None,
-    save_columns: str | None = None,
-    code: str | None = None,
-    law: str | None = None,
     plot: str | None = None,
     output: str | None = None,
     as_json: bool = False,
+    **given: Any,
 ) -> None:
     """Score your own results against the exact impact.
 
@@ -287,16 +287,10 @@ def score_command(
     A damped contact: carom verify score rebounds.csv --chi 1.44 --restitution 0.9
     """
     check_outputs({"plot": plot, "output": output}, results=results, case=case)
-    score = carom.verify.score(
-        results,
-        case=None if case is None else read_case_file(case, losses=True),
-        chi=chi,
-        restitution=restitution,
-        tolerance=tolerance,
-        **table_format_of(column, columns, sheet, decimal, save_columns)._asdict(),
-        code=code,
-        law=law,
-    )
+    content = None if case is None else read_case_file(case, losses=True)
+    how = table_format_of(given)._asdict()
+    how |= {name: value for name, value in given.items() if name not in TABLE}
+    score = carom.verify.score(results, case=content, tolerance=tolerance, **how)
     store(score, output, plot)
     typer.echo(json.dumps(score.to_dict(), indent=2) if as_json else str(score))
     if not score.passed:

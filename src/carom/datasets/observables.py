@@ -104,9 +104,7 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
     array([-533.6, -551.5])
     """
     checked_pair(pair, plates=True)
-    checked_type(
-        "known", known, Mapping, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}"
-    )
+    checked_type("known", known, Mapping, "must be values by name, e.g. {'speed': 2, 'angle': 0.5}")
     quantities = {name: _values(name, value) for name, value in known.items()}
     along_the_same(**{str(name): value for name, value in known.items()})
     _check_name("wanted", wanted)
@@ -114,8 +112,8 @@ def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: s
     shape = together(quantities)
     with np.errstate(all="ignore"):
         result = np.asarray(getattr(_rebound(pair, quantities, wanted), wanted))
-    large = np.isinf(result).any()
-    refuse(large and "known: the results are too large for floating point; check the units")
+    large = "known: the results are too large for floating point; check the units"
+    refuse(np.isinf(result).any() and large)
     return np.broadcast_to(result, shape).copy() if shape else result.item()
 
 

@@ -22,9 +22,9 @@ from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.rebounds import LINEAR_PSI, STEP_TOLERANCE, is_elastic
 from carom.dimensionless.states import ContactState, History, Phase, SlipAngle, Trajectory
-from carom.quantities.causes import Cause
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
+from carom.quantities.statuses import Cause
 from carom.quantities.units import pure_number
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(48)  # in time, over a phase

@@ -24,7 +24,7 @@ from carom.quantities.units import factor_of
 KINDS = {
     **dict.fromkeys(BEFORE, "before the impact"),
     "surface_angle": "before the impact",
-    **dict.fromkeys((*OBSERVABLES, *FROM_SURFACE, *UNSIGNED), "after the impact"),
+    **dict.fromkeys((*OBSERVABLES, *FROM_SURFACE, UNSIGNED), "after the impact"),
     DURATION: "after the impact",
     **dict.fromkeys(BOUNCES, "drop and rebound"),
     THICKNESS: "the plate",

@@ -106,7 +106,7 @@ def _fitted(file: Path, name: str, view: View | None, how: TableFormat) -> dict[
         raise refusal("file", f"{len(table)} rows", allowed)
     if table.case is None and (view is None or view.in_numbers):
         with Faults() as faults:  # what no bodies make right is said before they are asked for
-            there = {*read_measurements(table, faults)[0].columns}
+            there = {*read_measurements(table.told(faults))[0].columns}
         if not there & {*OBSERVABLES} or not there & {*INCIDENCE, "normal_speed"}:
             read_problem(table, View().pair)
         return {"asks": "bodies", "name": name, "message": BODIES_ASKED.format(name=name)}

@@ -40,7 +40,7 @@ def _long(name: str) -> str:
     return ends.get(match[1], f"rebound_height_{match[1]}") + (match[2] or "")
 
 
-def parted(table: UserTable, faults: Faults) -> tuple[UserTable, Mapping[str, Array]]:
+def parted(table: UserTable) -> tuple[UserTable, Mapping[str, Array]]:
     """Return the table without the columns of later bounces, and these in SI units."""
     short = {name: _long(name) for name in table.names}
     if {"drop_height", "rebound_height"} <= {*short.values()} - {*table.names}:
@@ -49,14 +49,14 @@ def parted(table: UserTable, faults: Faults) -> tuple[UserTable, Mapping[str, Ar
     for name in filter(NUMBERED.fullmatch, table.names):
         first, whole = base(name), name.removesuffix(ERROR)
         if whole not in table.names:
-            faults.add(f"{name}: its column {whole!r} is missing")
+            table.faults.add(f"{name}: its column {whole!r} is missing")
             continue
         both = {first.removesuffix(ERROR): table.cells[whole], first: table.cells[name]}
         try:
-            alone = replace(table, cells=both)
+            alone = replace(table, cells=both, faults=Faults())
             later[name] = in_units(alone, (first,), gaps=AFTERWARDS, whole=True)[first]
         except InputError as fault:
-            faults.add(str(fault).replace(first, name))
+            table.faults.add(str(fault).replace(first, name))
     kept = {name: cells for name, cells in table.cells.items() if not NUMBERED.fullmatch(name)}
     return replace(table, cells=kept), later
 
@@ -90,7 +90,7 @@ def with_speeds(rows: UserTable, later: Mapping[str, Array]) -> tuple[UserTable,
     if not first and not series:
         return _down_the_rows(rows, speeds, errors)
     if not ways:  # a drop height with another quantity after
-        own = {**rows.columns, BEFORE: speeds[:, 0], **_straight(len(rows))}
+        own = {**rows.columns, BEFORE: speeds[:, 0], "tangential_speed": np.zeros(len(rows))}
         if np.isfinite(errors).any():
             own[BEFORE + ERROR] = errors[:, 0]
         return replace(rows, columns=own), []
@@ -159,10 +159,6 @@ def _speeds(columns: Mapping[str, Array], names: Iterable[str]) -> tuple[Array, 
     return np.stack(speeds, axis=-1), np.stack(errors, axis=-1)
 
 
-def _straight(count: int) -> dict[str, Array]:
-    return {"tangential_speed": np.zeros(count)}
-
-
 def _down_the_rows(rows: UserTable, speeds: Array, errors: Array) -> tuple[UserTable, list[str]]:
     """Return one row for each bounce whose intervals before and after stand in successive rows."""
     two, both = (np.hstack([each[:-1], each[1:]]) for each in (speeds, errors))
@@ -194,7 +190,8 @@ def _unfolded(rows: UserTable, way: str, speeds: Array, errors: Array) -> UserTa
     lost = np.isfinite(after) & ~np.isfinite(before)
     if count > 1 and lost.any():
         rows.faults.add(f"{way}: one is missing before a later one in {whole.named(lost)}")
-    columns = {**whole.columns, BEFORE: before, AFTER: after, **_straight(len(before))}
+    moving = {BEFORE: before, AFTER: after, "tangential_speed": np.zeros(len(before))}
+    columns = {**whole.columns, **moving}
     if np.isfinite(errors[:, :-1]).any():
         columns[BEFORE + ERROR] = np.nan_to_num(errors[:, :-1]).ravel()
     if np.isfinite(errors[:, 1:]).any():

@@ -33,7 +33,8 @@ def budget(best: Best) -> Budget:
     if best.weights.across is not None:
         whole = np.ones((1, len(best.model.free)))
         return Budget(best.model.problem.responses, best.model.free, whole)
-    slope = _slope_of_root(best)
+    r = np.where(np.abs(best.residuals) > NEAR_ZERO, best.residuals, NEAR_ZERO)
+    slope = best.loss.influence(r) / best.loss.root(r)  # of the root, least for outliers
     gain = best.information.slopes @ best.information.covariance
     names, squares = [], []
     for name, errors in _errors_by_column(best):
@@ -45,12 +46,6 @@ def budget(best: Best) -> Budget:
         squares.append(np.square(best.elsewhere @ best.information.covariance).sum(axis=0))
     parts = np.reshape(squares, (len(names), len(best.model.free)))
     return Budget(tuple(names), best.model.free, parts / parts.sum(axis=0))
-
-
-def _slope_of_root(best: Best) -> Array:
-    """Return by how much the root of the loss rises with each residual; least for outliers."""
-    r = np.where(np.abs(best.residuals) > NEAR_ZERO, best.residuals, NEAR_ZERO)
-    return np.asarray(best.loss.influence(r) / best.loss.root(r))
 
 
 def _errors_by_column(best: Best) -> Iterator[tuple[str, Array]]:

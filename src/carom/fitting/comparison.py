@@ -223,12 +223,9 @@ class FitRecord:
         They come from Fisher's information at the best values; that of friction and kappa is
         `correlations["friction"]["kappa"]`.
         """
-        best = self._best
-        names = [name for name in best.model.free if self.estimates[name].determined]
-        places = [best.model.free.index(name) for name in names]
-        rows = best.information.correlations[np.ix_(places, places)].tolist()
-        named = (dict(zip(names, row, strict=True)) for row in rows)
-        return dict(zip(names, named, strict=True))
+        free, matrix = self._best.model.free, self._best.information.correlations.tolist()
+        told = {name: i for i, name in enumerate(free) if self.estimates[name].determined}
+        return {one: {other: matrix[i][j] for other, j in told.items()} for one, i in told.items()}
 
     @property
     def pair(self) -> Pair:
@@ -284,7 +281,10 @@ class LossFit(Standing):
 
 @dataclass(frozen=True, eq=False)
 class LossComparison:
-    """Standings of laws of losses by Akaike's criterion: speeds, measured restitutions, errors."""
+    """Standings of laws of losses by Akaike's criterion: speeds, measured restitutions, errors.
+
+    Outliers are among them; of several responses the first counts.
+    """
 
     standings: tuple[LossFit, ...]
     speeds: Array
@@ -357,8 +357,10 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
         law = profile.best.model.law
         parameter = estimate_of(profile, law.names[0])
         standings.append(LossFit(law.name, excess[place], weights[place], profile.best, parameter))
-    measured, errors = _restitutions(problem, standings[0]._best)
-    return LossComparison(tuple(standings), problem.motion.normal_speed, measured, errors)
+    speeds, best = problem.motion.normal_speed, standings[0]._best
+    scale = 1.0 / speeds if problem.responses[0] == "normal_speed_out" else 1.0
+    errors = scale * best.sigma[:, 0] * best.scale[0]
+    return LossComparison(tuple(standings), speeds, scale * problem.measured[:, 0], errors)
 
 
 def _normal(problem: FitProblem) -> FitProblem | None:
@@ -373,10 +375,3 @@ def _normal(problem: FitProblem) -> FitProblem | None:
     names = tuple(problem.responses[place] for place in places)
     measured, errors = problem.measured[:, places], problem.errors[:, places]
     return replace(problem, responses=names, measured=measured, errors=errors)
-
-
-def _restitutions(problem: FitProblem, best: Best) -> tuple[Array, Array]:
-    """Return measured restitutions, outliers too, and their errors; the first response counts."""
-    is_speed = problem.responses[0] == "normal_speed_out"
-    scale = 1.0 / problem.motion.normal_speed if is_speed else 1.0
-    return scale * problem.measured[:, 0], scale * best.sigma[:, 0] * best.scale[0]

@@ -13,12 +13,9 @@ from carom.quantities.prefixes import shared
 from carom.quantities.shown import Printed
 from carom.quantities.units import or_none
 
-LIMITS = defaultdict(  # what a parameter can be at all
-    lambda: (0.0, inf),
-    restitution=(0.0, 1.0),
-    tangential_restitution=(-1.0, 1.0),
-    spin_offset=(-inf, inf),
-)
+LIMITS: dict[str, tuple[float, float]] = defaultdict(lambda: (0.0, inf))  # what is possible at all
+LIMITS |= {"restitution": (0.0, 1.0), "tangential_restitution": (-1.0, 1.0)}
+LIMITS["spin_offset"] = (-inf, inf)
 
 
 @dataclass(frozen=True)

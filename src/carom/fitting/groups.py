@@ -126,8 +126,7 @@ def _means(
 
 def _assumed(problem: FitProblem) -> list[str]:
     """Return what is assumed of a motion before that has no errors."""
-    moving = [name for name, values in problem.before.items() if np.any(values)]
-    exact = [name for name in moving if name not in problem.before_errors]
+    exact = problem.exact
     missing = f"as there is no {' and '.join(f'{name}{ERROR}' for name in exact)}"
     if not problem.before_errors:
         words = f"errors of the means come from the scatter between the groups, {missing}"

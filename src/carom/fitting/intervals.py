@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from scipy.special import ndtri, stdtrit
@@ -78,7 +77,7 @@ def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Arr
     variance = covariance[place]
     directions = covariance / variance[:, np.newaxis]  # how the others follow, to first order
     width = np.minimum(np.sqrt(rises) * np.sqrt(variance), ((high - low) / FIRST)[which])
-    brackets = _Brackets(*(np.full(2 * count, end) for end in (0.0, np.inf, 0.0, np.inf)))
+    inner, outer = np.zeros((2, 2 * count)), np.full((2, 2 * count), np.inf)
     at = np.tile(best.at, (2 * count, 1))
     ends, done, rise = at.copy(), np.zeros(2 * count, dtype=bool), np.zeros(2 * count)
     better = None
@@ -97,38 +96,25 @@ def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Arr
         done |= (np.abs(root - 1.0) < CLOSE) | ((root < 1.0) & (target == limits))
         if done.all():
             break
-        brackets = brackets.narrowed(np.abs(target - own), root)
-        width = brackets.next_distance()
+        met = np.abs(target - own), root
+        inner, outer = np.where(root < 1.0, met, inner), np.where(root < 1.0, outer, met)
+        width = _next_distance(inner, outer)
     opened = (ends[place] == limits) & (rise < 1.0 - CLOSE)
     return ProfiledFit(best, ends.reshape(-1, 2, count), opened.reshape(-1, 2)), better
 
 
-class _Brackets(NamedTuple):
-    """Distances from the fit between which the loss rises enough, and the roots of the rises."""
+def _next_distance(inner: Array, outer: Array) -> Array:
+    """Return the next distance from the fit to try: a secant in a bracket, or farther out.
 
-    inside: Array
-    outside: Array
-    root_in: Array
-    root_out: Array
-
-    def narrowed(self, distance: Array, root: Array) -> "_Brackets":
-        """Return the brackets with one end moved to a distance where the root is known."""
-        within = root < 1.0
-        return _Brackets(
-            np.where(within, distance, self.inside),
-            np.where(within, self.outside, distance),
-            np.where(within, root, self.root_in),
-            np.where(within, self.root_out, root),
-        )
-
-    def next_distance(self) -> Array:
-        """Return the next distance to try: a secant in a bracket, or farther out."""
-        with np.errstate(invalid="ignore", divide="ignore"):
-            bracket = self.outside - self.inside
-            part = np.clip((1.0 - self.root_in) / (self.root_out - self.root_in), 0.05, 0.95)
-            secant = self.inside + np.where(np.isfinite(bracket), bracket * part, 0.0)
-            farther = self.inside * np.clip(1.02 / np.maximum(self.root_in, 1e-9), 1.05, 3.0)
-        return np.where(np.isfinite(self.outside), secant, farther)
+    Each end of a bracket is a distance and the root of the rise of the loss there.
+    """
+    (inside, root_in), (outside, root_out) = inner, outer
+    with np.errstate(invalid="ignore", divide="ignore"):
+        bracket = outside - inside
+        part = np.clip((1.0 - root_in) / (root_out - root_in), 0.05, 0.95)
+        secant = inside + np.where(np.isfinite(bracket), bracket * part, 0.0)
+        farther = inside * np.clip(1.02 / np.maximum(root_in, 1e-9), 1.05, 3.0)
+    return np.asarray(np.where(np.isfinite(outside), secant, farther))
 
 
 @dataclass(frozen=True, eq=False)

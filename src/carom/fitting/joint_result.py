@@ -275,14 +275,10 @@ def named_sets(data: Mapping[str, Any] | Sequence[Any]) -> dict[str, Any]:
     else:
         several = isinstance(data, Sequence) and not isinstance(data, str | bytes)
         refuse(not several and "data: give several sets, e.g. ['steel.csv', 'brass.csv']")
-        files = [each if isinstance(each, str | Path) else None for each in data]
-        short = [None if each is None else Path(each).name for each in files]
-        whole = len({*filter(None, short)}) < sum(each is not None for each in short)
-        names = [
-            f"set {place}" if file is None else str(file if whole else Path(file).name)
-            for place, file in enumerate(files, 1)
-        ]
-        sets = dict(zip(names, data, strict=True))
+        files = {i: Path(each) for i, each in enumerate(data, 1) if isinstance(each, str | Path)}
+        whole = len({path.name for path in files.values()}) < len(files)
+        names = {i: str(path if whole else path.name) for i, path in files.items()}
+        sets = {names.get(i, f"set {i}"): each for i, each in enumerate(data, 1)}
         refuse(len(sets) < len(data) and "data: one file is given twice; leave it out")
     refuse(len(sets) < 2 and "data: one set alone; give several, or use carom.fit")
     return sets

@@ -1,6 +1,5 @@
 """Parabolas through positions before and after an impact, and the motion where they meet."""
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -79,13 +78,8 @@ def at_impact(motion: Motion, tilt: float) -> tuple[Array, Array, float]:
         away, onwards = normal[:, 1] - fallen * cosine, along[:, 1] - fallen * sine
         return np.array([-away[0], onwards[0], away[1], onwards[1]]), time
 
-    slopes = _slopes(lambda numbers: of(numbers)[0], motion.numbers)
     values, time = of(motion.numbers)
+    into = 1e-30j * np.eye(len(motion.numbers))  # the complex plane: no digit is lost in slopes
+    slopes = np.stack([of(motion.numbers + step)[0].imag for step in into], axis=-1) / 1e-30
     errors = np.sqrt(np.einsum("ij,jk,ik->i", slopes, motion.covariance, slopes))
     return values, errors, float(time)
-
-
-def _slopes(function: Callable[[Any], Any], at: Array) -> Array:
-    """Return the derivatives of a function, by steps into the complex plane."""
-    step = 1e-30
-    return np.stack([function(at + 1j * step * unit).imag for unit in np.eye(len(at))], -1) / step

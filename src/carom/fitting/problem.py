@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
-from typing import NamedTuple
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammaln
 
+from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import convert_observables
 from carom.fitting.plates import THICKNESS
@@ -89,14 +90,15 @@ class FitProblem:
         return bool(np.all(np.isfinite(self.errors) | ~self.present))
 
     @property
+    def exact(self) -> list[str]:
+        """What is taken as exact of the motion before: columns without errors that are not zero."""
+        moving = [name for name, values in self.before.items() if np.any(values)]
+        return [name for name in moving if name not in self.before_errors]
+
+    @property
     def has_speeds(self) -> bool:
         """Whether speeds are known, not only ratios of them."""
         return bool({"speed", "normal_speed"} & set(self.before))
-
-    @property
-    def scales_with_speed(self) -> tuple[bool, ...]:
-        """Which responses are speeds or spins."""
-        return tuple(GLOSSARY[name].unit in ("m/s", "rad/s") for name in self.responses)
 
     @property
     def is_normal(self) -> bool:
@@ -122,24 +124,19 @@ class FitProblem:
     @cached_property
     def contact_velocity(self) -> Array:
         """Tangential velocity of the contact point before."""
-        _, whole, spin, spin2, _ = self.motion
-        radius2 = self.pair.moving[1].radius if len(self.pair.moving) > 1 else 0.0
-        return whole + self.pair.first.radius * spin + radius2 * spin2
-
-    @cached_property
-    def sizes(self) -> Array:
-        """What each response is of the order of: 1, the speed, or the spin that rolls with it."""
-        speed = float(np.median(np.hypot(*self.motion[:2])))
-        units = {"rad/s": speed / self.pair.first.radius, "m/s": speed}
-        units["s"] = float(self.pair.scales(speed).time)
-        return np.array([units.get(GLOSSARY[name].unit, 1.0) for name in self.responses])
+        along: Any = Tangential(*self.motion[1:4])  # type: ignore[arg-type]
+        return np.asarray(along.contact_velocity(self.pair))
 
     @cached_property
     def least_errors(self) -> Array:
         """The errors of the interpolated curves, by response."""
+        speed = float(np.median(np.hypot(*self.motion[:2])))  # of whose order a response is
+        units = {"rad/s": speed / self.pair.first.radius, "m/s": speed}
+        units["s"] = float(self.pair.scales(speed).time)
+        usual = np.array([units.get(GLOSSARY[name].unit, 1.0) for name in self.responses])
         sizes = np.abs(self.measured)
         largest = np.minimum(np.nanmax(sizes, axis=0), LARGER * np.nanmedian(sizes, axis=0))
-        return np.asarray(RESOLVED * np.maximum(largest, NEARLY_ZERO * self.sizes))
+        return np.asarray(RESOLVED * np.maximum(largest, NEARLY_ZERO * usual))
 
     def moved(self, changes: Mapping[str, Array]) -> IncomingMotion:
         """Return the motion before with some of its columns changed by so much."""
@@ -230,12 +227,6 @@ def gaussian_mean(values: Array) -> float:
     return float((values * NORMAL_DENSITY).sum() / NORMAL_DENSITY.sum())
 
 
-@cache
-def normal_influence(loss: RobustLoss) -> float:
-    """Return the mean of r psi(r) over a standard normal distribution."""
-    return gaussian_mean(NORMAL * loss.influence(NORMAL))
-
-
 @dataclass(frozen=True, eq=False)
 class Weights:
     """What makes residuals independent and of unit variance: inverse Cholesky factors by row.
@@ -317,7 +308,7 @@ def scattered(
     sigma, least = np.ones((len(shares), *problem.present.shape)), problem.least_errors
     for place, there in enumerate(problem.present.T):
         sizes = expected[there, place] ** 2 / max(np.median(expected[there, place] ** 2), 1e-300)
-        parts = shares * problem.scales_with_speed[place]
+        parts = shares * (GLOSSARY[problem.responses[place]].unit in ("m/s", "rad/s"))
         shapes = np.sqrt(1.0 - parts + parts * sizes)
         scales = _scales(deviations[there, place] / shapes, used[place], loss)
         sigma[:, there, place] = np.maximum(scales[:, np.newaxis] * shapes, least[place])
@@ -347,7 +338,7 @@ def scatter(residuals: Array, present: Mask, used: Array, loss: RobustLoss) -> A
 def _scales(residuals: Array, used: float, loss: RobustLoss) -> Array:
     """Return the scales of residuals along the last axis: mean r psi(r) as normal ones have it."""
     kept = max(1.0 - used / residuals.shape[-1], 0.05)
-    wanted = kept * normal_influence(loss)
+    wanted = kept * gaussian_mean(NORMAL * loss.influence(NORMAL))
     factor = np.sqrt(np.mean(residuals**2, axis=-1))
     for _ in range(50):
         scaled = residuals / np.maximum(factor, 1e-300)[..., np.newaxis]

@@ -39,9 +39,9 @@ NEARLY = 0.1  # of a spin: so far outside of what friction allows it may be by s
 ROUNDING = 1e-9  # rad
 START_FRICTION = 0.3  # of bodies of which none is known
 FROM_SURFACE = {"surface_angle": "angle", "surface_angle_out": "rebound_angle"}
-UNSIGNED = {"spin_out_magnitude": "spin_out"}
+UNSIGNED, SIGNED = "spin_out_magnitude", "spin_out"
 NEVER_MISSING = ("surface_angle", "drop_height")
-RECORDED = (*FROM_SURFACE, *UNSIGNED, *bounces.BOUNCES)  # what is read as something else
+RECORDED = (*FROM_SURFACE, UNSIGNED, *bounces.BOUNCES)  # what is read as something else
 NO_BODIES = (
     "pair: missing, and the data do not name the bodies; give pair=carom.Pair(...) in Python or "
     "--case FILE in a shell, or write the bodies as JSON into a comment '# case: {...}' of the file"
@@ -75,23 +75,23 @@ def case_of_data(data: Any, how: TableFormat) -> Mapping[str, Any]:
 def read_problem(table: UserTable, pair: Pair | None) -> FitProblem:
     """Return what was measured, or raise InputError for all that cannot be used."""
     with Faults() as faults:
-        return _problem(table, pair, faults)
+        return _problem(table.told(faults), pair)
 
 
 def read_measurements(
-    table: UserTable, faults: Faults | None = None, more: Sequence[str] = ()
+    table: UserTable, more: Sequence[str] = ()
 ) -> tuple[UserTable, tuple[str, ...], list[str]]:
     """Return measurements in SI units, columns that mean nothing here, what is to be said of all.
 
     `more` are names of columns that are read as well.
     """
-    names, faults = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more)), faults or Faults()
-    table, later = bounces.parted(table.told(faults), faults)
-    ignored = tuple(n for n in others(table, (*names, GROUP), faults) if n != TRACK)
+    names = with_errors((*BEFORE, *OBSERVABLES, *RECORDED, *more))
+    table, later = bounces.parted(table)
+    ignored = tuple(n for n in others(table, (*names, GROUP)) if n != TRACK)
     gaps = (*OBSERVABLES, *RECORDED, DURATION)
     may_miss = [name for name in gaps if name not in NEVER_MISSING]
     is_series = bool(later) or bounces.INTERVAL in table.names  # where an empty row parts two drops
-    rows = in_units(table, names, may_miss, faults, whole=is_series)
+    rows = in_units(table, names, may_miss, whole=is_series)
     rows, remarks = bounces.with_speeds(_from_normal(rows), later)
     return _with_magnitudes(rows), ignored, remarks
 
@@ -117,15 +117,16 @@ def _from_normal(rows: UserTable) -> UserTable:
 def _with_magnitudes(rows: UserTable) -> UserTable:
     """Return the columns with magnitudes of spins where there is none with a sign."""
     columns = dict(rows.columns)
-    for name, whole in UNSIGNED.items():
-        for end in (e for e in ("", ERROR) if name in columns and name + e in columns):
-            own = columns[name + end]
-            signed = columns.get(whole + end, np.nan * own)
-            columns[whole + end] = np.where(np.isnan(signed), own, signed)
-            if not end:
-                rows.refuse(name, own < 0.0, f"a magnitude is not negative; call it {whole}")
-                both = np.isfinite(signed) & np.isfinite(own)
-                rows.refuse(name, both, f"{whole} is there, too; leave one of them out")
+    if UNSIGNED not in columns:
+        return rows
+    signed = columns.get(SIGNED, np.full(len(rows), np.nan))
+    both = np.isfinite(signed) & np.isfinite(rows[UNSIGNED])
+    rows.refuse(UNSIGNED, rows[UNSIGNED] < 0.0, f"a magnitude is not negative; call it {SIGNED}")
+    rows.refuse(UNSIGNED, both, f"{SIGNED} is there, too; leave one of them out")
+    for end in (end for end in ("", ERROR) if UNSIGNED + end in columns):
+        own = columns[UNSIGNED + end]
+        signed = columns.get(SIGNED + end, np.nan * own)
+        columns[SIGNED + end] = np.where(np.isnan(signed), own, signed)
     return replace(rows, columns=columns)
 
 
@@ -136,37 +137,33 @@ def with_signs(problem: FitProblem) -> tuple[FitProblem, list[str]]:
     spin afterwards lies between omega and omega - 2 m_t V_x R/I. Adds to the faults the rows in
     which both signs are possible, or neither is nearer.
     """
-    remarks, rows, pair = [], problem.rows, problem.pair
-    for name, whole in UNSIGNED.items():
-        if name not in rows.columns or whole not in problem.responses:
-            continue
-        own, ball = np.isfinite(rows[name]), pair.first
-        size, spin = np.where(own, rows[name], 0.0), problem.motion.spin
-        turned = 2.0 * pair.tangential_mass * problem.contact_velocity * ball.radius / inertia(ball)
-        ends = spin, spin - turned
-        low, high = np.minimum(*ends), np.maximum(*ends)
-        up, down = (np.maximum(0.0, np.maximum(low - s, s - high)) for s in (size, -size))
-        near = np.maximum(up, down) <= NEARLY * size
-        unsure = own & (size > 0.0) & (near | (up == down))
-        rows.refuse(name, unsure, f"both signs are possible there; give {whole} with its sign")
-        signs = np.where(up < down, 1.0, -1.0)
-        column = np.where(own, signs * size, rows[whole])
-        measured = problem.measured.copy()
-        measured[:, problem.responses.index(whole)] = column
-        rows = replace(rows, columns={**rows.columns, whole: column})
-        problem = replace(problem, measured=measured, rows=rows)
-        there = own & (size > 0.0)
-        remarks += [
-            f"{name}: {word} in {rows.named(there & which)}, as friction opposes the slide"
-            for word, which in (("negative", signs < 0.0), ("positive", signs > 0.0))
-            if np.any(there & which)
-        ]
-    return problem, remarks
+    rows, pair, ball = problem.rows, problem.pair, problem.pair.first
+    if UNSIGNED not in rows.columns or SIGNED not in problem.responses:
+        return problem, []
+    own, spin = np.isfinite(rows[UNSIGNED]), problem.motion.spin
+    size = np.where(own, rows[UNSIGNED], 0.0)
+    turned = 2.0 * pair.tangential_mass * problem.contact_velocity * ball.radius / inertia(ball)
+    low, high = np.minimum(spin, spin - turned), np.maximum(spin, spin - turned)
+    up, down = (np.maximum(0.0, np.maximum(low - s, s - high)) for s in (size, -size))
+    near, there = np.maximum(up, down) <= NEARLY * size, own & (size > 0.0)
+    unsure = there & (near | (up == down))
+    rows.refuse(UNSIGNED, unsure, f"both signs are possible there; give {SIGNED} with its sign")
+    signs = np.where(up < down, 1.0, -1.0)
+    column = np.where(own, signs * size, rows[SIGNED])
+    measured = problem.measured.copy()
+    measured[:, problem.responses.index(SIGNED)] = column
+    rows = replace(rows, columns={**rows.columns, SIGNED: column})
+    remarks = [
+        f"{UNSIGNED}: {word} in {rows.named(there & which)}, as friction opposes the slide"
+        for word, which in (("negative", signs < 0.0), ("positive", signs > 0.0))
+        if np.any(there & which)
+    ]
+    return replace(problem, measured=measured, rows=rows), remarks
 
 
-def _problem(table: UserTable, pair: Pair | None, faults: Faults) -> FitProblem:
-    of_plates = _columns_of_plates(pair, table)
-    rows, ignored, remarks = read_measurements(table, faults, of_plates)
+def _problem(table: UserTable, pair: Pair | None) -> FitProblem:
+    of_plates, faults = _columns_of_plates(pair, table), table.faults
+    rows, ignored, remarks = read_measurements(table, of_plates)
     possible = (*OBSERVABLES, *of_plates[1:])
     measured = tuple(name for name in possible if name in rows.columns)
     responses = tuple(name for name in measured if np.isfinite(rows[name]).any())

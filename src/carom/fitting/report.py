@@ -20,20 +20,13 @@ from carom.fitting.reading import FROM_SURFACE, UNSIGNED
 from carom.fitting.repeats import about_repeats
 from carom.fitting.restrictions import ELASTIC_KAPPA, elastic_bounds
 from carom.io.remedies import REMEDIES
+from carom.io.user_table import AFTERWARDS
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
 
 ANGLES = ("angle", "contact_angle", "rebound_angle", "contact_rebound_angle")
 SPINS = ("spin", "spin2", "spin_out")
-TWINS = {  # what is taken for each other: before and after
-    "speed": "rebound_speed",
-    "normal_speed": "normal_speed_out",
-    "tangential_speed": "tangential_speed_out",
-    "angle": "rebound_angle",
-    "contact_angle": "contact_rebound_angle",
-    "spin": "spin_out",
-}
 NAMES = {  # and responses: of the centre, of the contact point, its negative
     "contact_restitution": ("tangential_restitution", "contact_beta"),
     "contact_beta": ("contact_restitution",),
@@ -69,13 +62,7 @@ def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]
     if not likely:
         return []
     _, words, unit = min(likely)
-    _refuse_without_unit(problem, unit, words)
-    return [words]
-
-
-def _refuse_without_unit(problem: FitProblem, unit: str, words: str) -> None:
-    """Raise InputError if spins of a file, without a unit, fit in this one instead of rad/s."""
-    columns = ((n, c) for n, c in problem.rows.cells.items() if n in (*SPINS, *UNSIGNED))
+    columns = ((n, c) for n, c in problem.rows.cells.items() if n in (*SPINS, UNSIGNED))
     bare = {each.head: name for name, each in columns if each.letter and not str(each.unit)}
     if unit and bare:
         asked = f"{next(iter(bare.values()))}: no unit; {words}"
@@ -83,6 +70,7 @@ def _refuse_without_unit(problem: FitProblem, unit: str, words: str) -> None:
             remedy = REMEDIES.get().columns({head: f"{bare[head]} [{own}]" for head in bare})
             asked += f"; if they are in {own}, {remedy}"
         raise InputError(asked)
+    return [words]
 
 
 def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
@@ -172,7 +160,7 @@ def _scaled(words: str, problem: FitProblem, names: tuple[str, ...], factor: flo
 
 def _swapped(problem: FitProblem) -> Iterator[Trial]:
     """Yield the trial with columns before and after exchanged, if these have no gaps."""
-    pairs = {a: b for a, b in TWINS.items() if a in problem.before and b in problem.responses}
+    pairs = {a: b for a, b in AFTERWARDS.items() if a in problem.before and b in problem.responses}
     places = {b: problem.responses.index(b) for b in pairs.values()}
     after = {a: problem.measured[:, places[b]] for a, b in pairs.items()}
     speeds = [after[name] for name in ("speed", "normal_speed") if name in after]
@@ -239,7 +227,11 @@ def as_text(fit: FitRecord) -> str:
         f"{problem.trials} row{'s' * (problem.trials != 1)}; "
         f"in brackets {100.0 * fit.confidence:g} % intervals by profile likelihood"
     )
-    lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
+    lines = [head]
+    for name, each in fit.estimates.items():
+        elastic = each.determined and not isnan(each.elastic)
+        beside = f"; the elastic constants give {each.elastic:.3g}" if elastic else ""
+        lines.append(f"  {name:{COLUMN}s} {each}{beside}")
     tells = [*summary(fit), *(f"note: {note}" for note in fit.notes)]
     return "\n".join([*lines, *tells, *([] if problem.is_normal else [str(fit.comparison)])])
 
@@ -251,13 +243,6 @@ def summary(fit: FitRecord) -> list[str]:
     regimes = "; ".join(f"{count} {name}" for name, count in fit.regimes.items() if count)
     by_regime = [] if fit._best.model.problem.is_normal else [f"rows by regime: {regimes}"]
     return [*([f"correlations: {pairs}"] if pairs else []), *by_regime]
-
-
-def _line(estimate: Estimate) -> str:
-    """Return an estimate, with what the bodies give beside it."""
-    if not estimate.determined or isnan(estimate.elastic):
-        return str(estimate)
-    return f"{estimate}; the elastic constants give {estimate.elastic:.3g}"
 
 
 def notes(fit: ProfiledFit, settled: Settled, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:

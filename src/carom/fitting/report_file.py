@@ -150,10 +150,8 @@ def _column(
 def _neglected(fit: FitRecord) -> Iterator[tuple[str, str, str]]:
     """Yield the assumptions that the fit makes, judged for the slowest and the fastest."""
     problem = fit._best.model.problem
-    moving = [name for name, values in problem.before.items() if np.any(values)]
-    exact = [name for name in moving if name not in problem.before_errors]
-    if exact:
-        missing = ", ".join(f"{name}{ERROR}" for name in exact)
+    if problem.exact:
+        missing = ", ".join(f"{name}{ERROR}" for name in problem.exact)
         yield "errors before the impact", f"{missing}: none, taken as zero", VERDICTS[None]
     air = [note.partition(": ")[2] for note in fit.notes if note.startswith("air: ")]
     yield "air", "; ".join(air) or AIR, VERDICTS[None]
@@ -172,8 +170,8 @@ def _findings(fit: FitRecord) -> list[Finding]:
     for row in (int(np.argmax(normal)), int(np.argmin(normal))):
         speeds = {"normal_speed": float(normal[row]), "tangential_speed": float(along[row])}
         for finding in impact(fit.pair, **speeds).validity.findings:  # type: ignore[call-overload]
-            if worst.setdefault(finding.name, finding).holds:
-                worst[finding.name] = finding if not finding.holds else worst[finding.name]
+            if worst.setdefault(finding.name, finding).holds and not finding.holds:
+                worst[finding.name] = finding
     return [*worst.values()]
 
 

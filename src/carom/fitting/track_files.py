@@ -43,7 +43,7 @@ def read_track(source: Any, how: TableFormat, rate: float | None, scale: float |
     table = read_table(source, **how._asdict(), what="track", lenient=True)
     refuse(len(table) > MOST_FRAMES and f"track: it has more than {MOST_FRAMES} frames; cut it")
     with Faults() as faults:
-        return _frames(_with_points(table.told(faults), faults), rate, scale, faults)
+        return _frames(_with_points(table.told(faults)), rate, scale)
 
 
 def _flat(frame: Any) -> Any:
@@ -54,7 +54,7 @@ def _flat(frame: Any) -> Any:
     return flat.reset_index(drop=True)
 
 
-def _with_points(table: UserTable, faults: Faults) -> UserTable:
+def _with_points(table: UserTable) -> UserTable:
     """Return the table with the names of columns that programs which track call otherwise."""
     points, clocks = _points(table), [n for n in table.names if n.endswith(CLOCKS)]
     new = dict(CALLED) | dict.fromkeys(clocks[:1], "time")
@@ -63,7 +63,8 @@ def _with_points(table: UserTable, faults: Faults) -> UserTable:
         ends = {"x": "x", "y": "y", "likelihood": "score", "score": "score"}
         new |= {f"{p}.{end}": mark + name for p in own[:1] for end, name in ends.items()}
     if len({tuple(map(str, table.cells[name].cells)) for name in clocks}) > 1:
-        faults.add(f"time: {' and '.join(clocks)} differ; give all points of a time in one row")
+        words = "differ; give all points of a time in one row"
+        table.faults.add(f"time: {' and '.join(clocks)} {words}")
     new = {old: name for old, name in new.items() if name not in table.names}
     return replace(table, cells={new.get(old, old): each for old, each in table.cells.items()})
 
@@ -74,11 +75,13 @@ def _points(table: UserTable) -> list[str]:
     return list(dict.fromkeys(point for point, _, end in parts if point and end in ("x", "y")))
 
 
-def _frames(table: UserTable, rate: float | None, scale: float | None, faults: Faults) -> Frames:
+def _frames(table: UserTable, rate: float | None, scale: float | None) -> Frames:
     """Return the frames that show the ball, and add to the faults what cannot be used."""
+    faults = table.faults
     clock = "time" if "time" in table.cells else "frame"
     units = {clock: "s" if clock == "time" else "1", **UNITS}
-    faults.add(*_about_scale(table, scale), *_missing(table, rate, scale))
+    _check_scale(table, scale)
+    _check_columns(table, rate, scale)
     read: dict[str, Array] = {}
     for name in filter(table.cells.__contains__, units):
         column, size, si = table.cells[name], 1.0, units[name]
@@ -105,9 +108,8 @@ def _frames(table: UserTable, rate: float | None, scale: float | None, faults: F
     return Frames(time[seen], x[seen], y[seen], mark[seen], table.notes)
 
 
-def _missing(table: UserTable, rate: float | None, scale: float | None) -> list[str]:
-    """Return what is wrong where positions, times or the frame rate are missing."""
-    faults = []
+def _check_columns(table: UserTable, rate: float | None, scale: float | None) -> None:
+    """Add to the faults that positions, times or the frame rate are missing."""
     if not {"x", "y"} <= {*table.cells}:
         there = ", ".join(heading(column.head) for column in table.cells.values())
         listed = f"column missing; the columns are {there}"
@@ -118,23 +120,24 @@ def _missing(table: UserTable, rate: float | None, scale: float | None) -> list[
         named = zip(columns, POSITIONS, bare, strict=False)
         heads = {column.head: name + unit for column, name, unit in named}
         remedy = REMEDIES.get().columns(heads or {"HEAD": "x"})
-        faults.append(f"x: {listed}; {say}: {remedy}")
+        table.faults.add(f"x: {listed}; {say}: {remedy}")
     if not {"time", "frame"} & {*table.cells}:
-        faults.append("time: column missing; give time, or frame with the frame rate")
+        table.faults.add("time: column missing; give time, or frame with the frame rate")
     elif "time" not in table.cells and rate is None:
-        faults.append("frame_rate: missing; the track has frames, give e.g. '1000 Hz'")
-    return faults
+        table.faults.add("frame_rate: missing; the track has frames, give e.g. '1000 Hz'")
 
 
-def _about_scale(table: UserTable, scale: float | None) -> list[str]:
-    """Return what is wrong with the scale of positions that need one, or must have none."""
+def _check_scale(table: UserTable, scale: float | None) -> None:
+    """Add to the faults a scale of positions that need none, or its lack."""
     units = {n: str(table.cells[n].unit).lower() for n in POSITIONS if n in table.cells}
     for name, unit in units.items():
         if scale is not None and unit not in ("", *PIXELS):
-            return [f"{name}: it is in {unit}; leave the scale of pixels out"]
+            table.faults.add(f"{name}: it is in {unit}; leave the scale of pixels out")
+            return
         if scale is None and (unit in PIXELS or (table.is_of_file and not unit)):
             heads = {table.cells[n].head: f"{n} [m]" for n in units if not units[n]}
             remedy = REMEDIES.get().columns(heads)
             lengths = "" if unit else f"; if it is a length, {remedy}, with its unit"
-            return [f"{name}: no unit; give pixels_per_mm or pixels_per_diameter{lengths}"]
-    return []
+            say = f"no unit; give pixels_per_mm or pixels_per_diameter{lengths}"
+            table.faults.add(f"{name}: {say}")
+            return

@@ -18,12 +18,11 @@ from carom.impacts.validity import GRAVITY
 from carom.io.heads import table_format
 from carom.io.labels import labelled_dataset
 from carom.io.user_table import ERROR
-from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import Faults, InputError, flag, refusal, refuse
-from carom.quantities.units import Value, finite, or_none, positive
+from carom.quantities.units import Value, finite, or_none, positive, within
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -111,11 +110,10 @@ def track(
     steepest = finite("plate_angle", plate_angle)
     refuse(abs(steepest) >= 0.5 * np.pi and refusal("plate_angle", plate_angle, "below 90 deg"))
     is_fitted = isinstance(gravity, str) and gravity == FITTED
-    downwards = None if is_fitted else _within("gravity", finite("gravity", gravity), GRAVITIES)
+    downwards = None if is_fitted else within("gravity", gravity, *GRAVITIES)
     down = None if y_down is None else flag("y_down", y_down)
     scale = _metres_per_pixel(pixels_per_mm, pixels_per_diameter, radius)
-    read = None if frame_rate is None else positive("frame_rate", frame_rate)
-    rate = None if read is None else _within("frame_rate", read, RATES)
+    rate = None if frame_rate is None else within("frame_rate", frame_rate, *RATES)
     how = table_format(columns, sheet, decimal)
     names = [str(e if isinstance(e, str | Path) else i) for i, e in enumerate(sources)]
     found = []
@@ -127,24 +125,17 @@ def track(
     return _dataset(names, found)
 
 
-def _within(name: str, value: float, ends: tuple[float, float]) -> float:
-    low, high = ends
-    span = f"must lie between {low:g} and {high:g} {GLOSSARY[name].unit}; check its unit"
-    refuse(not low <= value <= high and refusal(name, value, span))
-    return value
-
-
 def _metres_per_pixel(
     per_mm: Value | None, per_diameter: Value | None, radius: Value | None
 ) -> float | None:
     both = per_mm is not None and per_diameter is not None
     refuse(both and "pixels_per_mm: it gives the same as pixels_per_diameter; leave one out")
     if per_mm is not None:
-        return 1e-3 / _within("pixels_per_mm", positive("pixels_per_mm", per_mm), SCALES)
+        return 1e-3 / within("pixels_per_mm", per_mm, *SCALES)
     if per_diameter is None:
         return None
     refuse(radius is None and "radius: missing; pixels_per_diameter needs it, e.g. '5 mm'")
-    pixels = _within("pixels_per_diameter", positive("pixels_per_diameter", per_diameter), SCALES)
+    pixels = within("pixels_per_diameter", per_diameter, *SCALES)
     return 2.0 * positive("radius", radius) / pixels
 
 
@@ -164,7 +155,11 @@ def _measured(
     sign = min(motions, key=lambda each: motions[each].squares)
     motion, upright = motions[sign], frames._replace(y=sign * frames.y)
     values, errors, instant = at_impact(motion, tilt)
-    _check_instant(frames.time, motion.split, motion.origin + instant)
+    struck, (before, after) = motion.origin + instant, frames.time[motion.split - 1 :][:2].tolist()
+    seen = f"meet at {struck:.6g} s, but part between {before:.6g} and {after:.6g} s"
+    cure = "leave out frames in contact and wrong positions, or check gravity, the scale and the "
+    fault = f"track: the paths before and after {seen}; {cure}frame rate"
+    refuse(abs(struck - 0.5 * (before + after)) > after - before and fault)
     forwards = -1.0 if values[1] < 0.0 else 1.0
     values[[1, 3]] *= forwards
     row = dict(zip(SPEEDS, values.tolist(), strict=True))
@@ -173,22 +168,12 @@ def _measured(
     row |= {name: forwards * value for name, (value, _) in spins.items()}
     row |= {name + ERROR: error for name, (_, error) in spins.items()}
     about = {
-        "time": motion.origin + instant,
+        "time": struck,
         "frames": [motion.split, len(frames.time) - motion.split],
         "position_error": float(np.sqrt(motion.squares / motion.freedom)),
         "notes": [*frames.notes, *_doubts(upright, motion, gravity), *notes],
     }
     return row, about
-
-
-def _check_instant(time: Array, split: int, instant: float) -> None:
-    """Raise InputError if the paths do not meet between the frames at which they part."""
-    before, after = float(time[split - 1]), float(time[split])
-    room = 0.5 * (after - before)
-    seen = f"meet at {instant:.6g} s, but part between {before:.6g} and {after:.6g} s"
-    cure = "leave out frames in contact and wrong positions, or check gravity, the scale and the "
-    fault = f"track: the paths before and after {seen}; {cure}frame rate"
-    refuse(not before - room <= instant <= after + room and fault)
 
 
 def _spins(

@@ -13,7 +13,7 @@ from carom.halfspace.compliance import Materials
 from carom.halfspace.motion import LedgerEntry, entry
 from carom.halfspace.quasistatic import ContactStep, Patch
 from carom.halfspace.transforms import Field, Mirrors
-from carom.quantities.causes import Cause, cause_between
+from carom.quantities.statuses import Cause, cause_between
 
 LEAST_SHARE = 0.3  # of the last but one refinement: errors of both signs may hide in the last
 MOST_TO_COME = 3.0  # refinements of the last kind, if they do not get smaller

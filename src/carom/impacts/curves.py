@@ -14,7 +14,7 @@ from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
 from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
-from carom.quantities.arrays import Array, finite_line, positive_line
+from carom.quantities.arrays import POSITIVES, Array, finite_line
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 
@@ -122,7 +122,7 @@ def curve(
 
 def _axes(chi: Any, psi_1: Any) -> tuple[Array, Array]:
     """Return the values along both axes, or raise InputError; also if the points are too many."""
-    chis, incoming = positive_line("chi", chi), finite_line("psi_1", psi_1)
+    chis, incoming = finite_line("chi", chi, POSITIVES, above=0.0), finite_line("psi_1", psi_1)
     if chis.size * incoming.size > MOST_POINTS:
         points = f"{chis.size} values of chi times {incoming.size} of psi_1"
         raise refusal("psi_1", points, f"at most {MOST_POINTS:,} points are solved at once")

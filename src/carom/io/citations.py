@@ -46,8 +46,4 @@ def with_doi(doi: str) -> str:
 def _entries() -> dict[str, str]:
     text = (files("carom") / "data" / "citations.bib").read_text(encoding="utf-8")
     entries = re.split(r"(?m)^(?=@)", text.replace("VERSION", __version__))[1:]
-    return {_key(entry): entry.rstrip() + "\n" for entry in entries}
-
-
-def _key(entry: str) -> str:
-    return entry[entry.index("{") + 1 : entry.index(",")]
+    return {each[each.index("{") + 1 : each.index(",")]: each.rstrip() + "\n" for each in entries}

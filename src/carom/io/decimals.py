@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from carom.io.remedies import REMEDIES
-from carom.quantities.arrays import plain_numbers
+from carom.quantities.arrays import Array, plain_numbers
 from carom.quantities.texts import BLANKS, LONGEST_TEXT, SIGN
 
 POINT, COMMA = ".", ","
@@ -48,34 +48,29 @@ class Cells:
     count: int = 0
 
     def add(self, cells: Sequence[Any]) -> None:
-        """Append cells of a spreadsheet, numbers and texts."""
-        texts = [cell for cell in cells if isinstance(cell, str)]
-        if len(texts) == len(cells):
-            self.add_texts(texts)
-            return
-        numbers = not texts and all(type(cell) in (int, float) for cell in cells)
-        self._look(cells)
-        self._append(np.array(cells, dtype=np.float64) if numbers else list(cells))
-
-    def add_texts(self, texts: Sequence[str]) -> None:
-        """Append cells of a file of texts."""
-        numbers = plain_numbers(texts)
-        if numbers is not None:
-            if POINT not in self.sure and POINT in "".join(texts):
-                self._look(texts[:LOOKED_AT])
-                if not {POINT} & {*self.sure, *self.unsure}:
-                    self._look(texts)
+        """Append cells of a file: texts, or numbers and texts of a spreadsheet."""
+        kinds, numbers = {*map(type, cells)}, None
+        if kinds <= {str}:
+            numbers = self._of_texts(cells)
         else:
-            whole = "".join(texts)
+            self._look(cells)
+            numbers = np.array(cells, dtype=np.float64) if kinds <= {int, float} else None
+        self.parts.append(list(cells) if numbers is None else numbers)
+        self.count += len(cells)
+
+    def _of_texts(self, texts: Sequence[str]) -> Array | None:
+        """Return texts that are plain numbers, with points or with commas, as an array."""
+        numbers, whole = plain_numbers(texts), "".join(texts)
+        if numbers is None:
             if COMMA not in self.sure or POINT in whole:
                 self._look(texts)
             if COMMA in whole and POINT not in whole and self.decimal != POINT:
                 numbers = plain_numbers([text.replace(COMMA, POINT) for text in texts])
-        self._append(list(texts) if numbers is None else numbers)
-
-    def _append(self, cells: Any) -> None:
-        self.parts.append(cells)
-        self.count += len(cells)
+        elif POINT not in self.sure and POINT in whole:
+            self._look(texts[:LOOKED_AT])
+            if POINT not in self.sure | self.unsure:
+                self._look(texts)
+        return numbers
 
     def _look(self, cells: Sequence[Any]) -> None:
         for place, cell in enumerate(cells, self.count):
@@ -96,13 +91,11 @@ class Cells:
             return np.concatenate(self.parts)
         parts = (part if isinstance(part, list) else part.tolist() for part in self.parts)
         cells = [cell for part in parts for cell in part]
-        if sign == POINT:
-            return cells
-        return [_with_point(cell) if isinstance(cell, str) else cell for cell in cells]
+        return cells if sign == POINT else [*map(_with_point, cells)]
 
 
-def _with_point(cell: str) -> str:
-    match = NUMBER.fullmatch(cell) if len(cell) <= LONGEST_TEXT else None
+def _with_point(cell: Any) -> Any:
+    match = NUMBER.fullmatch(cell) if isinstance(cell, str) and len(cell) <= LONGEST_TEXT else None
     if match is None or match[2].count(COMMA) != 1:
         return cell
     return match[1] + match[2].replace(COMMA, POINT) + match[3]

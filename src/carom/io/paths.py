@@ -168,7 +168,8 @@ def _replace(real: Path, write: Callable[[Path], object], ending: str) -> None:
     temporary = Path(name)
     try:
         write(temporary)
-        temporary.chmod(real.stat().st_mode if real.exists() else 0o666 & ~_umask())
+        os.umask(mask := os.umask(0))  # the only way to learn it
+        temporary.chmod(real.stat().st_mode if real.exists() else 0o666 & ~mask)
         temporary.replace(real)
     finally:
         temporary.unlink(missing_ok=True)
@@ -178,13 +179,10 @@ def _pour(source: Path, target: Path) -> None:
     """Write the content of a file into a stream, behind what this process has printed."""
     with suppress(AttributeError, ValueError):  # there is none, or it is closed
         sys.stdout.flush()
-    with source.open("rb") as content, _opened(target) as stream:
-        shutil.copyfileobj(content, stream)
-
-
-def _opened(target: Path) -> Any:
     descriptor = _descriptor(target)  # which, opened by its name, is written from its start
-    return opened(target, "wb") if descriptor is None else open(os.dup(descriptor), "wb")
+    there = opened(target, "wb") if descriptor is None else os.fdopen(os.dup(descriptor), "wb")
+    with source.open("rb") as content, there as stream:
+        shutil.copyfileobj(content, stream)
 
 
 def _descriptor(target: Path) -> int | None:
@@ -202,9 +200,3 @@ def _descriptor(target: Path) -> int | None:
 
 def _reason(error: OSError) -> str:
     return error.strerror or str(error)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -69,29 +69,19 @@ def advancing(
         allowed = "must be True, False, or a function of the finished and the total number"
         raise refusal("progress", progress, allowed)
     where = place(progress)
-    return nullcontext(_unseen) if where is Place.NOWHERE else _showing(where, work)
+    return nullcontext(work.advance) if where is Place.NOWHERE else _showing(where, work)
 
 
 def place(progress: bool | None) -> Place:
     """Return where a bar is shown; by default only on a terminal or in a notebook."""
     if progress is False:
         return Place.NOWHERE
-    if _in_notebook():
+    ipython = sys.modules.get("IPython")  # which is not imported for it
+    if hasattr(ipython and ipython.get_ipython(), "kernel"):
         return Place.NOTEBOOK
     if sys.stderr is not None and sys.stderr.isatty():
         return Place.TEXT if os.environ.get("TERM") == "dumb" else Place.TERMINAL
     return Place.TEXT if progress else Place.NOWHERE
-
-
-def _in_notebook() -> bool:
-    """Tell whether this runs in a Jupyter kernel; IPython is not imported for it."""
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython is not None else None
-    return hasattr(shell, "kernel")
-
-
-def _unseen(_: int) -> None:
-    pass
 
 
 def _tell(listener: Listener, work: _Work, more: int) -> None:
@@ -103,7 +93,7 @@ def _tell(listener: Listener, work: _Work, more: int) -> None:
 def _showing(where: Place, work: _Work) -> Iterator[Advance]:
     """Let a thread show the work, so that work of few steps is seen, too."""
     if not _shown.acquire(blocking=False):
-        yield _unseen
+        yield work.advance
         return
     over = Event()
     painter = Thread(target=_paint, args=(where, work, over), daemon=True)

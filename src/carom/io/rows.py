@@ -59,14 +59,6 @@ class Rows:
         """Return what one row is called, e.g. "line 3"."""
         return named(self.word, self.rows[index : index + 1])
 
-    def cells_named(self, letter: str, where: Mask) -> str:
-        """Return the cells of a column, e.g. "cells B3 and B4"; rows if no file has letters."""
-        if not letter:
-            return self.named(where)
-        if len(where) > 1 and where.all():
-            return f"every {self.word} of column {letter}"
-        return named("cell", [f"{letter}{row}" for row in self.rows[where]])
-
 
 def named(word: str, rows: Iterable[object], total: int = 0) -> str:
     """Return rows, or cells, in words, of so many in total.

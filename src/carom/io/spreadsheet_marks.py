@@ -1,10 +1,11 @@
 """Cells of a spreadsheet that have no value: errors, formulas without results, merged ones.
 
-The reader of values gives these as blank, as what was not measured, and hidden rows as others.
+The reader of values gives these as blank, as what was not measured, and what is hidden as the rest.
 """
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import reduce
 from posixpath import join
 from typing import IO, Any, NamedTuple
@@ -30,13 +31,15 @@ class Mark(NamedTuple):
     text: str
 
 
-class Marks(NamedTuple):
-    """The marks of a sheet, how far it extends, and its hidden rows, counted from 1."""
+@dataclass
+class Marks:
+    """The marks of a sheet, how far it extends, and its hidden rows and columns, from 0 on."""
 
-    marks: list[Mark]
-    height: int
-    width: int
-    hidden: list[int]
+    marks: list[Mark] = field(default_factory=list)
+    height: int = 0
+    width: int = 0
+    hidden_rows: list[range] = field(default_factory=list)
+    hidden_columns: list[range] = field(default_factory=list)
 
     def put(self, values: list[list[Any]]) -> list[list[Any]]:
         """Return rows of values with the marks; cells merged with that of a number say so."""
@@ -88,44 +91,49 @@ def _column(cell: Element, place: int) -> int:
 
 
 def _of_xlsx(file: IO[bytes]) -> Marks:
-    marks, hidden, height, width = list[Mark](), list[int](), 0, 0
+    sheet = Marks()
     for _, element in iterparse(file):
+        is_hidden = element.get("hidden") in ("1", "true")
         if _kind(element) == "mergeCell":
             first, _, last = element.get("ref", "").partition(":")
             (top, left), (bottom, right) = _place(first), _place(last or first)
-            marks.append(Mark(top, left, bottom - top + 1, right - left + 1, ""))
+            sheet.marks.append(Mark(top, left, bottom - top + 1, right - left + 1, ""))
+        if _kind(element) == "col" and is_hidden:
+            columns = range(int(element.attrib["min"]) - 1, int(element.attrib["max"]))
+            sheet.hidden_columns.append(columns)
         if _kind(element) != "row":
             continue
-        height = int(element.get("r", height + 1))
-        hidden += [height] if element.get("hidden") in ("1", "true") else []
+        sheet.height = int(element.get("r", sheet.height + 1))
+        row = sheet.height - 1
+        sheet.hidden_rows += [range(row, row + 1)] * is_hidden
         for place, cell in enumerate(element):
             is_formula = len(cell) and _kind(cell[0]) == "f"
             text = cell.get("t") == "e" and cell.findtext("{*}v")
             if is_formula and not cell.findtext("{*}v") and cell.get("t") != "str":  # of texts ""
-                text = _no_result(f"={cell[0].text or ''}")
+                text = NO_RESULT.format(f"={cell[0].text or ''}"[:LONGEST_FORMULA])
             if text:
-                marks.append(Mark(height - 1, _column(cell, place), 1, 1, text))
+                sheet.marks.append(Mark(row, _column(cell, place), 1, 1, text))
         if len(element):
-            width = max(width, _column(element[-1], len(element) - 1) + 1)
+            sheet.width = max(sheet.width, _column(element[-1], len(element) - 1) + 1)
         element.clear()
-    return Marks(marks, height, width, hidden)
-
-
-def _no_result(formula: str) -> str:
-    return NO_RESULT.format(formula[:LONGEST_FORMULA])
+    return sheet
 
 
 def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
-    marks, hidden, row, height, width = list[Mark](), list[int](), 0, 0, 0
+    sheet, row, seen = Marks(), 0, 0
     for _, element in iterparse(file):
         own = _by_name(element)
+        is_hidden = own.get("visibility", "visible") != "visible"
         if _kind(element) == "table":
-            yield own["name"], Marks(marks, height, width, hidden)
-            marks, hidden, row, height, width = [], [], 0, 0, 0
+            yield own["name"], sheet
+            sheet, row, seen = Marks(), 0, 0
+        if _kind(element) == "table-column":
+            first, seen = seen, seen + int(own.get("number-columns-repeated", 1))
+            sheet.hidden_columns += [range(first, seen)] * is_hidden
         if _kind(element) != "table-row":
             continue
         column, rows = 0, int(own.get("number-rows-repeated", 1))
-        is_hidden = own.get("visibility", "visible") != "visible"
+        sheet.hidden_rows += [range(row, row + rows)] * is_hidden
         for cell in element:
             own = _by_name(cell)
             columns = int(own.get("number-columns-repeated", 1))
@@ -135,16 +143,15 @@ def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
             if "error" in kinds or (formula and ERROR_CELL.match(shown)):
                 text = shown
             elif formula and not kinds:
-                text = _no_result(formula)
+                text = NO_RESULT.format(formula[:LONGEST_FORMULA])
             if text:
-                marks.append(Mark(row, column, rows, columns, text))
+                sheet.marks.append(Mark(row, column, rows, columns, text))
             elif {"number-rows-spanned", "number-columns-spanned"} & {*own}:
                 down, along = (int(own.get(f"number-{n}-spanned", 1)) for n in ("rows", "columns"))
-                marks.append(Mark(row, column, down, along, ""))
+                sheet.marks.append(Mark(row, column, down, along, ""))
             column += columns
             if text or kinds or shown:
-                height, width = row + rows, max(width, column)
-        hidden += range(row + 1, height + 1) if is_hidden else ()
+                sheet.height, sheet.width = row + rows, max(sheet.width, column)
         row += rows
         element.clear()
 

@@ -12,7 +12,7 @@ from carom.io.decimals import is_number
 from carom.io.extras import extra
 from carom.io.remedies import REMEDIES
 from carom.io.rows import Column, is_blank, letter_of, named
-from carom.io.spreadsheet_marks import Marks, read_marks
+from carom.io.spreadsheet_marks import read_marks
 from carom.io.table_rows import RowSource, read_rows
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import InputError, nearest, refusal, refuse
@@ -20,7 +20,7 @@ from carom.quantities.refusals import InputError, nearest, refusal, refuse
 OLD = b"\xd0\xcf\x11\xe0"  # begins what Excel stored before 2007, or stores with a password
 STARTS = (b"PK\x03\x04", OLD)
 LARGEST = 1 << 28  # bytes
-MOST_CELLS = 20_000_000
+MOST_CELLS = 20_000_000  # with all between cells that are far apart
 
 
 def read_spreadsheet(
@@ -44,7 +44,10 @@ def read_spreadsheet(
             marks = read_marks(archive)
         sheets = {}
         for name in _readable(calamine, book, sheet):
-            _check_size(what, path, marks[name])
+            height, width = marks[name].height, marks[name].width
+            last = f"{letter_of(max(width - 1, 0))}{height}"
+            words = f"a sheet extends to {last}; delete what stands far from the table"
+            refuse(width * height > MOST_CELLS and refusal(what, path, words))
             values = book.get_sheet_by_name(name).to_python(skip_empty_area=False)
             sheets[name] = marks[name].put(values)
     except InputError:
@@ -53,10 +56,18 @@ def read_spreadsheet(
         raise refusal(what, path, f"it is no spreadsheet, .xlsx or .ods; {error}") from None
     name, notes = _chosen(what, path, sheets, sheet)
     cells = sheets[name]
-    if hidden := [n for n in marks[name].hidden if not all(map(is_blank, cells[n - 1]))]:
-        told = f"hidden, as by a filter, and read all the same: {named('row', hidden)}"
-        notes.append(f"{told}; delete what is not meant")
+    rows = [str(i + 1) for i in _filled(marks[name].hidden_rows, cells)]
+    columns = map(letter_of, _filled(marks[name].hidden_columns, [*zip(*cells, strict=True)]))
+    hidden = [named(word, own) for word, own in (("row", rows), ("column", [*columns])) if own]
+    told = f"hidden, as by a filter, and read all the same: {' and '.join(hidden)}"
+    notes += [f"{told}; delete what is not meant"] if hidden else []
     return read_rows(_Sheet(what, path, cells, notes), fewest, decimal)
+
+
+def _filled(hidden: Sequence[range], lines: Sequence[Sequence[Any]]) -> list[int]:
+    """Return which of the hidden rows, or columns, have something in them."""
+    there = (i for each in hidden for i in each[: len(lines)] if i < len(lines))
+    return [i for i in there if not all(map(is_blank, lines[i]))]
 
 
 def sheets_of(path: Path) -> list[str]:
@@ -77,13 +88,6 @@ def _readable(calamine: Any, book: Any, sheet: str) -> list[str]:
         if each.typ == calamine.SheetTypeEnum.WorkSheet
         and (each.name == sheet or each.visible == calamine.SheetVisibleEnum.Visible)
     ]
-
-
-def _check_size(what: str, path: str, marks: Marks) -> None:
-    """Raise InputError for a sheet with cells too far apart: all between them would take room."""
-    last = f"{letter_of(max(marks.width - 1, 0))}{marks.height}"
-    words = f"a sheet extends to {last}; delete what stands far from the table"
-    refuse(marks.width * marks.height > MOST_CELLS and refusal(what, path, words))
 
 
 def _chosen(

@@ -25,10 +25,7 @@ MOST_COLUMNS = 1000
 MOST_ROWS = 10_000_000
 HEAD_ROWS = 30  # among which the head is sought
 NO_HEAD = "put a line without # before it that names the columns, e.g. psi_1,psi_2,chi"
-
-
 COMMENT = re.compile(r"[#%]+\s*([A-Za-z]\w*)\s*:\s*(.*)", re.DOTALL)
-CSV = "CSV"
 DEEPLABCUT, ITS_AXES = "scorer", "coords"  # the first cells of its first row, and of the last head
 
 
@@ -40,7 +37,7 @@ class RowSource:
     """
 
     word = "line"
-    kind = CSV
+    kind = "CSV"
 
     def __init__(self, what: str, path: str) -> None:
         self.what, self.path = what, path
@@ -106,7 +103,7 @@ def read_rows(source: RowSource, fewest: int, decimal: str) -> tuple[list[Column
             if stop - head.above > MOST_ROWS:
                 raise source.refusal(f"it has more than {MOST_ROWS} rows")
             for column, cells in zip(columns, zip(*block, strict=True), strict=False):
-                (column.add_texts if source.kind == CSV else column.add)(cells)
+                column.add(cells)
             start = stop
             advance(len(block))
     rows = np.concatenate([np.asarray(each, np.int64) for each in numbers or [array("q")]])
@@ -119,14 +116,17 @@ def read_rows(source: RowSource, fewest: int, decimal: str) -> tuple[list[Column
 
 
 def _head_of(source: RowSource, fewest: int) -> _Head:
-    """Return the head: the first row that is not blank, no title, and holds no numbers."""
+    """Return the head: the first row that is not blank, no title, and holds no numbers.
+
+    Raises InputError if there is none, or too few or too many names are in it.
+    """
     rows = source.rows()
     first = list(islice(rows, HEAD_ROWS))
     place = next((i for i, row in enumerate(first) if not _is_title(row, first[i + 1 :])), None)
     if place is None:
         raise source.refusal("it is empty; there must be a header and numbers")
-    heads, count = _of_points(first[place:])
-    above = place + count
+    heads, rows_of_head = _of_points(first[place:])
+    above = place + rows_of_head
     if all(map(is_number, filter(None, heads))):
         commented = source.commented_head()
         if len(commented) != len(heads) or all(map(is_number, commented)):
@@ -135,7 +135,11 @@ def _head_of(source: RowSource, fewest: int) -> _Head:
     elif units := _units(heads, first[above : above + 1]):
         heads = [f"{head} [{unit}]" if unit else head for head, unit in units]
         above += 1
-    _check_heads(source, heads, fewest)
+    fewer, count = "" if fewest == 1 else f", at least {fewest}", len(heads)
+    separated = " separated by commas, semicolons or tabs" if source.word == "line" else ""
+    few = f"it is not {source.kind}; give columns{separated}{fewer}"
+    many = f"it has {count} columns; at most {MOST_COLUMNS} are allowed"
+    refuse(count < fewest and source.refusal(few), count > MOST_COLUMNS and source.refusal(many))
     lengths = Counter(len(row) for row in first[above:] if not all(map(is_blank, row)))
     width = min(lengths.most_common(1)[0][0], len(heads)) if lengths else 0
     return _Head(heads, above, width, chain(first[above:], rows))
@@ -183,17 +187,6 @@ def _units(heads: list[str], below: Sequence[Sequence[Any]]) -> list[tuple[str, 
     bare = all(not unit or (head and not parts_of(head)[1]) for head, unit in pairs)
     whole = bare and all(is_unit(unit) for unit in filter(None, units))
     return pairs if whole else []
-
-
-def _check_heads(source: RowSource, heads: list[str], fewest: int) -> None:
-    """Raise InputError for too few or too many names."""
-    fewer, count = "" if fewest == 1 else f", at least {fewest}", len(heads)
-    separated = " separated by commas, semicolons or tabs" if source.word == "line" else ""
-    allowed = f"it is not {source.kind}; give columns{separated}{fewer}"
-    many = f"it has {count} columns; at most {MOST_COLUMNS} are allowed"
-    refuse(
-        count < fewest and source.refusal(allowed), count > MOST_COLUMNS and source.refusal(many)
-    )
 
 
 def _even(

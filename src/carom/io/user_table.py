@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from carom.io.heads import is_open, spelled
 from carom.io.remedies import REMEDIES
-from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing
+from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing, named
 from carom.quantities.arrays import Array, in_unit
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, clipped, heading, nearest, refuse
@@ -40,6 +40,7 @@ EARLIER, LATER = ("before", "vor", "vorher"), ("after", "nach", "nachher")
 AFTERWARDS = {  # what is called like it, after an impact
     "angle": "rebound_angle",
     "speed": "rebound_speed",
+    "contact_angle": "contact_rebound_angle",
     "surface_angle": "surface_angle_out",
     **{name: f"{name}_out" for name in ("spin", "normal_speed", "tangential_speed")},
 }
@@ -100,9 +101,9 @@ class UserTable(Rows, Printed):
         return column
 
     def told(self, faults: Faults) -> "UserTable":
-        """Return the table as far as it could be read; what is wrong is added to the faults."""
+        """Return the table as far as it could be read; what is wrong is added to its faults."""
         faults.add(*self.wrong)
-        return replace(self, wrong=())
+        return replace(self, wrong=(), faults=faults)
 
     @property
     def case(self) -> Mapping[str, Any] | None:
@@ -151,11 +152,17 @@ class UserTable(Rows, Printed):
             values = list(dict.fromkeys(f"{value:g}" for value in self[name][bad].tolist()))
             more = ["..."] * (len(values) > MOST_NAMED_VALUES)
             some = ", ".join([*values[:MOST_NAMED_VALUES], *more])
-            where = self.cells_named(self._letter(name), bad)
+            where = self.cells_named(name, bad)
             self.faults.add(f"{spelled(name)}: {some} in {where} cannot be used; {allowed}")
 
-    def _letter(self, name: str) -> str:
-        return self.cells[name].letter if name in self.cells else ""
+    def cells_named(self, name: str, where: Mask) -> str:
+        """Return the cells of a column, e.g. "cells B3 and B4"; rows if no file has letters."""
+        letter = self.cells[name].letter if name in self.cells else ""
+        if not letter:
+            return self.named(where)
+        if len(where) > 1 and where.all():
+            return f"every {self.word} of column {letter}"
+        return named("cell", [f"{letter}{row}" for row in self.rows[where]])
 
     def about_missing(self) -> tuple[str, ...]:
         """Return a note on the values that are missing in columns that have others, if any."""
@@ -164,7 +171,7 @@ class UserTable(Rows, Printed):
             count, called = int(gone.sum()), spelled(name)
             if name != entry(name) or gone.all():
                 continue
-            where = f"{called} in {self.cells_named(self._letter(name), gone)}"
+            where = f"{called} in {self.cells_named(name, gone)}"
             listed.append(f"{count} of {called}" if count > MOST_NAMED_ROWS else where)
             total += count
         missing = f"{total} value{'s' * (total > 1)} missing: {', '.join(listed)}"
@@ -187,12 +194,7 @@ def _with_unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def in_units(
-    table: UserTable,
-    names: Iterable[str],
-    gaps: Collection[str] = (),
-    faults: Faults | None = None,
-    *,
-    whole: bool = False,
+    table: UserTable, names: Iterable[str], gaps: Collection[str] = (), *, whole: bool = False
 ) -> UserTable:
     """Return a table with those columns in SI units whose names are known; the others are NaN.
 
@@ -200,24 +202,25 @@ def in_units(
     n/a stands for what was not measured: NaN, in columns of `gaps` and of their errors. A row in
     which none of these columns has a value is left out, unless the table is to stay whole.
 
-    Adds to the faults, which are raised as InputError if they are not given, a cell that is not a
-    number, a value that is missing in another column, a unit that does not fit, an error that has
-    no unit where its column has one, angles that cannot be in rad, and speeds of bodies that do not
-    approach.
+    Adds to the faults of the table, which raise InputError if nobody collects them, a cell that is
+    not a number, a value that is missing in another column, a unit that does not fit, an error that
+    has no unit where its column has one, angles that cannot be in rad, and speeds of bodies that do
+    not approach.
     """
-    faults = faults or Faults()
-    table, missing = table.told(faults), dict[str, Mask]()
+    table, missing = table.told(table.faults), dict[str, Mask]()
     columns = {name: np.full(len(table), nan) for name in table.names}
-    read = replace(table, columns=columns, missing=missing, faults=faults)
+    read = replace(table, columns=columns, missing=missing)
     there = {*names}.intersection(table.names)
     wanted = [name for name in table.names if name in there]
     for name in wanted:
         there.discard(name)
-        with faults.catching():
+        with table.faults.catching():
             gone = table.column(name).missing
             if gone.any():
                 missing[name] = gone
-            _check_error_unit(name, table)
+            if (unit := _unit_of_values(name, table)) and not str(table.cells[name].unit):
+                missed = f"no unit, but {entry(name)} is in {unit}; write '{name} [{unit}]'"
+                raise InputError(f"{name}: {missed}")
             columns[name] = read_column(table, name, GLOSSARY[entry(name)].unit)
             there.add(name)
     if not whole:
@@ -229,7 +232,7 @@ def in_units(
 
 def _without_blank_rows(table: UserTable, wanted: Collection[str]) -> UserTable:
     """Return the rows in which one of these columns has a value."""
-    if not wanted or any(name not in table.missing for name in wanted):
+    if not wanted or not table.missing.keys() >= {*wanted}:
         return table
     blank = np.all([table.missing[name] for name in wanted], axis=0)
     if not blank.any() or blank.all():
@@ -243,13 +246,13 @@ def with_errors(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(each for name in names for each in (name, name + ERROR))
 
 
-def others(table: UserTable, names: Iterable[str], faults: Faults | None = None) -> tuple[str, ...]:
+def others(table: UserTable, names: Iterable[str]) -> tuple[str, ...]:
     """Return the columns that are not known and mean nothing here, for a user to be told.
 
-    Adds to the faults, which are raised as InputError if they are not given, one that is likely to
-    be a known one misspelt, with the nearest, and an error without its column.
+    Adds to the faults of the table, which raise InputError if nobody collects them, one that is
+    likely to be a known one misspelt, with the nearest, and an error without its column.
     """
-    names, faults = list(names), faults or Faults()
+    names = list(names)
     unknown = tuple(name for name in table.names if name not in names)
     for name in unknown:
         column = table.cells[name]
@@ -265,10 +268,10 @@ def others(table: UserTable, names: Iterable[str], faults: Faults | None = None)
             asked += " It is that before the impact." * (known == "spin")
             asked += f" If so, {REMEDIES.get().columns({clipped(column.head): meaning})}"
             asked += ", with the unit that it has" * ("[" in meaning and not hint.endswith("]"))
-        faults.add(f"{heading(name)}: unknown column; {asked}")
+        table.faults.add(f"{heading(name)}: unknown column; {asked}")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
-            faults.add(f"{heading(name)}: its column {entry(name)!r} is missing")
+            table.faults.add(f"{heading(name)}: its column {entry(name)!r} is missing")
     return unknown
 
 
@@ -285,8 +288,8 @@ def suggested(name: str, column: Column, names: Iterable[str]) -> tuple[str, str
     needs = is_open(known, unit) or (entry(known) in HEIGHTS and column.is_bare)
     if si == "rad" and hint == known and not unit:
         needs = bool(np.any(np.abs(column_in_si(known, si, "", column.cells)[0]) >= 0.5 * pi))
-    named = f"{known} [{USUAL_UNITS.get(si, si)}]" if needs else known if unit else hint
-    return hint, named
+    whole = f"{known} [{USUAL_UNITS.get(si, si)}]"
+    return hint, whole if needs else known if unit else hint
 
 
 def entry(name: str) -> str:
@@ -316,14 +319,6 @@ def _when(plain: str, names: Collection[str]) -> str:
     return name if name in names else ""
 
 
-def _check_error_unit(name: str, table: UserTable) -> None:
-    """Raise InputError for an error whose unit can only be guessed."""
-    unit = _unit_of_values(name, table)
-    if unit and not str(table.cells[name].unit):
-        whole = f"no unit, but {entry(name)} is in {unit}"
-        raise InputError(f"{name}: {whole}; write '{name} [{unit}]'")
-
-
 def _unit_of_values(name: str, table: UserTable) -> str:
     """Return the unit of the values of which a column has the errors, empty if it has none."""
     whole = entry(name)
@@ -335,7 +330,7 @@ def _check_values(name: str, table: UserTable, open_ended: bool) -> None:
     """Add to the faults what cannot be, as it is of another unit, or of bodies that part."""
     values, unit = table[name], str(table.cells[name].unit)
     if name in table.missing and not open_ended:
-        where = table.cells_named(table.cells[name].letter, table.missing[name])
+        where = table.cells_named(name, table.missing[name])
         table.faults.add(f"{spelled(name)}: no value in {where}; write it there, or delete the row")
     if unit in PERCENT and table.word == "row" and table.cells[name].letter:
         _check_percent(name, table)
@@ -372,7 +367,7 @@ def read_column(table: UserTable, name: str, si: str) -> Array:
     values, reason = column_in_si(called, si, column.unit, column.cells)
     wrong = ~np.isfinite(values)
     if wrong.any() and (wrong := wrong & ~column.missing).any():
-        where = table.cells_named(column.letter, wrong)
+        where = table.cells_named(name, wrong)
         cause = reason.removeprefix(f"{called}: ") or CORRECT_OR_DELETE
         raise InputError(f"{called}: not a number in {where}; {cause}")
     return values

@@ -21,6 +21,7 @@ MOST_POINTS = 10**8  # of a batch
 MOST_PLACES = 1_000_000  # of fields, which take half a minute
 AXES = {"x", "y", "z"}
 IN_METRES = "must be a list of finite numbers in m"
+POSITIVES = "must be one or more positive finite numbers"
 ASCII_NUMBERS = re.compile(r"[0-9.+\-eE \t]*")  # NumPy reads those of the grammar alone
 
 
@@ -192,9 +193,8 @@ def scattered(name: str, values: ArrayLike, columns: int) -> Array:
     points = None if isinstance(values, str) else numbers(name, values, allowed, "m")
     if points is None or points.ndim != 2 or points.shape[1] != columns or points.shape[0] == 0:
         raise refusal(name, values if points is None else points, allowed)
-    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    rows = [(int(row), points[row].tolist()) for row in bad[:1]]
-    refuse(*(refusal(name, at, f"row {row} is not finite; {allowed}") for row, at in rows))
+    for row in np.flatnonzero(~np.isfinite(points).all(axis=1)):
+        raise refusal(name, points[row].tolist(), f"row {row} is not finite; {allowed}")
     return points
 
 
@@ -211,11 +211,6 @@ def finite_line(
     if line.size == 0 or line.ndim > 1 or bad.any():
         raise refusal(name, line[bad][0].item() if bad.any() else values, allowed)
     return line
-
-
-def positive_line(name: str, values: ArrayLike) -> Array:
-    """Return one positive number or more as an array of shape (n,), or raise InputError."""
-    return finite_line(name, values, "must be one or more positive finite numbers", above=0.0)
 
 
 def places(

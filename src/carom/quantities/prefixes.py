@@ -47,7 +47,8 @@ def span(low: float, high: float, unit: str, digits: int = DIGITS) -> str:
         return "-"
     if unit == "rad":
         in_degrees = span(degrees(low), degrees(high), "deg", digits)
-        return f"{in_degrees} ({' to '.join(_ends(low, high, digits))} rad)"
+        ends = dict.fromkeys(_number(end, 0, digits) for end in (low, high))
+        return f"{in_degrees} ({' to '.join(ends)} rad)"
     numbers, shown = shared((low, high), unit, digits)
     return " to ".join(dict.fromkeys(numbers)) + ("" if shown == "1" else f" {shown}")
 
@@ -123,7 +124,3 @@ def _number(value: float, power: int = 0, digits: int = DIGITS) -> str:
     decades = int(exponent) - power
     places = max(digits, decades + 1) if decades <= MOST_DECADES else digits  # 750, not 7.5e+02
     return f"{float(f'{mantissa}e{decades}'):.{places}g}"
-
-
-def _ends(low: float, high: float, digits: int) -> Iterable[str]:
-    return dict.fromkeys((_number(low, 0, digits), _number(high, 0, digits)))

@@ -1,4 +1,4 @@
-"""What became of each point of a batch: a number for arrays, and its words."""
+"""Numbers for arrays and kernels, each with its words: statuses of points, what ends a phase."""
 
 from enum import IntEnum
 from typing import Self
@@ -15,3 +15,24 @@ class WordedStatus(IntEnum):
         member._value_ = value
         member.message = message
         return member
+
+
+class Cause(WordedStatus):
+    """What ends a phase, as a number for kernels; its `message` says it in words."""
+
+    FIRST_TOUCH = 0, "first touch"
+    EDGE_AT_LIMIT = 1, "edge reaches friction limit"
+    SLIP_STOPS = 2, "slip stops"
+    RING_CLOSES = 3, "slip ring closes"
+    FRONT_AT_CENTRE = 4, "slip front reaches centre"
+    SEPARATION = 5, "separation"
+    UNRESOLVED = 6, "not resolved"
+    STICK_ZONE_VANISHES = 7, "stick zone vanishes"
+
+
+def cause_between(kind: str, following: str) -> Cause:
+    """Return what ends a phase where only its kind and that of the next phase are known."""
+    if kind == "stick":
+        return Cause.EDGE_AT_LIMIT
+    spreads = kind == "slip" and following == "gross slip"
+    return Cause.STICK_ZONE_VANISHES if spreads else Cause.SLIP_STOPS

@@ -188,7 +188,9 @@ def _factor(expression: str, unit: str) -> Factor | Unreadable:
             _refuse_doubled(terms)
             return ratio
     except Unreadable as error:
-        meant = _spelling(expression, unit)
+        plain = expression.lower().translate(LOWERED).translate(FOLDED)
+        common = (each for each in COMMON.get(unit, ()) if each.lower().translate(FOLDED) == plain)
+        meant = next(common, "")  # a common unit in other letters
         return Unreadable(f"{error}; write {meant!r}", enough=True) if meant else error
     except ArithmeticError:
         return Unreadable(CANNOT_HOLD)
@@ -239,13 +241,6 @@ def _refuse_doubled(terms: tuple[tuple[str, int], ...]) -> None:
             raise Unreadable(f"{name!r} stands alone, without another unit and without a power")
         if sides.count((whole, above)) > 1:
             raise Unreadable(f"unit {name!r} is given twice; leave one out, or write a power")
-
-
-def _spelling(expression: str, unit: str) -> str:
-    """Return how a common unit is written that stands here in other letters, or nothing."""
-    plain = expression.lower().translate(LOWERED).translate(FOLDED)
-    common = COMMON.get(unit, ())
-    return next((each for each in common if each.lower().translate(FOLDED) == plain), "")
 
 
 @lru_cache(maxsize=1024)

@@ -76,10 +76,8 @@ def pure_number(name: str, value: Any, allowed: str = "give one number") -> floa
     plain, own_unit = without_unit(name, value, "1")
     if not is_real(plain):
         raise refusal(name, value, allowed)
-    own, real = (
-        UNCHANGED if own_unit is None else factor_of(name, own_unit, "1"),
-        as_float(name, plain),
-    )
+    own = UNCHANGED if own_unit is None else factor_of(name, own_unit, "1")
+    real = as_float(name, plain)
     return real if math.isnan(real) else number(name, real, "1", own)
 
 
@@ -188,10 +186,12 @@ def finite(name: str, value: Any, unit: str | None = None) -> float:
 
 def within(name: str, value: Any, least: float, most: float, unit: str | None = None) -> float:
     """Return a value in SI units that is from `least` to `most`, or raise InputError."""
+    unit = unit or GLOSSARY[name].unit
     result = number(name, value, unit)
     if least <= result <= most:
         return result
-    raise refusal(name, value, f"must be from {least:g} to {most:g}")
+    in_unit = "" if unit == "1" else f" {unit}; check its unit"
+    raise refusal(name, value, f"must be from {least:g} to {most:g}{in_unit}")
 
 
 def _checked(

@@ -12,7 +12,7 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset, pure
-from carom.quantities.arrays import Array, finite_line, positive_line, refuse_where
+from carom.quantities.arrays import POSITIVES, Array, finite_line, refuse_where
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.units import counted, finite, positive
@@ -172,7 +172,8 @@ def error_map(
     array([[0.176, 0.   ]])
     """
     rule = as_law(law)
-    chis = np.linspace(7.0 / 6.0, 7.0 / 4.0, 15) if chi is None else positive_line("chi", chi)
+    chis = np.linspace(7.0 / 6.0, 7.0 / 4.0, 15)
+    chis = chis if chi is None else finite_line("chi", chi, POSITIVES, above=0.0)
     top = 4.0 * float(chis.max())
     psis = np.linspace(0.0, top, 121) if psi_1 is None else psi_line(psi_1)
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")

@@ -19,8 +19,7 @@ from carom.dimensionless.elastic.integration import Run, Work
 from carom.dimensionless.elastic.motion import ORDER
 from carom.dimensionless.elastic.record import Record
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.quantities.causes import Cause
-from carom.quantities.statuses import WordedStatus
+from carom.quantities.statuses import Cause, WordedStatus
 
 # Modes of a recorded step that need no integration.
 GROSS, RETRACED = 3, 4

@@ -13,7 +13,7 @@ from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.law import LossNumbers, named
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory
-from carom.quantities.causes import Cause, cause_between
+from carom.quantities.statuses import Cause, cause_between
 
 
 @dataclass(frozen=True, eq=False)

@@ -125,9 +125,9 @@ def score(
         kind, names = _kind(table.names)
         if kind != "psi" and chi is not None:
             raise refusal("chi", chi, "it follows from the case; leave it out")
-        unused = [name for name in others(table, names, faults) if name not in NAMES]
-        _refuse_nan(table, faults)
-        quantities = in_units(table, names, (*AFTER, "psi_out"), faults)
+        unused = [name for name in others(table, names) if name not in NAMES]
+        _refuse_nan(table)
+        quantities = in_units(table, names, (*AFTER, "psi_out"))
         faults.settle()
         quantities = _measured(quantities)
         found = SCORERS[kind](quantities, scored_case(case, chi, table.case, restitution), limit)
@@ -138,14 +138,14 @@ def score(
     return Score(kind, limit, found.points, found.audit, notes, found.inputs, found.forces, origins)
 
 
-def _refuse_nan(table: UserTable, faults: Faults) -> None:
+def _refuse_nan(table: UserTable) -> None:
     """Add to the faults results that are NaN: a program has failed there, which is no gap."""
     for name in filter(table.names.__contains__, (*AFTER, "psi_out")):
         column = table.cells[name]
         failed = np.fromiter(map(is_nan, column.cells), np.bool_, len(column.cells))
         if failed.any():
-            where = table.cells_named(column.letter, failed)
-            faults.add(f"{spelled(name)}: NaN in {where}; write '-' to leave such rows out")
+            where = table.cells_named(name, failed)
+            table.faults.add(f"{spelled(name)}: NaN in {where}; write '-' to leave such rows out")
 
 
 def _measured(quantities: UserTable) -> UserTable:
