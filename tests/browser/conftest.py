@@ -40,10 +40,10 @@ TRAVEL = f"""query => {{
 class Visit:
     """A page of the explorer in a tab of a browser."""
 
-    def __init__(self, browser, address):
+    def __init__(self, browser, address, motion):
         self.address = address
         self.trouble = []
-        self.page = browser.new_context().new_page()
+        self.page = browser.new_context(reduced_motion=motion).new_page()
         self.page.on("console", self._heard)
         self.page.on("pageerror", lambda error: self.trouble.append(f"page error: {error}"))
         self.page.on("request", self._asked)
@@ -205,13 +205,18 @@ def page(visit, tabs):
 
 @pytest.fixture
 def visit(address, chromium, tabs):
-    """Open a link: in the page that is there, loading it, or fresh in a browser never here."""
+    """Open a link: in the page that is there, loading it, or fresh in a browser never here.
+
+    The film does not run by itself, as for those who prefer that, unless it is not `still`.
+    """
     own = []
 
-    def open_page(query="", *, width=1280, loading=False, fresh=False, ready=True):
+    def open_page(query="", *, width=1280, loading=False, fresh=False, ready=True, still=True):
+        fresh |= not still
         loading |= fresh or not tabs
         if fresh or not tabs:
-            (own if fresh else tabs).append(Visit(chromium, address))
+            motion = "reduce" if still else "no-preference"
+            (own if fresh else tabs).append(Visit(chromium, address, motion))
         seen = (own if fresh else tabs)[-1]
         seen.page.set_viewport_size({"width": width, "height": 900})
         if loading:

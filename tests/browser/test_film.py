@@ -39,6 +39,42 @@ def test_play_and_pause_by_keys(visit):
     assert float(dict(parse_qsl(linked))["time"]) == pytest.approx(stopped, abs=0.0011)
 
 
+@pytest.mark.parametrize("touch", ["click", "key", "wheel", "Pause"])
+def test_the_film_runs_by_itself_until_somebody_touches_the_page(visit, touch):
+    seen = visit(still=False)
+    seen.until(lambda: seen.page.inner_text("#play") == "Pause")
+    first = share(seen)
+    seen.until(lambda: share(seen) != first)
+    assert seen.page.get_attribute("#sentence", "aria-live") == "off"
+    assert "time" not in seen.link()
+    if touch == "Pause":
+        seen.page.click("#play")
+    else:
+        seen.page.mouse.move(5, 5)
+        {
+            "click": lambda: seen.page.mouse.click(5, 5),
+            "key": lambda: seen.page.keyboard.press("Tab"),
+            "wheel": lambda: seen.page.mouse.wheel(0, 10),
+        }[touch]()
+    seen.until(lambda: seen.page.inner_text("#play") == "Play")
+    stopped = share(seen)
+    seen.page.wait_for_timeout(300)
+    assert share(seen) == stopped
+    assert seen.page.get_attribute("#sentence", "aria-live") == "polite"
+    seen.page.locator("#angle").press("ArrowRight")  # no film begins anew
+    seen.page.wait_for_timeout(300)
+    assert share(seen) == stopped
+
+
+@pytest.mark.parametrize(("query", "still"), [("?time=0.1", False), ("", True)])
+def test_a_link_to_an_instant_and_who_prefers_less_motion_see_it_stand(visit, query, still):
+    seen = visit(query, still=still, fresh=True)
+    at = share(seen)
+    seen.page.wait_for_timeout(300)
+    assert share(seen) == at == (0.5 if still else 0.1)
+    assert seen.page.inner_text("#play") == "Play"
+
+
 def test_the_pace_is_as_chosen(visit):
     """The whole takes the seconds that are told: 2.2 durations in 10 s is 0.22 a second."""
     seen = visit("?time=-0.6")

@@ -40,7 +40,8 @@ def copy(tmp_path_factory):
 @pytest.fixture(scope="module")
 def offline(chromium, copy):
     """The copy in a browser that has no network; nothing but its own files is asked for."""
-    context = chromium.new_context(viewport={"width": 1280, "height": 900})
+    size = {"width": 1280, "height": 900}
+    context = chromium.new_context(viewport=size, reduced_motion="reduce")
     context.set_offline(True)
     tab, trouble = context.new_page(), []
     tab.on("console", lambda m: m.type in ("error", "warning") and trouble.append(m.text))

@@ -4,6 +4,8 @@ Carom.page = (() => {
   const WORDS = "input:not([type=range]), textarea, select, button, summary, a, [contenteditable], [role=tab]";
   const WIDE = window.matchMedia("(min-width: 1280px)");
   const BROAD = window.matchMedia("(min-width: 800px)");
+  const STILL = window.matchMedia("(prefers-reduced-motion: reduce)");
+  const TOUCHES = ["pointerdown", "keydown", "wheel"];
   const PACES = [2, 5, 10, 30]; // seconds that a film takes
   const VIEWS = { stage: ["stage", "stage-beside"], patch: ["patch", "patch-beside"] };
   const byId = (id) => document.getElementById(id);
@@ -12,6 +14,7 @@ Carom.page = (() => {
   let asking = false;
   let again = false;
   let due = false;
+  let untouched = true; // the film runs by itself
   let linked = ""; // what was wrong with the link that was opened
   let following = new AbortController();
 
@@ -70,6 +73,14 @@ Carom.page = (() => {
     Carom.laws.show(answers[0]);
     soon(() => Carom.charts.show(answers));
     if (answers[0].late.length) follow(answers[0]);
+    if (untouched && !Carom.clock.isPlaying()) Carom.clock.play();
+  }
+
+  // Whoever touches anything takes over; Play and Pause do so themselves.
+  function touched({ target }) {
+    TOUCHES.forEach((name) => document.removeEventListener(name, touched, true));
+    if (untouched && !(target instanceof Element && target.closest("#play"))) Carom.clock.pause();
+    untouched = false;
   }
 
   // The charts, which take longest, once the moving pictures are there; none that is outdated.
@@ -117,6 +128,7 @@ Carom.page = (() => {
     write(byId("clock"), clock);
     byId("time").value = time;
     write(byId("play"), Carom.clock.isPlaying() ? "Pause" : "Play");
+    byId("sentence").ariaLive = Carom.clock.isPlaying() ? "off" : "polite";
     const [sentence, other] = scenes.map((scene) => scene && Carom.sentence.of(scene, time));
     const both = sentence === other ? `Both: ${sentence}` : `This impact: ${sentence} Beside it: ${other}`;
     write(byId("sentence"), other ? both : sentence);
@@ -152,6 +164,7 @@ Carom.page = (() => {
     Carom.beside.put(Carom.link.part("beside"));
     Carom.tabs.choose(Carom.link.part("tab") ?? Carom.tabs.first);
     const time = Carom.link.number("time");
+    untouched &&= Number.isNaN(time) && !STILL.matches;
     Carom.clock.pause();
     Carom.clock.set(Number.isNaN(time) ? Carom.clock.START : time);
     byId("pace").value = String(Carom.link.number("pace"));
@@ -236,6 +249,7 @@ Carom.page = (() => {
     document.addEventListener("input", onInput);
     document.addEventListener("change", onChange);
     document.addEventListener("keydown", onKey);
+    TOUCHES.forEach((name) => document.addEventListener(name, touched, true));
     Carom.clock.hear(draw);
     Carom.clock.hear(() => Carom.link.refresh());
     Carom.tabs.hear(() => Carom.link.refresh());
