@@ -175,7 +175,7 @@ def _contact(experiment: Experiment, drift: float) -> list[str]:
     law, pair = coefficients(experiment), experiment.pair
     # the driver's pair_style zero reaches farther than the box: no bins
     start = [f"neighbor {arrangement.SKIN * arrangement.spacing(pair)!r} nsq"]
-    words = law.words(lambda name: repr(getattr(law, name)))
+    words = law.words(law.number)
     if isinstance(pair.second, Sphere):
         granular = ["pair_style granular", f"pair_coeff * * {words}"]
         return [*start, *granular, "fix test all nve/sphere"]

@@ -96,7 +96,6 @@ def test_what_is_no_pair(first, second, words):
         (FLAT, {"method": "halfspace"}, "^method: .*spheres only"),
         (FLAT, {"normal_speed": None}, "speed"),
         (FLAT, {"speed": 1.0, "angle": 0.1}, "speed"),
-        (FLAT, {"losses": carom.KelvinVoigt(restitution=0.8)}, "^losses: .*StandardLinearSolid"),
         (SOLID, {"losses": carom.Metal()}, "^losses: .*ellipse"),
         (SOLID, {"losses": carom.ElasticPlastic(0.1)}, "^losses: .*ellipse"),
     ],

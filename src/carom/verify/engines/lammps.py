@@ -53,6 +53,10 @@ class GranularLaw:
         shear = f"tangential {self.tangential} {kt} {xgamma} {mu}"
         return f"{self.normal} {kn} {loss} {shear} damping {self.damping}"
 
+    def number(self, name: str) -> str:
+        """Return a number to the last bit."""
+        return repr(getattr(self, name))
+
     @property
     def meanings(self) -> str:
         """Comments on the stiffnesses."""
@@ -96,7 +100,7 @@ def granular(experiment: Experiment) -> str:
     """Return what the script says of a law of LAMMPS' own."""
     law, pair = coefficients(experiment), experiment.pair
     words = law.words("${{{}}}".format)
-    numbers = {name: repr(getattr(law, name)) for name in NUMBERS}
+    numbers = {name: law.number(name) for name in NUMBERS}
     text = arrangement.filled(
         "lammps_granular.in",
         experiment,

@@ -23,6 +23,7 @@ SOFTER = PRESSED
 SPRING_COLUMNS = 12
 
 SLIDES = 6  # of Newton's method
+HALVES = 2  # of a step: what slip begins and ends within is told better
 EACH = 1.0 - 0.5**0.5  # how far each of two implicit steps goes
 NO_SLIDE = 1e-12
 SHORT_STEP = 1e-3  # of a step, in relaxation times: where its functions are series
@@ -243,7 +244,7 @@ def stretch_both(
 
 @kernel
 def move(springs: Array, j: int, step: Step, across: Step, ratio: float) -> None:
-    """Move a spring of two components on by two implicit steps in one.
+    """Move a spring of two components on by two implicit steps in each half of a step.
 
     Each ends with what slip along f leaves of f in stick. Together they are of second order,
     however fast m relaxes (Alexander 1977, SIAM J. Numer. Anal. 14:1006). The limit is a parabola
@@ -252,16 +253,18 @@ def move(springs: Array, j: int, step: Step, across: Step, ratio: float) -> None
     u, m = springs[U, j], springs[RELAXING, j]
     v, n = springs[U_ACROSS, j], springs[RELAXING_ACROSS, j]
     limit, rises = springs[LIMIT, j], springs[RATE, j] * step.time
-    bends, g, time = springs[NEXT, j] - limit - rises, step.extra, EACH * step.time
+    bends, g, time = springs[NEXT, j] - limit - rises, step.extra, EACH * step.time / HALVES
     fades = 1.0 / (1.0 + time * step.fading)
-    for part in (EACH, 1.0):
+    for i in range(2 * HALVES):
+        first = i % 2 == 0
+        part = (i // 2 + (EACH if first else 1.0)) / HALVES
         moved = time * (step.psi + part * step.gained)
         aside = time * (across.psi + part * across.gained)
         pull, beside = u + moved + g * fades * (m + moved), v + aside + g * fades * (n + aside)
         kept, kept_beside = slid(pull, beside, limit + part * (rises + part * bends), ratio)
         moved -= (pull - kept) / (1.0 + g * fades)
         aside -= (beside - kept_beside) / (1.0 + g * fades)
-        more = 1.0 / EACH - 1.0 if part < 1.0 else 1.0
+        more = 1.0 / EACH - 1.0 if first else 1.0
         u, m = u + more * moved, m + more * ((m + moved) * fades - m)
         v, n = v + more * aside, n + more * ((n + aside) * fades - n)
     springs[U, j], springs[RELAXING, j] = u, m
