@@ -2,7 +2,6 @@
 
 import json
 import os
-import shutil
 import subprocess
 import sys
 import sysconfig
@@ -43,8 +42,9 @@ class CompiledKernels(BuildHookInterface):
         run = subprocess.run(command, cwd=sources, stderr=subprocess.PIPE, text=True)
         sys.stderr.write(run.stderr)
         if run.returncode:
-            shutil.rmtree(folder, ignore_errors=True)
-            folder.mkdir(parents=True)
+            folder.mkdir(parents=True, exist_ok=True)
+            for library in folder.glob("libcarom*"):
+                library.unlink()
             told = (run.stderr.strip().splitlines() or [f"exit status {run.returncode}"])[-1]
             failure = {"failure": told.removeprefix(PREFIX)}
             (folder / CONTENTS).write_text(json.dumps(failure) + "\n", encoding="utf-8")

@@ -3,8 +3,10 @@
 import json
 import os
 import signal
+import sys
 import webbrowser
 from contextlib import suppress
+from threading import Thread
 
 import typer
 
@@ -49,16 +51,20 @@ def explore_command(
     if export is not None:
         _export(export, as_json)
         return
-    from carom.explorer import explorer
+    from carom.explorer import address
 
-    page = explorer(host=host, port=whole("port", port, 0, 65535))
+    bound = address.listening(host, whole("port", port, 0, 65535))
+    url = address.url_of(bound, host)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
     with suppress(KeyboardInterrupt):
-        words = f"{page.url}  (press Ctrl-C to stop the page)"
-        typer.echo(json.dumps({"url": page.url}) if as_json else words)
-        if open_browser:
-            webbrowser.open(page.url)
-        page.serve()
+        words = f"{url}  (press Ctrl-C to stop the page)"
+        typer.echo(json.dumps({"url": url}) if as_json else words)
+        sys.stdout.flush()
+        if open_browser:  # it starts while the rest is loaded, and waits
+            Thread(target=webbrowser.open, args=(url,), daemon=True).start()
+        from carom.explorer.serving import serving
+
+        serving(bound, host).serve()
     os._exit(0)  # without waiting for threads that are at work
 
 

@@ -1,10 +1,16 @@
-"""The page to explore impacts: `carom explore`. No physics here."""
+"""The page to explore impacts: `carom explore`. It computes in the browser."""
 
-from carom.io.extras import extra
+from typing import Any
 
-for name in ("flask", "waitress"):  # in one line what else the imports below would say
-    extra(name, "the explorer", "explore")
-
-from carom.explorer.serving import Explorer, explorer  # noqa: E402
+from carom.explorer.address import require
 
 __all__ = ["Explorer", "explorer"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"carom.explorer has no {name}", name=name)
+    require()
+    from carom.explorer import serving
+
+    return getattr(serving, name)

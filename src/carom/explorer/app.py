@@ -12,15 +12,15 @@ from flask import Flask, Response, abort, request, send_file, send_from_director
 from werkzeug.exceptions import HTTPException
 
 from carom.datasets.shipped import names as dataset_names
-from carom.explorer import answers
+from carom.explorer import answers, outcomes
 from carom.explorer.limits import LARGEST_REQUEST, Busy
-from carom.explorer.page import page, plotly_file
+from carom.explorer.page import KERNELS, kernels as script_of_kernels, page, plotly_file
 from carom.explorer.scripts import script
-from carom.explorer.views import FIELDS, Refused, View
-from carom.explorer.warming import Preparing, Warming
+from carom.explorer.views import FIELDS, Refused, View, read_number
 from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError
 from carom.quantities.texts import Unreadable, read_text
+from carom.quantities.units import or_none
 
 OWN_HOST_ONLY = (
     "default-src 'self'; script-src 'self' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
@@ -39,19 +39,18 @@ WRITTEN_FILES = (  # of a view, which take time
 )
 UPLOADED = ("contents", "name", "bodies", "columns")
 ASSETS = Path(__file__).with_name("assets")
-ANSWERED_IN_JSON = ("/answer", "/laws", "/fit")  # whose errors are JSON, of others text
-SECONDS_UNTIL_AGAIN = 1  # for what is being compiled
+ANSWERED_IN_JSON = ("/verdict", "/laws", "/number", "/fit")  # whose errors are JSON, of others text
 MOST_LOGGED = 300  # characters
 
 log = logging.getLogger(__name__)
 
 
-def new_app(worker: Worker, warming: Warming, hosts: list[str] | None = None) -> Flask:
+def new_app(worker: Worker, hosts: list[str] | None = None) -> Flask:
     """Return the application, which answers to these names of hosts only, None for all."""
     server = Flask(__name__, static_folder=None)
     server.config["MAX_CONTENT_LENGTH"] = LARGEST_REQUEST
     _add_parts(server)
-    _add_answers(server, warming)
+    _add_answers(server)
     _add_files(server, worker)
     _add_fits(server, worker)
     if hosts is not None:
@@ -81,25 +80,34 @@ def _add_parts(server: Flask) -> None:
     def asset(name: str) -> Response:
         return send_from_directory(ASSETS, name)
 
+    @server.get(f"/assets/{KERNELS}")
+    def kernels() -> Response:
+        answer = Response(script_of_kernels(), content_type="text/javascript; charset=utf-8")
+        answer.add_etag()
+        return answer.make_conditional(request)
+
     @server.get("/plotly.min.js")
     def plotly() -> Response:
         return send_file(plotly_file())
 
 
-def _add_answers(server: Flask, warming: Warming) -> None:
+def _add_answers(server: Flask) -> None:
     """Add what is asked of a view."""
 
-    @server.get("/answer")
-    def answer() -> Response:
-        view = View.of(_query())
-        warming.check(view)
-        return _json(answers.answer(view))
+    @server.get("/verdict")
+    def verdict() -> Response:
+        return _json({"findings": outcomes.verdict(View.of(_query()))})
 
     @server.get("/laws")
     def laws() -> Response:
-        view = View.of(_query())
-        warming.check(view, laws=True)
-        return _json(answers.laws(view))
+        return _json(answers.laws(View.of(_query())))
+
+    @server.get("/number")
+    def number() -> Response:
+        name = request.args.get("name", "")
+        if name not in FIELDS or not FIELDS[name].is_number:
+            abort(404)
+        return _json({"value": or_none(read_number(name, request.args.get("text", "")))})
 
 
 def _add_files(server: Flask, worker: Worker) -> None:
@@ -156,8 +164,6 @@ def _json(answer: Any, status: int = 200) -> Response:
 
 def _one_line(error: Exception) -> Response:
     """Return an error of a request in a line, with the field that it is about."""
-    if isinstance(error, Preparing):
-        return _refusal("", str(error), 503, again=SECONDS_UNTIL_AGAIN, percent=error.percent)
     if isinstance(error, Refused):
         return _refusal(error.field, error.message, **error.more)
     if isinstance(error, InputError):  # of the library, which begins with what it is about

@@ -4,10 +4,8 @@ import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
-from carom.explorer.page import ASSETS, asset, assets_in, page, plotly_file
-from carom.explorer.tables import SOLVED_IMPACTS, tables
+from carom.explorer.page import ASSETS, KERNELS, asset, assets_in, kernels, page, plotly_file
 from carom.io.paths import accessing, checked_folder, write_folder
-from carom.io.progress import Progress, advancing
 from carom.quantities.refusals import refusal, refuse
 
 PAGE, PLOTLY = "index.html", "plotly.min.js"
@@ -23,7 +21,7 @@ class Copy(NamedTuple):
     files: int
 
 
-def export(folder: str | Path, progress: Progress = None) -> Copy:
+def export(folder: str | Path) -> Copy:
     """Write a copy of the page into a new or empty folder, or in the place of an older copy.
 
     Once all of it is made it takes its place, or what was there is put back. InputError if the
@@ -34,7 +32,7 @@ def export(folder: str | Path, progress: Progress = None) -> Copy:
         allowed = "it holds other files; give a new or empty folder"
         foreign = real.exists() and not _is_ours(real)
         refuse(foreign and refusal("folder", str(target), allowed))
-        parts = _parts(progress)
+        parts = _parts()
         if real.exists():
             _replace(real, parts)
         else:
@@ -54,14 +52,12 @@ def _is_ours(folder: Path) -> bool:
     return COPY_MARK in html and parts <= {*assets_in(html)}
 
 
-def _parts(progress: Progress) -> dict[str, bytes]:
+def _parts() -> dict[str, bytes]:
     """Return the content of all files by their places."""
     html = page(static=True)
     parts = {PAGE: html.encode()}
-    with advancing("tabulating the rebounds", SOLVED_IMPACTS, progress, unit="impacts") as advance:
-        script = tables(advance)
     for name in assets_in(html):
-        parts[f"{ASSETS}/{name}"] = script.encode() if name == "tables.js" else asset(name)
+        parts[f"{ASSETS}/{name}"] = kernels() if name == KERNELS else asset(name)
     parts[PLOTLY] = plotly_file().read_bytes()
     return parts
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import isfinite
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -16,16 +15,8 @@ from carom.contacts.fields import surface_fields
 from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.solution import solve
 from carom.explorer.limits import LAW_SECONDS, Busy
-from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
-from carom.explorer.scenes import (
-    ENERGIES_OF_CONTACT,
-    FORCE_SCALE,
-    HISTORY_TIMES,
-    Scene,
-    columns_of_numbers,
-    impact_of,
-    scene_of,
-)
+from carom.explorer.outcomes import FORCE_SCALE, Outcome, columns_of_numbers, impact_of, outcome_of
+from carom.explorer.overlays import LawCurve, followers, law_curves, places
 from carom.explorer.views import PAGE, View
 from carom.fitting.template import TEMPLATE
 from carom.impacts.curves import curve
@@ -49,9 +40,10 @@ SCALES = Scales(
 )
 TANGENTIAL = {  # energies that psi_1 and chi tell, with the looks of what they are part of
     name: (words, *ENERGIES.get(name, ENERGIES["tangential_kinetic_energy"])[1:])
-    for name, words in ENERGIES_OF_CONTACT.items()
+    for name, words in PAGE["energies_of_contact"].items()
     if name not in LOST
 }
+HISTORY_TIMES = 201
 ENTRY_HEIGHT = 1.8  # mm that a law adds to the legend of the rebound curve
 
 
@@ -112,18 +104,17 @@ def _impact(view: View) -> Any:
 
 def curve_figure(view: View, _: float = 0.0) -> Figure:
     """Return the rebound curve with the contact laws of the view; Busy if one takes too long."""
-    scene = scene_of(view)
-    laws = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
+    outcome = outcome_of(view)
+    laws = law_curves(outcome, view.laid_over, LAW_SECONDS, followers.joined())
     if None in laws:
         raise Busy
-    return drawn_curve(scene, [law for law in laws if law is not None])
+    return drawn_curve(outcome, [law for law in laws if law is not None])
 
 
 @drawing.styled
-def drawn_curve(scene: Scene, laws: list[LawCurve]) -> Figure:
+def drawn_curve(outcome: Outcome, laws: list[LawCurve]) -> Figure:
     """Return the rebound curve with the present point and the contact laws over it."""
-    psi = exact_curve(scene)[0]
-    figure = plot_curve(curve(scene.chi, psi, losses=scene.losses))
+    figure = plot_curve(curve(outcome.chi, places(outcome), losses=outcome.losses))
     axis = figure.axes[0]
     legend = axis.get_legend()
     entries: list[Any] = [] if legend is None else list(legend.legend_handles)
@@ -131,9 +122,9 @@ def drawn_curve(scene: Scene, laws: list[LawCurve]) -> Figure:
         look: Any = {"color": drawing.LINES[1 + row % 4], "lw": 0.9 * (1 + row // 16)}
         look["ls"] = drawing.DASHES[1 + row // 4 % 4]
         entries += axis.plot(law.psi_in, law.psi_out, label=law.label, **look)
-    if isfinite(scene.psi_in):
+    if outcome.rubs:
         point: Any = {"marker": "o", "ls": "", "color": drawing.BLACK, "label": "this impact"}
-        entries += axis.plot(scene.psi_in, scene.psi_out, **point)
+        entries += axis.plot(outcome.psi_in, outcome.psi_out, **point)
     if laws:  # whose names are long
         height = figure.get_figheight() + ENTRY_HEIGHT * drawing.MM * len(laws)
         figure.set_size_inches(1.5 * figure.get_figwidth(), height)

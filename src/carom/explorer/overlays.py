@@ -1,4 +1,4 @@
-"""Rebound curves of a view, the exact one and those of contact laws; remembered by bodies."""
+"""Rebound curves of the contact laws over a view; remembered by bodies."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
@@ -9,18 +9,14 @@ from time import monotonic
 
 import numpy as np
 
-from carom.bodies.losses import KelvinVoigt, LossLaw
 from carom.dem.base import ContactLaw, Law
-from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.numerics.threads import available_cores
-from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.explorer.limits import LAW_SECONDS, MOST_FOLLOWERS
-from carom.explorer.scenes import Scene
+from carom.explorer.outcomes import Outcome
 from carom.quantities.arrays import Array
 from carom.verify.entries import damped, named
 
-POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 81, 61
-CURVE_TOLERANCE = 1e-8  # with losses, where a point takes 0.6 ms
+POINTS, POINTS_OF_LAWS = 241, 61
 MARGIN = 1.15  # beyond the present psi_1
 FORCE_STEPS = 400
 DRAWN_EVERY = 2  # of these steps
@@ -29,7 +25,7 @@ GLANCE_SECONDS = 0.1
 KEY_DIGITS = 12  # by which curves are kept
 
 _solvers = ThreadPoolExecutor(max(1, available_cores() - 1), "carom-law")  # answers go first
-_at_work: dict[tuple[Scene, str], Future["LawCurve"]] = {}
+_at_work: dict[tuple[Outcome, str], Future["LawCurve"]] = {}
 
 
 class Followers:
@@ -62,20 +58,18 @@ class LawCurve:
     psi_out: Array
     at: float  # psi_2 at the present psi_1
     share: Array  # times, of the exact duration
-    force: Array  # in the unit of the scene
+    force: Array  # in the unit of the page
 
 
-def exact_curve(scene: Scene) -> tuple[Array, Array]:
-    """Return psi_1 and psi_2 of the exact curve, over the present point and all regimes."""
-    psi, out = _exact(round(scene.chi, KEY_DIGITS), scene.losses)
-    high = _span(scene)[1]
-    if high > psi[-1]:  # the curve is straight there
-        psi, out = np.append(psi, high), np.append(out, out[-1] + (high - psi[-1]))
-    return _whole(scene, psi, out)
+def places(outcome: Outcome) -> Array:
+    """Return the psi_1 over which curves are drawn: all regimes, and the present point."""
+    low, high = _span(outcome)
+    grid = np.linspace(0.0, _regimes(outcome.chi), POINTS)
+    return np.unique(np.concatenate([-grid[-grid >= low], grid, [high]]))
 
 
 def law_curves(
-    scene: Scene,
+    outcome: Outcome,
     labels: Sequence[str],
     seconds: float = LAW_SECONDS,
     given_up: Callable[[], bool] = lambda: False,
@@ -86,61 +80,52 @@ def law_curves(
     once `given_up` is true.
     """
     end = monotonic() + seconds
-    begun = [_begun(scene, label) for label in labels]
+    begun = [_begun(outcome, label) for label in labels]
     while True:
         _, late = wait(begun, max(0.0, min(GLANCE_SECONDS, end - monotonic())))
         if not late or monotonic() >= end or given_up():
             break
         rows = zip(labels, begun, strict=True)  # another request may have cancelled what it shares
-        begun = [_begun(scene, name) if law.cancelled() else law for name, law in rows]
+        begun = [_begun(outcome, name) if law.cancelled() else law for name, law in rows]
     for future in late:  # the page may have moved on
         future.cancel()
     return [law.result() if law.done() and not law.cancelled() else None for law in begun]
 
 
-def _begun(scene: Scene, label: str) -> Future[LawCurve]:
+def _begun(outcome: Outcome, label: str) -> Future[LawCurve]:
     """Return a law at work, only once even if it is asked for again meanwhile."""
-    curve = _at_work.get((scene, label))
+    curve = _at_work.get((outcome, label))
     if curve is None or curve.cancelled():
-        curve = _at_work[scene, label] = _solvers.submit(_of_law, scene, label)
-        curve.add_done_callback(lambda _: _at_work.pop((scene, label), None))
+        curve = _at_work[outcome, label] = _solvers.submit(_of_law, outcome, label)
+        curve.add_done_callback(lambda _: _at_work.pop((outcome, label), None))
     return curve
 
 
-@lru_cache(maxsize=KEPT_CURVES)
-def _exact(chi: float, losses: LossLaw | None) -> tuple[Array, Array]:
-    """Return psi_1 and psi_2 over all regimes, psi_1 >= 0."""
-    viscous = isinstance(losses, KelvinVoigt)
-    psi = np.linspace(0.0, _regimes(chi), POINTS_WITH_LOSSES if viscous else POINTS)
-    if losses is None or not viscous:
-        return psi, rebound(psi, chi, losses=losses)
-    chis = np.full(psi.size, chi)
-    return psi, lossy_rebounds(psi, chis, scale_free(losses), tolerance=CURVE_TOLERANCE).psi_out
-
-
-def _whole(scene: Scene, psi: Array, out: Array) -> tuple[Array, Array]:
+def _whole(outcome: Outcome, psi: Array, out: Array) -> tuple[Array, Array]:
     """Return a curve that is there for psi_1 >= 0, as far as it is drawn."""
-    low, high = _span(scene)
+    low, high = _span(outcome)
     both = np.concatenate([-psi[:0:-1], psi]), np.concatenate([-out[:0:-1], out])
     shown = (both[0] >= low) & (both[0] <= high)
     return both[0][shown], both[1][shown]
 
 
 @lru_cache(maxsize=KEPT_CURVES)
-def _of_law(scene: Scene, label: str) -> LawCurve:
+def _of_law(outcome: Outcome, label: str) -> LawCurve:
     law = named(label)[0].law
-    if scene.restitution != 1.0:
-        law = damped(law, scene.restitution)
-    grid = np.linspace(0.0, _regimes(scene.chi), POINTS_OF_LAWS)
-    half = _half(law, round(scene.chi, KEY_DIGITS), round(scene.kappa, KEY_DIGITS))
+    if outcome.restitution != 1.0:
+        law = damped(law, outcome.restitution)
+    grid = np.linspace(0.0, _regimes(outcome.chi), POINTS_OF_LAWS)
+    half = _half(law, round(outcome.chi, KEY_DIGITS), round(outcome.kappa, KEY_DIGITS))
     at, share, force = float("nan"), np.array([]), np.array([])
-    if np.isfinite(scene.psi_in):
-        at = float(_rebound(law, scene.psi_in, scene.chi, scene.kappa))
+    if np.isfinite(outcome.psi_in):
+        at = float(_rebound(law, outcome.psi_in, outcome.chi, outcome.kappa))
         if isinstance(law, ContactLaw):  # a hard sphere has no contact to follow
-            course = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=FORCE_STEPS)
-            share = course["time"][::DRAWN_EVERY] / scene.lasts
-            force = (course["tangential_force"] * scene.force_scale)[::DRAWN_EVERY]
-    return LawCurve(label, *_whole(scene, grid, half), at, share, force)
+            course = law.history(
+                outcome.psi_in, outcome.chi, kappa=outcome.kappa, steps=FORCE_STEPS
+            )
+            share = course["time"][::DRAWN_EVERY] / outcome.lasts
+            force = (course["tangential_force"] * outcome.force_scale)[::DRAWN_EVERY]
+    return LawCurve(label, *_whole(outcome, grid, half), at, share, force)
 
 
 @lru_cache(maxsize=KEPT_CURVES)
@@ -161,9 +146,9 @@ def _regimes(chi: float) -> float:
     return float(np.ceil(2.0 * max(4.0 * chi, 1.5)) / 2.0)
 
 
-def _span(scene: Scene) -> tuple[float, float]:
+def _span(outcome: Outcome) -> tuple[float, float]:
     """Return the psi_1 between which curves are drawn: all regimes, and the present point."""
-    regimes = _regimes(scene.chi)
-    point = scene.psi_in if np.isfinite(scene.psi_in) else 0.0
+    regimes = _regimes(outcome.chi)
+    point = outcome.psi_in if np.isfinite(outcome.psi_in) else 0.0
     reach = np.ceil(MARGIN * abs(point)) if abs(point) > regimes / MARGIN else regimes
     return (-reach if point < 0.0 else 0.0), max(reach, regimes)

@@ -6,7 +6,10 @@ That is its fields, materials, laws, symbols and examples, as JSON holds them.
 import json
 import re
 import tomllib
+from base64 import b64encode
 from dataclasses import fields
+from functools import cache
+from hashlib import sha256
 from importlib.resources import files
 from importlib.util import find_spec
 from math import isinf
@@ -16,20 +19,29 @@ from urllib.parse import urlencode
 
 from carom.bodies.materials import material
 from carom.datasets import names as dataset_names, path
+from carom.dimensionless.numerics.shared_library import (
+    BROWSER,
+    BROWSER_CONTENTS,
+    FOLDER,
+    PACKAGE,
+    digest,
+)
 from carom.explorer.limits import LARGEST_UPLOAD, LONGEST_LINK
-from carom.explorer.tables import RESTITUTIONS
-from carom.explorer.views import CHOICES, FIELDS, OWN, PAGE, PAGE_ONLY, View
+from carom.explorer.views import CHOICES, FIELDS, OWN, PAGE, PAGE_ONLY, UNDAMPED, View
 from carom.impacts.curves import REGIMES as LONG
 from carom.io.tables import read_table
 from carom.io.version import __version__
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import READ
 from carom.quantities.refusals import InputError
-from carom.verify.entries import CATALOGUE
+from carom.verify.entries import CATALOGUE, Entry
 
 ASSETS = "assets"  # the folder of the styles and scripts
+KERNELS = "wasm.js"  # a script among them: the solver, compiled for browsers
 REGIMES = ("stick", "gross slip, stick", "gross slip, slip", "gross slip only")  # as in figures
 SYMBOLS: dict[str, str] = PAGE["symbols"]
-ONLY_THICK = "this copy has thick walls only; the program takes plates"
 OPTIONS: dict[str, str] = PAGE["choices"]
+PREFIXED = ("s", "N", "J", "m", "m/s")  # units of results
 
 
 def page(*, static: bool = False) -> str:
@@ -57,6 +69,23 @@ def plotly_file() -> Path:
     if package is None or package.origin is None:
         raise InputError("the explorer needs the package plotly; pip install 'carom[explore]'")
     return Path(package.origin).with_name("package_data") / "plotly.min.js"
+
+
+@cache
+def kernels() -> bytes:
+    """Return the script of the solver for browsers, or raise InputError."""
+    try:
+        contents = json.loads((FOLDER / BROWSER_CONTENTS).read_text(encoding="utf-8"))
+        module = (FOLDER / BROWSER).read_bytes()
+        made_from = digest(PACKAGE / name for name in contents.pop("files"))
+        fits = made_from == contents.pop("sources")
+        fits = fits and sha256(module).hexdigest() == contents.pop("sha256")
+    except (OSError, ValueError, KeyError):
+        fits = False
+    if not fits:
+        raise InputError("the explorer needs the kernels for browsers; install carom again")
+    contents["code"] = b64encode(module).decode()
+    return f"Carom.wasm = {json.dumps(contents, separators=(',', ':'))};\n".encode()
 
 
 class Preset(NamedTuple):
@@ -96,9 +125,12 @@ def config(*, static: bool = False) -> dict[str, Any]:
         "page_only": PAGE_ONLY,
         "longest_link": LONGEST_LINK,
         "largest_upload": LARGEST_UPLOAD,
-        "fields": _fields() | (_fields_of_copy() if static else {}),
+        "fields": _fields(static),
         "materials": {name: _material(name) for name in CHOICES["second_material"] if name != OWN},
-        "laws": [{"label": entry.label, "used_by": entry.used_by} for entry in CATALOGUE],
+        "laws": [_law(entry) for entry in CATALOGUE],
+        "rows": {name: _row(name, sign) for name, sign in PAGE["signs"].items()},
+        "lossy": {name: _row(name, sign) for name, sign in PAGE["signs_of_losses"].items()},
+        "prefixes": {unit: sorted(READ[unit].items()) for unit in PREFIXED},
         "regimes": [{"name": name, "long": long} for name, long in zip(REGIMES, LONG, strict=True)],
         "symbols": SYMBOLS,
         "energies": PAGE["energies"] | PAGE["energies_of_contact"],
@@ -110,8 +142,20 @@ def config(*, static: bool = False) -> dict[str, Any]:
     }
 
 
-def _fields() -> dict[str, dict[str, Any]]:
-    return {default.name: _field(default.name, default.default) for default in fields(View)}
+def _fields(static: bool) -> dict[str, dict[str, Any]]:
+    described = {default.name: _field(default.name, default.default) for default in fields(View)}
+    if static:  # it has no program that reads other units
+        described["radius"]["hint"] = ""
+    return described
+
+
+def _law(entry: Entry) -> dict[str, Any]:
+    damped = entry.label not in UNDAMPED
+    return {"label": entry.label, "used_by": entry.used_by, "damped": damped}
+
+
+def _row(name: str, sign: str) -> dict[str, str]:
+    return {"symbol": sign, "meaning": GLOSSARY[name].meaning, "unit": GLOSSARY[name].unit}
 
 
 def _field(name: str, default: Any) -> dict[str, Any]:
@@ -123,23 +167,6 @@ def _field(name: str, default: Any) -> dict[str, Any]:
         "most": field.most if field.is_number else None,
         "choices": [[value, OPTIONS.get(value, value)] for value in choices] or None,
         "default": list(default) if isinstance(default, tuple) else field.otherwise or default,
-    }
-
-
-def _fields_of_copy() -> dict[str, dict[str, Any]]:
-    """Return the fields that differ in a copy without a server, which has tables and no units."""
-    tabulated = [[f"{e:g}", OPTIONS.get(f"{e:g}", f"{e:g}")] for e in RESTITUTIONS]
-    chosen = {"slider": None, "choices": tabulated, "default": f"{View.restitution:g}"}
-    plain = {"hint": ""}  # its numbers are read in the unit of the field alone
-    own, plates = _fields(), {"thickness": "thick", "inelasticity": "0"}  # all that it has
-    no_plate = {"slider": None, "least": None, "most": None, "hint": ONLY_THICK}
-    return {
-        "restitution": own["restitution"] | chosen,
-        "radius": own["radius"] | plain,
-        **{
-            name: own[name] | no_plate | {"choices": [[only, only]], "default": only}
-            for name, only in plates.items()
-        },
     }
 
 

@@ -3,8 +3,8 @@
 import logging
 import socket
 from dataclasses import dataclass, field
-from errno import EADDRNOTAVAIL
 from math import inf
+from threading import Timer
 from time import time
 from typing import Any
 
@@ -12,6 +12,7 @@ from flask import Flask
 from waitress.channel import HTTPChannel
 from waitress.server import TcpWSGIServer
 
+from carom.explorer.address import DEFAULT_PORT, LOOPBACK, listening, url_of
 from carom.explorer.app import new_app
 from carom.explorer.limits import (
     IDLE_SECONDS,
@@ -22,15 +23,11 @@ from carom.explorer.limits import (
     THREADS,
 )
 from carom.explorer.overlays import followers
-from carom.explorer.page import plotly_file
-from carom.explorer.warming import Warming
+from carom.explorer.page import kernels
 from carom.explorer.worker import Worker
-from carom.quantities.refusals import InputError, refusal
 
-LOOPBACK = "127.0.0.1"
 OWN_NAMES = [LOOPBACK, "localhost", "::1"]
-DEFAULT_PORT = 8050
-LARGEST_PORT = 65535
+LOADED_SECONDS = 3.0  # in which a page is there; only then others take a processor
 SENT_AT_ONCE = 1 << 17  # bytes of an answer that are sent, or tried to be sent, at a time
 
 
@@ -58,7 +55,7 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
 
     channel_class = Connection
 
-    def __init__(self, app: Flask, listening: socket.socket) -> None:
+    def __init__(self, app: Flask, bound: socket.socket) -> None:
         logging.getLogger("waitress").setLevel(logging.CRITICAL)  # browsers come and go
         self._stopped = False
         settings: dict[str, Any] = {
@@ -71,8 +68,8 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
             "outbuf_high_watermark": 1 << 40,  # answers wait in files, not in their threads
             "ident": None,
         }
-        place = listening.family, listening.type, listening.proto, listening.getsockname()
-        super().__init__(app, _sock=listening, sockinfo=place, bind_socket=False, **settings)
+        place = bound.family, bound.type, bound.proto, bound.getsockname()
+        super().__init__(app, _sock=bound, sockinfo=place, bind_socket=False, **settings)
 
     def handle_accept(self) -> None:
         """Accept connections, of a flood so many at a time that they cannot close each other."""
@@ -116,7 +113,6 @@ class Explorer:
     url: str
     _server: Server = field(repr=False)
     _worker: Worker = field(repr=False)
-    _warming: Warming = field(repr=False)
 
     def serve(self) -> None:
         """Answer until `stop`, or an interrupt."""
@@ -133,7 +129,6 @@ class Explorer:
         """Give the port back, of a page that is not served."""
         self._server.end()
         self._worker.close()
-        self._warming.stop()
         followers.dismiss()
 
 
@@ -161,35 +156,15 @@ def explorer(*, host: str = LOOPBACK, port: int = DEFAULT_PORT) -> Explorer:
     True
     >>> page.close()
     """
-    if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= LARGEST_PORT:
-        allowed = f"must be a whole number from 0 to {LARGEST_PORT}; 0 takes any that is free"
-        raise refusal("port", port, allowed)
-    if not host:
-        raise refusal("host", host, "must be an address, e.g. 127.0.0.1; 0.0.0.0 is every one")
-    plotly_file()
-    listening = _bound(host, port)
-    worker, warming = Worker(), Warming()
-    server = Server(new_app(worker, warming, OWN_NAMES if host in OWN_NAMES else None), listening)
-    warming.start()
-    worker.start()
-    shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
-    return Explorer(f"http://{shown}:{server.effective_port}/", server, worker, warming)
+    return serving(listening(host, port), host)
 
 
-def _bound(host: str, port: int) -> socket.socket:
-    """Return a socket that listens, or raise InputError."""
-    listening = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
-    try:
-        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listening.bind((host, port))
-    except OSError as error:
-        listening.close()
-        if isinstance(error, socket.gaierror) or error.errno == EADDRNOTAVAIL:
-            allowed = "is no address of this machine; 127.0.0.1 is, and 0.0.0.0 is every one"
-            raise refusal("host", host, allowed) from None
-        reason = (error.strerror or str(error)).lower()
-        raise InputError(
-            f"port: {port} at {host!r} cannot be listened at, {reason}; "
-            "take another, or 0 for any that is free"
-        ) from None
-    return listening
+def serving(bound: socket.socket, host: str) -> Explorer:
+    """Return the page on a socket that listens."""
+    kernels()
+    worker = Worker()
+    server = Server(new_app(worker, OWN_NAMES if host in OWN_NAMES else None), bound)
+    later = Timer(LOADED_SECONDS, worker.start)
+    later.daemon = True
+    later.start()
+    return Explorer(url_of(bound, host), server, worker)

@@ -19,8 +19,7 @@ from carom.bodies.shapes import Cup, Sphere
 from carom.datasets.observables import INCIDENCE, OBSERVABLES
 from carom.explorer.columns import lists, plain_words, taken
 from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
-from carom.explorer.results import in_words
-from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View
+from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View, in_words
 from carom.fitting import Estimate, Fit, fit
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant

@@ -4,6 +4,7 @@ Also the fields of the page: what each is called, what it may be, and how it is 
 stand in `data/page.toml`, with others of the page.
 """
 
+import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
@@ -69,6 +70,13 @@ class Field(NamedTuple):
 
 
 FIELDS = {name: Field(**words) for name, words in PAGE["fields"].items()}
+
+
+def in_words(text: str) -> str:
+    """Return a text of the library without its arguments and letters spelt out."""
+    for pattern, words in PAGE["wording"].items():
+        text = re.sub(pattern, words, text)
+    return text
 
 
 class Refused(InputError):

@@ -5,7 +5,8 @@
 Groups of kernels become object files side by side, and the C compiler links them with the functions
 for other languages. Without a folder the library is for this package itself. Levels are those of
 x86-64, 1 to 4; without one it is that of this processor. What was built is kept by a checksum of
-all that it was made from, so that it is made once.
+all that it was made from, so that it is made once. Kernels for browsers are made beside it, also
+where there is no C compiler.
 """
 
 import ctypes
@@ -30,7 +31,14 @@ from carom.dimensionless.lossy.viscoelastic import work
 from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
 from carom.dimensionless.lossy.viscoelastic.record import new_record
 from carom.dimensionless.numerics.kernels import ENTRIES, INSTALL, VARIABLE
-from carom.dimensionless.numerics.shared_library import CONTENTS, FOLDER, PACKAGE, digest
+from carom.dimensionless.numerics.shared_library import (
+    BROWSER,
+    BROWSER_CONTENTS,
+    CONTENTS,
+    FOLDER,
+    PACKAGE,
+    digest,
+)
 from carom.dimensionless.rebounds import NEARLY_ELASTIC, STEP_TOLERANCE
 
 HERE = Path(__file__).parent
@@ -58,12 +66,14 @@ def build(folder: Path, levels: Sequence[int] = ()) -> None:
     sources = digest(files)
     libraries = []
     folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(1) as beside:
+        for_browsers = beside.submit(_build_for_browsers, folder, sources)
         for level in levels or [processor_level(Path(scratch))]:
             path = _kept(sources, modules, level, Path(scratch))
             checksum = sha256(path.read_bytes()).hexdigest()
             libraries.append({"file": path.name, "level": level, "sha256": checksum})
             _put(path, folder)
+        for_browsers.result()
     signatures = (each for kernel in ENTRIES for each in kernel.signatures().items())
     contents = {
         "compiled_by": f"numba {_numba()}",
@@ -98,6 +108,23 @@ def processor_level(scratch: Path) -> int:
     path = scratch / f"processor{_ending()}"
     _link(path, [PROCESSOR])
     return int(ctypes.CDLL(str(path)).carom_processor_level())
+
+
+def _build_for_browsers(folder: Path, sources: str) -> None:
+    """Write the kernels for browsers into a folder, built now or before."""
+    recipe = [sources, digest(OWN_FILES), _numba(), version("llvmlite")]
+    kept = kept_in() / sha256(" ".join(recipe).encode()).hexdigest()[:16]
+    with tempfile.TemporaryDirectory() as scratch:
+        made = kept
+        if not (kept / BROWSER_CONTENTS).is_file():
+            made = Path(scratch)
+            _run([sys.executable, "-m", "carom.native.browser", scratch], _environment(0))
+            with suppress(OSError):  # it is made again then
+                kept.mkdir(parents=True, exist_ok=True)
+                for name in (BROWSER, BROWSER_CONTENTS):
+                    _put(made / name, kept)
+        for name in (BROWSER, BROWSER_CONTENTS):
+            _put(made / name, folder)
 
 
 def _kept(sources: str, modules: Sequence[str], level: int, scratch: Path) -> Path:
@@ -173,8 +200,7 @@ def _objects(modules: Sequence[str], level: int, scratch: Path) -> list[Path]:
     """Return object files of all entry points, made by several processes."""
     groups = _shared_out(modules, max(2, os.cpu_count() or 2))
     paths = [scratch / f"kernels{level}-{i}.o" for i in range(len(groups))]
-    environment = {**os.environ, VARIABLE: "numba", "NUMBA_CPU_NAME": GENERIC[level]}
-    environment["NUMBA_CPU_FEATURES"] = ""
+    environment = _environment(level)
 
     def emit(path: Path, group: Sequence[str]) -> None:
         command = [sys.executable, "-m", "carom.native.emission", path, *group]
@@ -183,6 +209,12 @@ def _objects(modules: Sequence[str], level: int, scratch: Path) -> list[Path]:
     with ThreadPoolExecutor(len(groups)) as pool:
         list(pool.map(emit, paths, groups))
     return paths
+
+
+def _environment(level: int) -> dict[str, str]:
+    """Return the environment in which numba makes modules for a level of processors."""
+    numba = {"NUMBA_CPU_NAME": GENERIC[level], "NUMBA_CPU_FEATURES": ""}
+    return {**os.environ, VARIABLE: "numba", **numba}
 
 
 def _shared_out(modules: Iterable[str], workers: int) -> list[list[str]]:

@@ -38,17 +38,9 @@ define void @NRT_decref(i8* %x) alwaysinline { ret void }
 """
 
 
-@global_compiler_lock  # type: ignore[untyped-decorator]
 def object_code(entries: Iterable[Kernel[..., Any]]) -> bytes:
     """Return an object file of entry points; RuntimeError if one needs more than the C library."""
-    with numba_internals.front_end():
-        modules = {
-            name: _module(name, kernel.dispatcher, signature)
-            for kernel in entries
-            for name, signature in kernel.signatures().items()
-        }
-    parts = (llvm.parse_assembly(NO_COUNTING), *modules.values())
-    module = numba_internals.optimised(parts, lambda whole: _hide_all_but(whole, set(modules)))
+    module = numba_internals.optimised(linked(entries))
     needed = {each.name for each in module.functions if each.is_declaration}
     foreign = {name for name in needed if not name.startswith("llvm.")} - ALLOWED
     if foreign:
@@ -56,10 +48,21 @@ def object_code(entries: Iterable[Kernel[..., Any]]) -> bytes:
     return bytes(numba_internals.machine().emit_object(module))
 
 
-def _hide_all_but(module: Any, names: set[str]) -> None:
-    for each in (*module.functions, *module.global_variables):
-        if not each.is_declaration and each.name not in names:
+@global_compiler_lock  # type: ignore[untyped-decorator]
+def linked(entries: Iterable[Kernel[..., Any]]) -> Any:
+    """Return the library of entry points with all that they call, before it is optimised."""
+    with numba_internals.front_end():
+        modules = {
+            name: _module(name, kernel.dispatcher, signature)
+            for kernel in entries
+            for name, signature in kernel.signatures().items()
+        }
+    library = numba_internals.linked((llvm.parse_assembly(NO_COUNTING), *modules.values()))
+    whole = numba_internals.whole(library)
+    for each in (*whole.functions, *whole.global_variables):
+        if not each.is_declaration and each.name not in modules:
             each.linkage = "internal"
+    return library
 
 
 def _module(name: str, compiled: Any, signature: Signature) -> Any:

@@ -83,12 +83,21 @@ def data_layout() -> Any:
     return _own()._data_layout
 
 
-def optimised(modules: Iterable[Any], prepare: Callable[[Any], None]) -> Any:
-    """Return modules linked, prepared, and optimised as a whole by numba's own passes."""
+def linked(modules: Iterable[Any]) -> Any:
+    """Return a library of these modules."""
     library = _own().create_library("carom")
     for module in modules:
         library._final_module.link_in(module)
-    prepare(library._final_module)
+    return library
+
+
+def whole(library: Any) -> Any:
+    """Return the one module of a library."""
+    return library._final_module
+
+
+def optimised(library: Any) -> Any:
+    """Return the module of a library, optimised as a whole by numba's own passes."""
     library._optimize_functions(library._final_module)
     library._optimize_final_module()
     return library._final_module

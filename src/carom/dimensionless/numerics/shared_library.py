@@ -19,6 +19,7 @@ from carom.dimensionless.numerics.signatures import Signature, caller
 PACKAGE = Path(__file__).parents[2]
 FOLDER = PACKAGE / "lib"
 CONTENTS = "kernels.json"  # beside the libraries: what they are, from what; or why there are none
+BROWSER, BROWSER_CONTENTS = "carom.wasm", "browser.json"  # kernels for the explorer page
 
 
 class Opened(NamedTuple):

@@ -1,60 +1,86 @@
-// What there is to see of an impact that was solved: its scene, histories, curve and numbers.
+// What there is to see of an impact: its scene, histories, curve and numbers.
 
 Carom.answer = (() => {
-  const POINTS = 241; // of the curve
+  const { solver } = Carom;
+  const POINTS = { elastic: 240, viscous: 60 }; // intervals of the curve, over all regimes
   const BEYOND = 1.15; // of the present psi_1, that is shown
+  const KEPT = 16; // curves that are remembered
   const CARRIED = 6; // digits that go over from bodies to numbers
-  const OF_LOSSES = 4; // digits of energies that springs give
-  const SMALL_CONTACT = 0.1; // a_max/R* up to which Hertz's theory holds
   const NO_SPIN = 1e-9; // of the spin before: less is rounding
+  const ZENER = 1.25 ** 0.4; // Zener's inelasticity parameter of a plate of lambda = 1
+  const THINNEST = 2; // lambda; so thin a plate gives way like a foil
+  const TOO_LARGE = "with the other numbers it leads to some that a computer cannot hold";
+  const FOIL = "so thin a plate gives way like a foil (λ about 2)";
+  const curves = new Map();
   const short = (values) => Carom.paths.short(values);
   const precise = (values) => Array.from(values, (value) => Number(value.toPrecision(6)) || 0);
   const fine = (values) => Array.from(values, (value) => Math.round(value * 1e7) / 1e7 || 0);
-  const most = (values) => values.reduce((a, b) => Math.max(a, b));
-  const shares = Array.from({ length: Carom.law.TIMES + 1 }, (_, i) => i / Carom.law.TIMES);
+  const shares = Array.from({ length: solver.TIMES + 1 }, (_, i) => i / solver.TIMES);
 
-  // The psi_1 over which the curve is drawn: all regimes, and the present point.
-  function curve(psi, out, chi, e) {
+  function refuse(field, message) {
+    throw { field, message };
+  }
+
+  function solved(psi, chi, loss, field) {
+    if (loss.give > THINNEST) refuse(field === "psi" ? "inelasticity" : "thickness", FOIL);
+    const found = [psi, chi].every(Number.isFinite) ? solver.solve(psi, chi, loss) : null;
+    return found ?? refuse(field, TOO_LARGE);
+  }
+
+  // psi_1 over all regimes and psi_2, psi_1 >= 0.
+  function half(chi, loss, last) {
+    const key = [chi, loss.alpha, loss.give].join();
+    if (!curves.has(key)) {
+      const count = loss.alpha ? POINTS.viscous : POINTS.elastic;
+      const psi = Array.from({ length: count + 1 }, (_, i) => (last * i) / count);
+      curves.set(key, [psi, solver.rebounds(psi, chi, loss)]);
+    }
+    if (curves.size > KEPT) curves.delete(curves.keys().next().value);
+    return curves.get(key);
+  }
+
+  // The curve over all regimes and the present point; beyond the regimes it is straight.
+  function curve(psi, { out, chi, alpha, give, restitution, strongest }) {
     const regimes = Math.ceil(2 * Math.max(4 * chi, 1.5)) / 2;
     const point = Number.isFinite(psi) ? psi : 0;
-    const reach = Math.abs(point) > regimes / BEYOND ? Math.ceil(BEYOND * Math.abs(point)) : regimes;
-    const [low, high] = [point < 0 ? -reach : 0, Math.max(reach, regimes)];
-    const [first, last] = [Math.max(low, -regimes), Math.min(high, regimes)];
-    const within = Array.from({ length: POINTS }, (_, i) => first + ((last - first) * i) / (POINTS - 1));
-    const along = [...new Set([low, ...within, high])]; // beyond the regimes the curve is straight
+    const reach = Math.ceil(BEYOND * Math.abs(point));
+    const beyond = Math.abs(point) > regimes / BEYOND && reach > regimes ? [reach] : [];
+    const [grid, known] = half(chi, { alpha, give }, regimes);
+    const along = [...grid, ...beyond];
+    const outs = [...known, ...solver.rebounds(beyond, chi, { alpha, give })];
+    const mirrored = (values) => values.slice(1).reverse().map((value) => -value);
+    const both = (values) => (point < 0 ? [...mirrored(values), ...values] : values);
     return {
-      psi: fine(along),
-      out: fine(along.map((value) => Carom.rebound.of(value, chi, e))),
-      borders: Carom.rebound.borders(chi, e),
+      psi: fine(both(along)),
+      out: fine(both(outs)),
+      borders: solver.borders(chi, { restitution, give, strongest }),
       at: Number.isFinite(psi) ? [psi, out] : null,
     };
   }
 
-  function scene(solved, { duration, unit, phases, stick, stage }) {
-    const highest = most(solved.limit);
+  function scene(impact, { duration, unit, phases, stick, stage }) {
+    const highest = impact.limit.reduce((most, value) => Math.max(most, value));
     return {
+      ...(impact.give ? { plate: impact.restitution } : {}),
       duration,
       unit,
       phases,
       time: short(shares),
-      psi: precise(solved.psi),
-      contact: short(solved.contact.map((value) => value / solved.radius)),
-      stick: short(stick.map((value) => value / solved.radius)),
-      force: precise(solved.force.map((value) => (1.5 * value) / highest)),
-      rim: short(solved.speed.map((value) => (solved.normal.alpha * Math.max(value, 0)) / solved.radius ** 2)),
-      tractions: solved.tractions.map(short),
+      psi: precise(impact.psi),
+      contact: short(impact.contact.map((value) => value / impact.widest)),
+      stick: short(stick.map((value) => value / impact.widest)),
+      force: precise(impact.force.map((value) => (1.5 * value) / highest)),
+      rim: short(impact.speed.map((value) => (impact.alpha * Math.max(value, 0)) / impact.widest ** 2)),
+      tractions: impact.tractions.map(short),
       stage,
     };
   }
 
   function rows(numbers, lossy) {
-    const { rows: usual, lossy: more } = Carom.tables;
+    const { rows: usual, lossy: more } = Carom.config;
     return Object.entries(lossy ? { ...usual, ...more } : usual)
       .filter(([name]) => name in numbers)
-      .map(([name, { symbol, meaning, unit }]) => {
-        const rough = lossy && ["dissipated_energy", "shear_lost_energy"].includes(name);
-        return { name, symbol, meaning, ...Carom.quantities.printed(numbers[name], unit, rough ? OF_LOSSES : undefined) };
-      });
+      .map(([name, { symbol, meaning, unit }]) => ({ name, symbol, meaning, ...Carom.quantities.printed(numbers[name], unit) }));
   }
 
   // Columns as shares of what they add up to.
@@ -64,25 +90,28 @@ Carom.answer = (() => {
     return Object.fromEntries(Object.entries(columns).map(([name, column]) => [name, share(column)]));
   }
 
-  function ofNumbers({ psi, chi, friction, restitution }) {
-    const solved = Carom.law.solve(psi, chi, restitution);
-    const { duration, phases, stick, out } = solved;
-    const moving = { velocity: solved.psi, speed: solved.speed, penetration: Array.from(solved.depth), duration };
-    const stage = Carom.paths.ofNumbers({ psi, chi, friction, ...moving });
+  function ofNumbers({ psi, chi, friction, restitution, inelasticity }) {
+    if (!friction) refuse("friction", "must be above 0: without friction there is no ψ₁");
+    const give = inelasticity / ZENER;
+    const impact = solved(psi, chi, { alpha: give ? 0 : solver.alphaOf(restitution), give }, "psi");
+    const { duration, phases, stick, out } = impact;
+    const moving = { velocity: impact.psi, speed: impact.speed, penetration: Array.from(impact.depth), duration };
+    const stage = Carom.paths.ofNumbers({ psi, chi, friction, gives: give > 0, ...moving });
     const numbers = { psi_in: psi, psi_out: out, chi, ...(psi ? { contact_restitution: out / psi } : {}) };
     const energies = parts({
-      contact_kinetic_energy: solved.psi.map((value) => 0.5 * value * value),
-      tangential_elastic_energy: solved.stored,
-      frictional_work: solved.dissipated,
-      shear_loss: solved.shear,
+      contact_kinetic_energy: impact.psi.map((value) => 0.5 * value * value),
+      tangential_elastic_energy: impact.stored,
+      frictional_work: impact.dissipated,
+      shear_loss: impact.shear,
     });
     return {
       carried: null,
-      scene: scene(solved, { duration, unit: "d_max/V₁", phases, stick, stage }),
-      history: { share: shares, force: fine(solved.force.map((value) => 1.5 * value)), limit: fine(solved.limit), unit: "µ F_max", energies },
-      curve: curve(psi, out, chi, restitution),
-      results: rows(numbers),
-      findings: [],
+      lossy: give > 0 || restitution !== 1,
+      shape: [chi, impact.alpha, give].join(),
+      scene: scene(impact, { duration, unit: "d_max/V₁", phases, stick, stage }),
+      history: { share: shares, force: fine(impact.force.map((value) => 1.5 * value)), limit: fine(impact.limit), unit: "µ F_max", energies },
+      curve: curve(psi, impact),
+      results: rows(give ? { ...numbers, normal_restitution: impact.restitution } : numbers, give > 0),
     };
   }
 
@@ -94,45 +123,43 @@ Carom.answer = (() => {
     const velocity = Carom.pair.contactVelocity(pair, before.slice(0, 1 + pair.moving.length));
     const scales = Carom.pair.scales(pair, speed);
     const psi = velocity === 0 ? 0 : velocity / scales.tangentialSpeed;
-    return { speed, before, velocity, scales, psi, rubs: Number.isFinite(psi) };
+    const give = pair.normalMass / (pair.impedance * scales.time);
+    return { speed, before, velocity, scales, psi, give, rubs: pair.friction > 0 || velocity === 0 };
   }
 
   // The bodies in the course of time, in SI units.
-  function columns(solved, pair, { speed, before, velocity, scales, rubs, psi }) {
+  function columns(impact, pair, { speed, before, velocity, scales, rubs, psi }) {
     const impulse = pair.tangentialMass * scales.tangentialSpeed;
-    const drift = rubs ? 0 : velocity;
     const first = rubs ? psi : 0;
-    const now = Array.from(solved.psi, (value) => Carom.pair.after(pair, before, impulse * (first - value)));
+    const now = Array.from(impact.psi, (value) => Carom.pair.after(pair, before, impulse * (first - value)));
     const energy = impulse * scales.tangentialSpeed;
     const of = (column, scale) => Array.from(column, (value) => value * scale);
     return {
       along: now.map(([value]) => value),
       spins: [1, 2].map((i) => now.map((each) => each[i])),
-      speed: of(solved.speed, speed),
-      penetration: of(solved.depth, scales.length),
+      speed: of(impact.speed, speed),
+      penetration: of(impact.depth, scales.length),
       energies: {
-        normal_kinetic_energy: Array.from(solved.speed, (value) => value * value * scales.energy),
+        normal_kinetic_energy: Array.from(impact.speed, (value) => value * value * scales.energy),
         tangential_kinetic_energy: now.map(([value]) => 0.5 * pair.normalMass * value ** 2),
         spin_kinetic_energy: now.map(([, ...spins]) => Carom.pair.spinEnergy(pair, spins)),
-        normal_elastic_energy: of(solved.normalStored, scales.energy),
-        tangential_elastic_energy: of(solved.stored, energy),
-        frictional_work: of(solved.dissipated, energy),
-        normal_loss: of(solved.normalLost, scales.energy),
-        shear_loss: of(solved.shear, energy),
+        normal_elastic_energy: of(impact.normalStored, scales.energy),
+        tangential_elastic_energy: of(impact.stored, energy),
+        frictional_work: of(impact.dissipated, energy),
+        normal_loss: of(impact.normalLost, scales.energy),
+        shear_loss: of(impact.shear, energy),
       },
     };
   }
 
-  function numbersOf(solved, pair, view, { speed, before, velocity, scales, psi, rubs }) {
-    const last = Carom.law.TIMES;
-    const e = view.restitution;
-    const after = rubs ? solved.out * scales.tangentialSpeed : velocity;
+  function numbersOf(impact, pair, view, { speed, before, velocity, scales, psi, rubs }) {
+    const e = impact.restitution;
+    const after = rubs ? impact.out * scales.tangentialSpeed : velocity;
     const [along, spin] = Carom.pair.after(pair, before, pair.tangentialMass * (velocity - after));
-    const unit = pair.tangentialMass * scales.tangentialSpeed ** 2;
-    const sheared = solved.shear[last] * unit;
+    const sheared = impact.shear[solver.TIMES] * pair.tangentialMass * scales.tangentialSpeed ** 2;
     return {
       psi_in: psi,
-      psi_out: rubs ? solved.out : psi,
+      psi_out: rubs ? impact.out : psi,
       chi: pair.chi,
       kappa: pair.kappa,
       rebound_angle: Math.atan2(along, e * speed),
@@ -141,29 +168,21 @@ Carom.answer = (() => {
       contact_restitution: velocity === 0 ? NaN : after / velocity,
       tangential_restitution: before[0] === 0 ? NaN : along / before[0],
       dissipated_energy: 0.5 * pair.tangentialMass * (velocity - after) * (velocity + after) - sheared,
-      duration: solved.duration * scales.time,
-      max_force: Carom.tables.losses[e].max_force * scales.force,
-      max_radius: solved.radius * scales.radius,
+      duration: impact.duration * scales.time,
+      max_force: impact.strongest * scales.force,
+      max_radius: impact.widest * scales.radius,
       normal_restitution: e,
       lost_energy: scales.energy * (1 - e * e),
-      shear_lost_energy: sheared,
+      ...(impact.give ? {} : { shear_lost_energy: sheared }),
     };
-  }
-
-  function findings(pair, scales) {
-    const ratio = scales.radius / pair.radius;
-    const small = ratio <= SMALL_CONTACT;
-    const verdict = small ? "the contact is small compared with the bodies" : `the contact is too large for Hertz's theory, which needs ${SMALL_CONTACT} at most`;
-    const text = `a_max/R* = ${Carom.quantities.plain(ratio, 3)}: ${verdict}`;
-    const rest = "whether a body yields, sticks or loses energy, waves matter or unlike materials couple: the installed program judges that";
-    return [{ mark: small ? "ok" : "FAILS", text }, { mark: "?", text: rest }];
   }
 
   function ofBodies(view, pair) {
     const met = approach(view, pair);
-    const solved = Carom.law.solve(met.rubs ? met.psi : 0, pair.chi, view.restitution);
-    const numbers = numbersOf(solved, pair, view, met);
-    const moving = columns(solved, pair, met);
+    const alpha = met.give ? 0 : solver.alphaOf(view.restitution);
+    const impact = solved(met.rubs ? met.psi : 0, pair.chi, { alpha, give: met.give }, "speed");
+    const numbers = numbersOf(impact, pair, view, met);
+    const moving = columns(impact, pair, met);
     const [seconds, unit] = Carom.quantities.prefixed(numbers.duration, "s");
     const [newtons, forceUnit] = Carom.quantities.prefixed(pair.friction * numbers.max_force || numbers.max_force, "N");
     const force = pair.friction * met.scales.force * newtons;
@@ -171,26 +190,33 @@ Carom.answer = (() => {
     const shown = {
       duration: numbers.duration * seconds,
       unit,
-      phases: met.rubs ? solved.phases : free,
-      stick: met.rubs ? solved.stick : solved.stick.map(() => 0),
+      phases: met.rubs ? impact.phases : free,
+      stick: met.rubs ? impact.stick : impact.stick.map(() => 0),
       stage: Carom.paths.ofBodies(pair, { ...moving, duration: numbers.duration }),
     };
     const digits = (value) => Number(value.toPrecision(CARRIED));
+    const lossy = met.give > 0 || view.restitution !== 1;
     return {
-      carried: met.rubs ? { psi: digits(met.psi), chi: digits(pair.chi), inelasticity: 0 } : null,
-      scene: scene(solved, shown),
+      lossy,
+      shape: [pair.chi, pair.kappa, alpha, met.give].join(),
+      carried: met.rubs ? { psi: digits(met.psi), chi: digits(pair.chi), inelasticity: digits(ZENER * met.give) } : null,
+      scene: { ...scene(impact, shown), ...(met.rubs ? {} : { psi: null }) },
       history: {
         share: shares,
-        force: fine(solved.force.map((value) => 1.5 * force * value)),
-        limit: fine(solved.limit.map((value) => force * value)),
+        force: fine(impact.force.map((value) => 1.5 * force * value)),
+        limit: fine(impact.limit.map((value) => force * value)),
         unit: forceUnit,
         energies: parts(moving.energies),
       },
-      curve: curve(met.psi, numbers.psi_out, pair.chi, view.restitution),
-      results: rows(numbers, view.restitution !== 1),
-      findings: findings(pair, met.scales),
+      curve: curve(met.psi, { ...impact, out: numbers.psi_out }),
+      results: rows(numbers, lossy),
     };
   }
 
-  return { ofNumbers, ofBodies };
+  // The answer to a view of the page, or a refusal of one of its fields.
+  function of(view) {
+    return view.given === "numbers" ? ofNumbers(view) : ofBodies(view, Carom.reading.pair(view));
+  }
+
+  return { of };
 })();

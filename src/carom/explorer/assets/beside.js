@@ -25,7 +25,7 @@ Carom.beside = (() => {
     const mine = query;
     if (!mine || answer) return answer;
     try {
-      const latest = await Carom.source.answer(mine.toString());
+      const latest = await Carom.reading.answer(mine.toString());
       if (mine === query) answer = latest; // it may be another by now
     } catch (refusal) {
       if (mine === query) put(null);

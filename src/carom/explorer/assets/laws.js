@@ -90,6 +90,7 @@ Carom.laws = (() => {
     const { users } = chips.get(label);
     if (!answer || !chips.get(label).input.checked) return `used by: ${users}`;
     if (strip.disabled) return "not solved in this copy";
+    if (answer.late.includes(label)) return "solving …";
     const law = answer.laws.find((each) => each.label === label);
     if (law && law.at !== null) return `ψ₂ ${number(law.at)}, ${off(law.off)}`;
     if (law) return "no ψ₂: without friction";
@@ -121,11 +122,18 @@ Carom.laws = (() => {
     clear.hidden = strip.disabled || !taken;
   }
 
+  // Until those of another impact are there, the curves of this one, where they are the same.
+  function lend(from, to) {
+    if (from?.shape !== to.shape || to.laws.length) return;
+    const known = from.laws.filter(({ label }) => to.late.includes(label));
+    to.laws = known.map((law) => ({ ...law, at: null, off: null, share: [], force: [] }));
+  }
+
   function show(latest) {
     answer = latest;
     update();
   }
 
   Carom.theme.hear(update);
-  return { build, chosen, choose, show, style };
+  return { build, chosen, choose, lend, show, style };
 })();

@@ -33,7 +33,7 @@ Carom.page = (() => {
   async function once(query) {
     following.abort();
     try {
-      const latest = await Promise.all([Carom.source.answer(query.toString()), Carom.beside.answered()]);
+      const latest = await Promise.all([Carom.reading.answer(query.toString()), Carom.beside.answered()]);
       if (!again) show(latest);
     } catch (refusal) {
       if (!again) refuse(refusal);
@@ -60,6 +60,7 @@ Carom.page = (() => {
   const notice = (text) => (byId("notice").textContent = [linked, text].filter(Boolean).join("; "));
 
   function show(latest) {
+    Carom.laws.lend(answers[0], latest[0]);
     answers = latest;
     opening = false;
     scenes = answers.map((answer) => answer && Carom.scene.of(answer.scene));
@@ -72,7 +73,7 @@ Carom.page = (() => {
     Carom.results.show(answers);
     Carom.laws.show(answers[0]);
     soon(() => Carom.charts.show(answers));
-    if (answers[0].late.length) follow(answers[0]);
+    follow(answers);
     if (untouched && !Carom.clock.isPlaying()) Carom.clock.play();
   }
 
@@ -90,19 +91,26 @@ Carom.page = (() => {
     requestAnimationFrame(() => setTimeout(() => work === latest && work()));
   }
 
-  // Contact laws that take longer than the answer.
-  async function follow(answer) {
+  // What the program adds: whether the theory holds, and contact laws. An answer keeps it.
+  async function follow(mine) {
     following = new AbortController();
-    try {
-      const { laws, slow } = await Carom.source.laws(answer.query, following.signal);
-      if (answers[0] !== answer) return;
-      notice("");
-      answers = [{ ...answer, laws, late: [], slow }, answers[1]];
-      Carom.laws.show(answers[0]);
-      Carom.charts.show(answers);
-    } catch (error) {
-      if (error.name !== "AbortError") notice(error.message);
-    }
+    const { signal } = following;
+    const add = async (answer, wanted, ask, shown) => {
+      if (!wanted) return;
+      try {
+        Object.assign(answer, await ask(answer.query, signal));
+        if (answers === mine) shown();
+      } catch (error) {
+        if (error.name !== "AbortError") notice(error.message);
+      }
+    };
+    const verdict = async (query) => ({ findings: await Carom.source.verdict(query, signal) });
+    mine.filter(Boolean).forEach((each) => add(each, !each.findings, verdict, () => Carom.results.show(mine)));
+    const laws = async (query) => ({ ...(await Carom.source.laws(query, signal)), late: [] });
+    await add(mine[0], mine[0].late.length > 0, laws, () => {
+      Carom.laws.show(mine[0]);
+      Carom.charts.show(mine);
+    });
   }
 
   function draw() {
@@ -190,7 +198,7 @@ Carom.page = (() => {
     query.delete("given");
     ["law", "data"].forEach((name) => query.delete(name));
     try {
-      const { carried } = await Carom.source.answer(query.toString());
+      const { carried } = await Carom.reading.answer(query.toString());
       Object.entries(carried ?? {}).forEach(([name, number]) => Carom.fields.put(name, String(number)));
     } catch {
       // bodies that are no impact leave the numbers as they were

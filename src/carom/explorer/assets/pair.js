@@ -12,7 +12,7 @@ Carom.pair = (() => {
   }
 
   // The pair of bodies: radii in m, materials in SI units, rigid ones with an infinite modulus.
-  function of({ radius, material, against, otherRadius, otherMaterial, friction }) {
+  function of({ radius, material, against, otherRadius, otherMaterial, thickness, friction }) {
     const materials = [material, otherMaterial];
     const moving = [body(radius, material)];
     if (against === "sphere") moving.push(body(otherRadius, otherMaterial));
@@ -26,8 +26,16 @@ Carom.pair = (() => {
       moving, against, friction, modulus, shearModulus, normalMass, tangentialMass, kappa,
       radius: 1 / (1 / radius + curvature),
       chi: (0.5 * kappa * normalMass) / tangentialMass,
-      otherRadius,
+      otherRadius, thickness,
+      impedance: impedance(otherMaterial, thickness),
     };
+  }
+
+  // Force over speed of the middle of a plate, 8 sqrt(D rho h); infinite of a thick wall.
+  function impedance({ young, poisson, density }, thickness) {
+    if (thickness === Infinity) return Infinity;
+    const stiffness = (young * thickness ** 3) / (12 * (1 - poisson ** 2));
+    return 8 * Math.sqrt(stiffness * density * thickness);
   }
 
   const sum = (items, of) => items.reduce((total, item) => total + of(item), 0);

@@ -4,7 +4,8 @@
 Carom.paths = (() => {
   const BEYOND = 0.6; // of the contact's duration that is shown before and after
   const [DEEPEST, WIDEST] = [0.3, 6]; // radii that the bodies may approach, and travel sideways
-  const BENT = { plane: "", cup: ", paths bent", sphere: ", paths bent, centre of mass at rest" };
+  const SLAB = 0.3; // ball radii that a plate is thick of which no thickness is known
+  const BENT = { plane: "", plate: ", plate to scale", cup: ", paths bent", sphere: ", paths bent, centre of mass at rest" };
   const STEEPEST = 0.7; // angle by which a body may travel around another
   const ROLLS = 2 / 7; // of the impulse on the contact point of a solid sphere, the centre's part
   const SOLID = 4 / 7; // kappa/chi of a solid sphere
@@ -49,7 +50,7 @@ Carom.paths = (() => {
 
   // Where the first centre is as seen from the second body's, whose surface its path follows.
   function placed(kind, size, along, closer) {
-    if (kind === "plane") return [along, 1 - closer];
+    if (kind === "plane" || kind === "plate") return [along, 1 - closer];
     const reach = kind === "sphere" ? 1 + size - closer : size - 1 + closer;
     const angle = along / (kind === "sphere" ? 1 + size : size - 1);
     return [reach * Math.sin(angle), reach * (kind === "sphere" ? 1 : -1) * Math.cos(angle)];
@@ -64,20 +65,22 @@ Carom.paths = (() => {
   // Bodies from how they move in time: speeds in m/s, spins in rad/s, penetration in m.
   function ofBodies(pair, { along, spins, speed, penetration, duration }) {
     const radius = pair.moving[0].radius;
-    const kind = pair.against === "half-space" ? "plane" : pair.against;
-    const size = kind === "plane" ? 1 : pair.otherRadius / radius;
+    const thick = pair.thickness === Infinity ? "plane" : "plate";
+    const kind = pair.against === "half-space" ? thick : pair.against;
+    const size = { plane: 1, plate: pair.thickness / radius }[kind] ?? pair.otherRadius / radius;
     const last = speed.length - 1;
     const way = travelled(along, duration).map((value) => value / radius);
-    const ends = [penetration, speed[0], speed[last], duration];
-    const closer = continued(...ends).map((value) => value / radius);
-    const large = magnification(kind, size, closer, way);
+    const closer = continued(penetration, speed[0], speed[last], duration).map((value) => value / radius);
+    const fallen = kind === "plate" ? travelled(speed, duration).map((value) => value / radius) : closer;
+    const large = magnification(kind, size, fallen, way);
     const turns = spins.map((spin) => travelled(spin, duration).map((value) => large * value));
     const share = pair.normalMass / pair.moving[0].mass; // of the relative motion, the first body's
-    const height = { plane: 0, sphere: -size, cup: size }[kind];
+    const height = { sphere: -size, cup: size }[kind] ?? 0;
+    const sunk = fallen.map((value, i) => large * (value - closer[i])); // a plate, in its middle
     const places = way.map((value, i) => placed(kind, size, large * value, large * closer[i]));
     const rests = places.map(([x, y]) => [(1 - share) * x, (1 - share) * (y - 1 + height)]);
-    const first = places.map(([x, y], i) => [x - rests[i][0], y - rests[i][1] + height]);
-    const second = rests.map(([x, y]) => [-x, height - y]);
+    const first = places.map(([x, y], i) => [x - rests[i][0], y - rests[i][1] + height - sunk[i]]);
+    const second = rests.map(([x, y], i) => [-x, height - y - sunk[i]]);
     return {
       time: short(times(last)),
       caption: `motion magnified ${digits(large)} times${BENT[kind]}`,
@@ -85,19 +88,21 @@ Carom.paths = (() => {
     };
   }
 
-  // A solid sphere without spin on a plane, as psi and chi move it.
-  function ofNumbers({ psi, chi, friction, velocity, speed, penetration, duration }) {
+  // A solid sphere without spin on a plane or a plate, as psi and chi move it.
+  function ofNumbers({ psi, chi, friction, gives, velocity, speed, penetration, duration }) {
     const last = speed.length - 1;
     const slope = friction / (SOLID * chi);
     const lost = Array.from(velocity, (value) => psi - value);
     const way = travelled(lost.map((value) => slope * (psi - ROLLS * value)), duration);
     const turn = travelled(lost.map((value) => -slope * (1 - ROLLS) * value), duration);
     const closer = continued(penetration, 1, speed[last], duration);
-    const large = magnification("plane", 1, closer, way);
-    const points = way.map((value, i) => [large * value, 1 - large * closer[i]]);
-    const still = points.map(() => [0, 0]);
-    const bodies = [body("sphere", 1, points, turn.map((value) => large * value)), body("plane", 1, still, way.map(() => 0))];
-    const caption = `drawn as a solid sphere, friction ${Carom.quantities.plain(friction, 6)}`;
+    const fallen = gives ? travelled(speed, duration) : closer;
+    const [kind, size] = gives ? ["plate", SLAB] : ["plane", 1];
+    const large = magnification(kind, size, fallen, way);
+    const first = way.map((value, i) => [large * value, 1 - large * fallen[i]]);
+    const second = fallen.map((value, i) => [0, large * (closer[i] - value)]);
+    const bodies = [body("sphere", 1, first, turn.map((value) => large * value)), body(kind, size, second, way.map(() => 0))];
+    const caption = `drawn as a solid sphere, friction ${Carom.quantities.plain(friction, 6)}${gives ? ", plate not to scale" : ""}`;
     return { time: short(times(last)), caption, bodies };
   }
 

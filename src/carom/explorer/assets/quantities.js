@@ -8,7 +8,7 @@ Carom.quantities = (() => {
 
   // The power of ten of the unit that suits a value, and its name.
   function suited(value, unit, digits = DIGITS) {
-    const units = Carom.tables.prefixes[unit] || [[0, unit]];
+    const units = Carom.config.prefixes[unit] || [[0, unit]];
     const size = Math.abs(value);
     if (!(size > 0 && size < Infinity)) return [0, unit];
     const decades = units.map((each) => exponent(size, digits) - each[0]);

@@ -24,15 +24,11 @@ Carom.source = (() => {
     return once(address, options, kind, tries - 1);
   }
 
-  // The answer; where the program still prepares, how far it is, until it is ready.
+  // The answer, or what is refused of a field.
   async function asked(address, options = {}, kind = "text") {
-    for (;;) {
-      const content = await once(address, options, kind);
-      if (content.field === undefined) return content;
-      if (!content.again) throw content; // it is refused, of this field
-      document.getElementById("notice").textContent = content.message;
-      await pause(content.again);
-    }
+    const content = await once(address, options, kind);
+    if (content.field !== undefined) throw content;
+    return content;
   }
 
   function fit(request, signal) {
@@ -44,7 +40,8 @@ Carom.source = (() => {
   return {
     can: { laws: true, fit: true, files: true, code: true },
     why: "",
-    answer: (query) => asked(`answer?${query}`),
+    number: async (name, text) => (await asked(`number?${new URLSearchParams({ name, text })}`)).value,
+    verdict: async (query, signal) => (await asked(`verdict?${query}`, { signal })).findings,
     laws: (query, signal) => asked(`laws?${query}`, { signal }),
     fit,
     code: (query, signal) => asked(`view.py?${query}`, { signal }),
