@@ -4,7 +4,6 @@ import logging
 import socket
 from dataclasses import dataclass, field
 from math import inf
-from threading import Timer
 from time import time
 from typing import Any
 
@@ -164,7 +163,5 @@ def serving(bound: socket.socket, host: str) -> Explorer:
     kernels()
     worker = Worker()
     server = Server(new_app(worker, OWN_NAMES if host in OWN_NAMES else None), bound)
-    later = Timer(LOADED_SECONDS, worker.start)
-    later.daemon = True
-    later.start()
+    worker.start(LOADED_SECONDS)
     return Explorer(url_of(bound, host), server, worker)

@@ -132,10 +132,16 @@ class Worker:
         self._fits = Desk("fit", fit_seconds, self._folder.name)
         self._files = Desk("file", file_seconds, self._folder.name)
 
-    def start(self) -> None:
-        """Let both processes start, without waiting until they are ready."""
-        self._files.start()
-        self._fits.start()
+    def start(self, after: float = 0.0) -> None:
+        """Let both processes start some seconds later."""
+        timer = Timer(after, self._start)
+        timer.daemon = True
+        timer.start()
+
+    def _start(self) -> None:
+        with suppress(Busy):  # closed meanwhile
+            self._files.start()
+            self._fits.start()
 
     def close(self) -> None:
         """End both processes; none is started any more."""
