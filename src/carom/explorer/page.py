@@ -101,20 +101,37 @@ class Preset(NamedTuple):
     query: str
     sources: tuple[str, ...]
     caution: str = ""
+    short: str = ""  # of those that the first level offers
 
 
 def _presets() -> tuple[Preset, ...]:
     content = tomllib.loads(files("carom").joinpath("data/presets.toml").read_text("utf-8"))
     texts = content["sources"]
     return tuple(
-        Preset(name, each["title"], each["story"], urlencode(each["impact"]), sources, caution)
+        Preset(name, each["title"], each["story"], urlencode(each["impact"]), sources, *more)
         for name, each in content["presets"].items()
         for sources in [tuple(texts.get(source, source) for source in each["sources"])]
-        for caution in [each.get("caution", "")]
+        for more in [(each.get("caution", ""), each.get("short", ""))]
     )
 
 
 PRESETS = _presets()
+
+
+def stories() -> list[dict[str, Any]]:
+    """Return the stories of the page: steps with a question each, their impacts as queries."""
+    content = tomllib.loads(files("carom").joinpath("data/stories.toml").read_text("utf-8"))
+    return [
+        {
+            "id": name,
+            "title": each["title"],
+            "steps": [
+                {**step, "query": urlencode(each["impact"] | step["impact"], doseq=True)}
+                for step in each["steps"]
+            ],
+        }
+        for name, each in content.items()
+    ]
 
 
 def config(*, static: bool = False) -> dict[str, Any]:
@@ -135,6 +152,7 @@ def config(*, static: bool = False) -> dict[str, Any]:
         "symbols": SYMBOLS,
         "energies": PAGE["energies"] | PAGE["energies_of_contact"],
         "presets": [preset._asdict() for preset in PRESETS],
+        "stories": stories(),
         "datasets": [
             {"name": name, "title": read_table(path(name)).comments["title"]}
             for name in dataset_names()

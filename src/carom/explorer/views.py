@@ -34,7 +34,19 @@ OF_MATERIAL = ("young", "poisson", "density")
 SECOND = "second_"
 LAWS = tuple(entry.label for entry in CATALOGUE)
 UNDAMPED = tuple(each.label for each in CATALOGUE if not hasattr(each.law, "restitution"))
-PAGE_ONLY = ("time", "pace", "theme", "slow", "tab", "preset", "beside")  # the page alone has them
+PAGE_ONLY = (  # words of links that are for the page alone
+    *("time", "pace", "theme", "slow", "tab", "preset", "beside", "level", "story"),
+)
+    "time",
+    "pace",
+    "theme",
+    "slow",
+    "tab",
+    "preset",
+    "beside",
+    "level",
+    "story",
+)  # the page alone has them
 LONGEST_NAME = 80  # characters of an unknown name that are shown
 CHOICES: dict[str, tuple[str, ...]] = {
     "given": (BODIES, NUMBERS),
@@ -49,11 +61,14 @@ CHOICES: dict[str, tuple[str, ...]] = {
 class Field(NamedTuple):
     """A field: its label, its letter and a hint; of a number its unit, its range and its slider.
 
+    `plain` is its label in the first level of the page, where only fields that have one are shown.
+
     `otherwise` is the word for no number, which is an infinite one, `needs` what other fields must
     be for this one to matter.
     """
 
     label: str
+    plain: str = ""
     symbol: str = ""
     hint: str = ""
     unit: str = ""

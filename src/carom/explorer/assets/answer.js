@@ -177,6 +177,19 @@ Carom.answer = (() => {
     };
   }
 
+  // What stories ask for: by how much friction throws the body that is struck off the line of
+  // centres, the share of the duration in which all slides, what is left of psi_1 and of the energy.
+  function ofStories({ psi_in: psi, psi_out: out, normal_restitution: e }, { velocity, scales, speed, rubs }, pair, { phases, energies }) {
+    const change = rubs ? velocity - out * scales.tangentialSpeed : 0;
+    const last = Object.entries(energies).filter(([name]) => name.endsWith("kinetic_energy"));
+    return {
+      throw: Math.atan2(pair.tangentialMass * change, pair.normalMass * speed * (1 + e)),
+      slides: phases.reduce((sum, { kind, start, end }) => sum + (kind === "gross slip" ? end - start : 0), 0),
+      contact_kept: Math.abs(psi - out),
+      energy_kept: last.reduce((sum, [, values]) => sum + values[values.length - 1], 0),
+    };
+  }
+
   function ofBodies(view, pair) {
     const met = approach(view, pair);
     const alpha = met.give ? 0 : solver.alphaOf(view.restitution);
@@ -195,9 +208,12 @@ Carom.answer = (() => {
       stage: Carom.paths.ofBodies(pair, { ...moving, duration: numbers.duration }),
     };
     const digits = (value) => Number(value.toPrecision(CARRIED));
+    const energies = parts(moving.energies);
     const lossy = met.give > 0 || view.restitution !== 1;
     return {
       lossy,
+      view,
+      numbers: { ...numbers, ...ofStories(numbers, met, pair, { ...shown, energies }) },
       shape: [pair.chi, pair.kappa, alpha, met.give].join(),
       carried: met.rubs ? { psi: digits(met.psi), chi: digits(pair.chi), inelasticity: digits(ZENER * met.give) } : null,
       scene: { ...scene(impact, shown), ...(met.rubs ? {} : { psi: null }) },
@@ -206,7 +222,7 @@ Carom.answer = (() => {
         force: fine(impact.force.map((value) => 1.5 * force * value)),
         limit: fine(impact.limit.map((value) => force * value)),
         unit: forceUnit,
-        energies: parts(moving.energies),
+        energies,
       },
       curve: curve(met.psi, { ...impact, out: numbers.psi_out }),
       results: rows(numbers, lossy),

@@ -13,12 +13,16 @@ Carom.fields = (() => {
   };
   const PLAIN = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i; // what a slider can follow
   const heard = [];
+  let alone = ""; // the one field of a step of a story
   const box = (name) => document.getElementById(name);
 
   function labelOf(name) {
     const { label, symbol } = described[name];
+    const { plain } = described[name];
     const sign = symbol ? [" ", Carom.tips.symbol(symbol)] : [];
-    return make("label", { htmlFor: name, title: described[name].hint }, label, ...sign);
+    const full = make("span", plain ? "carom-full" : "", label, ...sign);
+    const words = plain ? [full, make("span", "carom-first", plain)] : [full];
+    return make("label", { htmlFor: name, title: described[name].hint }, ...words);
   }
 
   function number(name) {
@@ -59,6 +63,12 @@ Carom.fields = (() => {
     heard.forEach((hear) => hear(name));
   }
 
+  // Set some numbers at once, by hand.
+  function move(values) {
+    for (const [name, text] of Object.entries(values)) put(name, text);
+    heard.forEach((hear) => hear(Object.keys(values)[0]));
+  }
+
   // A number moves its slider, as far as that goes.
   function follow(name) {
     const slider = box(`${name}-slider`);
@@ -73,7 +83,10 @@ Carom.fields = (() => {
 
   // What is not given, or not there, is not asked for.
   function hide() {
-    for (const name of names()) box(`${name}-field`).hidden = !counts(name, value);
+    const plain = (name) => described[name].plain || value("given") === "numbers";
+    const first = (name) => (alone ? name === alone : plain(name));
+    const shown = (name) => counts(name, value) && (Carom.level.isFull() || first(name));
+    for (const name of names()) box(`${name}-field`).hidden = !shown(name);
     for (const group of ["numbers", "bodies"]) box(`${group}-fields`).hidden = value("given") !== group;
   }
 
@@ -168,10 +181,14 @@ Carom.fields = (() => {
 
   return {
     build,
+    hide,
+    only: (name) => ((alone = name), hide()),
+    wordsOf: (name) => described[name].plain || described[name].label,
     counts,
     query,
     set,
     put,
+    move,
     value,
     complain,
     words,

@@ -40,6 +40,8 @@ Carom.link = (() => {
       theme: Carom.theme.choice() === "auto" ? "" : Carom.theme.choice(),
       tab: Carom.tabs.chosen() === Carom.tabs.first ? "" : Carom.tabs.chosen(),
       preset: Carom.presets.chosen(),
+      story: Carom.stories.chosen(),
+      level: Carom.level.isFull() ? "full" : "",
       beside: Carom.beside.query() ?? "",
     };
     if (Carom.beside.query() === "") words.beside = "given=bodies";
@@ -100,5 +102,5 @@ Carom.link = (() => {
   document.addEventListener("click", (event) => event.target.closest?.(FILES) && write(), true);
   document.getElementById("copy").addEventListener("click", copy);
 
-  return { part, number, asked, refused, put, refresh };
+  return { part, words: () => opened, number, asked, refused, put, refresh };
 })();

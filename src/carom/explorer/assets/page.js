@@ -71,6 +71,8 @@ Carom.page = (() => {
     Carom.link.put(answers[0].query);
     draw();
     Carom.results.show(answers);
+    Carom.summary.show(answers[0]);
+    Carom.stories.show(answers[0]);
     Carom.laws.show(answers[0]);
     soon(() => Carom.charts.show(answers));
     follow(answers);
@@ -82,6 +84,13 @@ Carom.page = (() => {
     TOUCHES.forEach((name) => document.removeEventListener(name, touched, true));
     if (untouched && !(target instanceof Element && target.closest("#play"))) Carom.clock.pause();
     untouched = false;
+  }
+
+  // Show from the beginning what comes of a change, unless the browser prefers no motion.
+  function replay() {
+    if (STILL.matches) return;
+    Carom.clock.set(Carom.clock.FIRST);
+    Carom.clock.play();
   }
 
   // The charts, which take longest, once the moving pictures are there; none that is outdated.
@@ -109,6 +118,7 @@ Carom.page = (() => {
     const laws = async (query) => ({ ...(await Carom.source.laws(query, signal)), late: [] });
     await add(mine[0], mine[0].late.length > 0, laws, () => {
       Carom.laws.show(mine[0]);
+      Carom.stories.show(mine[0]);
       Carom.charts.show(mine);
     });
   }
@@ -167,7 +177,8 @@ Carom.page = (() => {
   function open() {
     const asked = Carom.link.asked();
     const preset = Carom.presets.choose(Carom.link.part("preset") ?? "");
-    const odd = Carom.fields.set(asked.toString() ? asked : preset);
+    const story = Carom.stories.query(Carom.link.part("story"));
+    const odd = Carom.fields.set(asked.toString() ? asked : (story ?? preset));
     opening = true;
     Carom.beside.put(Carom.link.part("beside"));
     Carom.tabs.choose(Carom.link.part("tab") ?? Carom.tabs.first);
@@ -180,13 +191,15 @@ Carom.page = (() => {
     byId("slow").checked = Carom.link.number("slow") === 1;
     Carom.clock.slow(byId("slow").checked);
     Carom.theme.choose(Carom.link.part("theme"));
+    Carom.level.choose(Carom.level.asked(Carom.link.words()));
+    Carom.stories.open(Carom.link.part("story"));
     linked = [...Carom.link.refused(), ...odd, ...unknown()].join("; ");
     ask();
   }
 
   // Words of a link that are for the page alone, and that it does not know.
   function unknown() {
-    const shown = { preset: Carom.presets.chosen(), tab: Carom.tabs.chosen(), theme: Carom.theme.choice() };
+    const shown = { preset: Carom.presets.chosen(), story: Carom.stories.chosen(), tab: Carom.tabs.chosen(), theme: Carom.theme.choice() };
     const odd = Object.keys(shown).filter((name) => (Carom.link.part(name) || shown[name]) !== shown[name]);
     if (Carom.link.part("time") && Number.isNaN(Carom.link.number("time"))) odd.push("time");
     return odd.map((name) => `${name}: there is no ${Carom.link.part(name)}`);
@@ -238,6 +251,7 @@ Carom.page = (() => {
     Carom.laws.build();
     Carom.fields.build();
     Carom.presets.build();
+    Carom.stories.build();
     Carom.files.build();
     Carom.fit.build();
     Carom.cursor.watch();
@@ -248,7 +262,9 @@ Carom.page = (() => {
     Carom.fields.hear(changed);
     byId("laws").addEventListener("change", () => changed("law"));
     byId("fit-panel").addEventListener("change", ({ target }) => target.id === "data" && changed("data"));
-    Carom.presets.hear((query) => (Carom.fields.set(query), changed("")));
+    Carom.presets.hear((query) => (Carom.fields.set(query), changed(""), replay()));
+    Carom.stories.hear((query) => (Carom.fields.set(query), changed(""), replay()));
+    Carom.level.hear(() => (Carom.fields.hide(), Carom.link.refresh(), Carom.charts.again()));
     Carom.beside.build(() => changed(""));
     byId("play").addEventListener("click", Carom.clock.toggle);
     byId("back").addEventListener("click", Carom.clock.previous);
@@ -271,5 +287,5 @@ Carom.page = (() => {
   build();
   listen();
   open();
-  return { frame: drawNow, answers: () => answers, get scenes() { return scenes; } };
+  return { redraw: draw, replay, frame: drawNow, answers: () => answers, get scenes() { return scenes; } };
 })();

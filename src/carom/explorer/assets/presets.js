@@ -11,12 +11,20 @@ Carom.presets = (() => {
   function build() {
     select.append(new Option("choose …", NONE));
     Carom.config.presets.forEach(({ id, title }) => select.append(new Option(title, id)));
+    const starters = Carom.config.presets.filter(({ short }) => short);
+    const buttons = starters.map(({ id, short }) => make("button", { type: "button", onclick: () => start(id) }, short));
+    document.getElementById("starters").append(...buttons);
     select.addEventListener("change", () => {
       tell();
       const preset = presetOf(select.value);
       if (preset) heard.forEach((hear) => hear(new URLSearchParams(preset.query)));
       else Carom.link.refresh();
     });
+  }
+
+  function start(id) {
+    select.value = id;
+    select.dispatchEvent(new Event("change"));
   }
 
   function tell() {

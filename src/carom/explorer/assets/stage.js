@@ -7,6 +7,7 @@ Carom.stage = (() => {
   const EDGE = 8; // pixels beside the words below
   const LINE = 17; // pixels of a line of them
   const NOTE = 11.5;
+  const drawings = new WeakMap(); // what was drawn last on a canvas
   const ROOMY = 220; // pixels of height from which on a long note has a line more
   const color = (name) => Carom.theme.color(name);
 
@@ -91,7 +92,8 @@ Carom.stage = (() => {
     pen.strokeStyle = color("accent");
     pen.stroke();
     pen.setLineDash([]);
-    const shown = seen.arrows.filter(({ length }) => length >= SHORT);
+    const taken = Carom.hand.throws(); // its arrow is the one in the hand
+    const shown = seen.arrows.filter(({ length, when, first }) => length >= SHORT && !(taken && first && when === "before"));
     const later = shown.filter(({ when }) => when !== strong);
     const all = [...later, ...shown.filter(({ when }) => when === strong)];
     for (const { when, from, to } of all) {
@@ -206,14 +208,16 @@ Carom.stage = (() => {
     drawBodies(pen, seen, bodies, touch);
     if (touch && !now.apart) drawContact(pen, seen, touch, now);
     pen.restore();
-    const boxes = canvas.layer(element, "motion", sheet, [scene, strong], (own) => {
+    const boxes = canvas.layer(element, "motion", sheet, [scene, strong, Carom.hand.throws(), seen], (own) => {
       drawNotes(own, foot, width, height);
       return drawMotion(own, seen, stage.bodies, strong);
     });
-    drawGone(pen, seen, stage, bodies[0], share);
+    if (!Carom.hand.throws()) drawGone(pen, seen, stage, bodies[0], share);
     if (touch && !now.apart) drawForce(pen, seen, touch, now, boxes);
     canvas.drawKey(pen, now, EDGE, low + 5 + LINE / 2 - 2);
+    drawings.set(element, { seen, ball: bodies[0], scene });
+    if (element.id === "stage") Carom.hand.draw(pen, drawings.get(element));
   }
 
-  return { draw };
+  return { draw, last: (element) => drawings.get(element) };
 })();

@@ -9,6 +9,8 @@ Carom.view = (() => {
   const NAMED = [26, 21]; // pixels beside and above the tip of an arrow, for its name
   const EASY = 24; // pixels of a radius that are seen well
   const views = new WeakMap();
+  let last = null;
+  let held = false; // by a hand: then nothing else moves
 
   const least = (values) => values.reduce((a, b) => Math.min(a, b));
   const most = (values) => values.reduce((a, b) => Math.max(a, b));
@@ -98,10 +100,12 @@ Carom.view = (() => {
   function of(stage, width, height) {
     const old = views.get(stage);
     if (old && old.width === width && old.height === height) return old;
-    const view = made(stage, width, height);
-    views.set(stage, view);
+    const still = held && last && last.width === width && last.height === height;
+    const view = still ? { ...last, arrows: arrows(stage) } : made(stage, width, height);
+    if (!still) views.set(stage, view);
+    last = view;
     return view;
   }
 
-  return { of };
+  return { of, hold: (on) => (held = on) };
 })();
