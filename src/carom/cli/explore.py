@@ -53,10 +53,10 @@ def explore_command(
         return
     from carom.explorer import address
 
-    bound = address.listening(host, whole("port", port, 0, 65535))
-    url = address.url_of(bound, host)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
-    with suppress(KeyboardInterrupt):
+    bound = address.listening(host, whole("port", port, 0, 65535))
+    with bound, suppress(KeyboardInterrupt):
+        url = address.url_of(bound, host)
         words = f"{url}  (press Ctrl-C to stop the page)"
         typer.echo(json.dumps({"url": url}) if as_json else words)
         sys.stdout.flush()

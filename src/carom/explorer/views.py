@@ -37,16 +37,6 @@ UNDAMPED = tuple(each.label for each in CATALOGUE if not hasattr(each.law, "rest
 PAGE_ONLY = (  # words of links that are for the page alone
     *("time", "pace", "theme", "slow", "tab", "preset", "beside", "level", "story"),
 )
-    "time",
-    "pace",
-    "theme",
-    "slow",
-    "tab",
-    "preset",
-    "beside",
-    "level",
-    "story",
-)  # the page alone has them
 LONGEST_NAME = 80  # characters of an unknown name that are shown
 CHOICES: dict[str, tuple[str, ...]] = {
     "given": (BODIES, NUMBERS),

@@ -177,7 +177,7 @@ Carom.canvas = (() => {
 
   function zonesOf({ apart, stick, contact, kind, sign, phase }) {
     if (apart) return [];
-    const zones = stick > 0 || kind === "stick" ? [{ name: "stick", kind: "stick", sign: 0 }] : [];
+    const zones = stick > 0 || kind === "stick" ? [{ name: Carom.scene.nameOf({ kind: "stick", sign: 0 }), kind: "stick", sign: 0 }] : [];
     return sign && stick < contact ? [...zones, { name: phase, kind, sign }] : zones;
   }
 
@@ -198,7 +198,7 @@ Carom.canvas = (() => {
   function keyWidth(pen, { data }) {
     const one = (name) => SWATCH[0] + NEAR + widthOf(pen, name, KEY);
     const names = data.phases.map((phase) => [phase.kind, one(Carom.scene.nameOf(phase))]);
-    const takes = names.map(([kind, wide]) => (kind === "slip" ? one("stick") + APART + wide : wide));
+    const takes = names.map(([kind, wide]) => (kind === "slip" ? one(Carom.scene.nameOf({ kind: "stick", sign: 0 })) + APART + wide : wide));
     return Math.max(...takes);
   }
 

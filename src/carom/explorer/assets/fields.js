@@ -183,7 +183,6 @@ Carom.fields = (() => {
     build,
     hide,
     only: (name) => ((alone = name), hide()),
-    wordsOf: (name) => described[name].plain || described[name].label,
     counts,
     query,
     set,

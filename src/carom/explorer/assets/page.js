@@ -264,7 +264,7 @@ Carom.page = (() => {
     byId("fit-panel").addEventListener("change", ({ target }) => target.id === "data" && changed("data"));
     Carom.presets.hear((query) => (Carom.fields.set(query), changed(""), replay()));
     Carom.stories.hear((query) => (Carom.fields.set(query), changed(""), replay()));
-    Carom.level.hear(() => (Carom.fields.hide(), Carom.link.refresh(), Carom.charts.again()));
+    Carom.level.hear(() => (Carom.fields.hide(), draw(), Carom.link.refresh(), Carom.charts.again()));
     Carom.beside.build(() => changed(""));
     byId("play").addEventListener("click", Carom.clock.toggle);
     byId("back").addEventListener("click", Carom.clock.previous);

@@ -129,7 +129,7 @@ Carom.patch = (() => {
 
   // The border of the stick zone, from the map down to the profile.
   function drawTies(pen, { map: disc, line, tied }, now) {
-    if (!tied || now.stick <= 0) return;
+    if (!line || !tied || now.stick <= 0) return;
     pen.setLineDash([2, 3]);
     pen.strokeStyle = color("stick");
     pen.lineWidth = 1.2;
@@ -149,7 +149,7 @@ Carom.patch = (() => {
     pen.stroke();
     pen.setLineDash([]);
     drawBar(pen, box);
-    profile.axes(pen, box.line);
+    if (box.line) profile.axes(pen, box.line);
   }
 
   function drawFoot(pen, { foot, width, height, low }, now) {
@@ -168,8 +168,8 @@ Carom.patch = (() => {
     const box = Carom.patchLayout.of(pen, scene, width, height);
     const now = scene.at(share);
     const touching = !now.apart && now.contact > 0;
-    if (touching) profile.zones(pen, box.line, now);
-    canvas.layer(element, "frame", sheet, [scene], (own) => drawFrame(own, box));
+    if (touching && box.line) profile.zones(pen, box.line, now);
+    canvas.layer(element, "frame", sheet, [scene, Boolean(box.line)], (own) => drawFrame(own, box));
     if (touching) {
       const name = nameOfSlip(pen, box.map, now);
       drawShading(pen, box.map, now);
@@ -177,7 +177,7 @@ Carom.patch = (() => {
       drawBorders(pen, box.map, now);
       drawTies(pen, box, now);
       drawNames(pen, box.map, now, name);
-      profile.draw(pen, scene, box.line, now);
+      if (box.line) profile.draw(pen, scene, box.line, now);
     } else if (now.apart) {
       const middle = { align: "center", base: "middle", size: NAME, shade: color("muted") };
       canvas.word(pen, "apart", box.map.x, box.map.y, middle);

@@ -35,10 +35,17 @@ Carom.patchLayout = (() => {
   function of(pen, scene, width, height) {
     const foot = footOf(pen, scene, width, height);
     const low = height - LINE * foot.lines - 4;
+    if (!Carom.level.isFull()) return { ...alone(width, low), width, height, low, foot };
     const [above, beside] = [stacked(width, low), sideways(width, low)];
     const worse = width > BROAD * low ? 0.85 : 1.1; // a broad box is filled by what is side by side
     const box = beside.side > worse * above.side ? beside : above;
     return { ...box, width, height, low, foot };
+  }
+
+  // The map without scales and profile, for who does not ask for numbers.
+  function alone(width, low) {
+    const side = Math.max(40, Math.min(width - 2 * EDGE, low - TOP - 4));
+    return { bar: "none", side, map: { x: width / 2, y: (low + TOP) / 2, unit: 0.48 * side }, line: null };
   }
 
   // The widest bar beside which the map stays large.

@@ -4,7 +4,8 @@ Carom.scene = (() => {
   const ROUNDING = 1e-9;
   const HIGHEST = 9; // pressure that is drawn: at the edge it is infinite while viscous bodies load
   const SIGNS = { 1: " +", 0: "", "-1": " −" };
-  const nameOf = ({ kind, sign }) => kind + SIGNS[sign];
+  const WORDS = { stick: "it sticks", slip: "the rim slips", "gross slip": "it slides" };
+  const nameOf = ({ kind, sign }) => (Carom.level.isFull() ? kind + SIGNS[sign] : WORDS[kind]);
 
   // The value of a series, evenly spaced between two ends, between its points.
   function between(series, first, last, at) {
@@ -93,7 +94,8 @@ Carom.scene = (() => {
     }
 
     function at(share) {
-      if (!latest || latest.share !== share) latest = momentAt(share);
+      const level = Carom.level.isFull();
+      if (!latest || latest.share !== share || latest.level !== level) latest = { ...momentAt(share), level };
       return latest;
     }
 

@@ -208,7 +208,7 @@ Carom.stage = (() => {
     drawBodies(pen, seen, bodies, touch);
     if (touch && !now.apart) drawContact(pen, seen, touch, now);
     pen.restore();
-    const boxes = canvas.layer(element, "motion", sheet, [scene, strong, Carom.hand.throws(), seen], (own) => {
+    const boxes = canvas.layer(element, "motion", sheet, [scene, strong, Carom.hand.throws(), seen, Carom.level.isFull()], (own) => {
       drawNotes(own, foot, width, height);
       return drawMotion(own, seen, stage.bodies, strong);
     });

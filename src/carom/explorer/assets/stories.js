@@ -4,6 +4,7 @@ Carom.stories = (() => {
   const { make } = Carom.elements;
   const { stories } = Carom.config;
   const place = document.getElementById("stories");
+  const below = document.getElementById("story-steps"); // the control stands between both
   const heard = [];
   let story = null;
   let step = 0;
@@ -36,7 +37,6 @@ Carom.stories = (() => {
     Carom.level.choose("first");
     tell();
     heard.forEach((hear) => hear(new URLSearchParams(story ? story.steps[row].query : "")));
-    place.scrollIntoView({ block: "nearest" });
   }
 
   function list() {
@@ -45,7 +45,7 @@ Carom.stories = (() => {
   }
 
   function told() {
-    const { text, question, answer, control } = story.steps[step];
+    const { text, question, answer } = story.steps[step];
     const last = step === story.steps.length - 1;
     const done = solved.has(step);
     const head = make("div", "carom-story-head", make("h2", "", story.title), make("span", "carom-note", `${step + 1} of ${story.steps.length}`));
@@ -57,12 +57,13 @@ Carom.stories = (() => {
       ...(done ? [] : [button("Show me", reveal)]),
       button(last ? "More stories" : "Next", () => (last ? go(null, 0) : go(story, step + 1)), "carom-next"),
       button("Leave the story", () => go(null, 0)));
-    const moved = make("p", "carom-note", `Move: ${Carom.fields.wordsOf(control)}`);
-    return [head, make("p", "", text), asked, ...(done ? [] : [moved]), found, steps];
+    return [[head, make("p", "", text), asked], [found, steps]];
   }
 
   function tell() {
-    place.replaceChildren(...(story ? told() : list()));
+    const [above, after] = story ? told() : [[], list()];
+    place.replaceChildren(...above);
+    below.replaceChildren(...after);
     const now = story ? story.steps[step] : null;
     document.body.classList.toggle("carom-in-story", Boolean(now));
     document.body.dataset.chart = now?.chart ?? "";
