@@ -17,6 +17,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from urllib.parse import urlencode
 
+import numpy as np
+
 from carom.bodies.materials import material
 from carom.datasets import names as dataset_names, path
 from carom.dimensionless.numerics.shared_library import (
@@ -34,13 +36,14 @@ from carom.io.version import __version__
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import READ
 from carom.quantities.refusals import InputError
-from carom.verify.entries import CATALOGUE, Entry
+from carom.verify.entries import CATALOGUE, Entry, named
 
 ASSETS = "assets"  # the folder of the styles and scripts
 KERNELS = "wasm.js"  # a script among them: the solver, compiled for browsers
 REGIMES = ("stick", "gross slip, stick", "gross slip, slip", "gross slip only")  # as in figures
 SYMBOLS: dict[str, str] = PAGE["symbols"]
 OPTIONS: dict[str, str] = PAGE["choices"]
+POINTS = 241  # of the curve of a law
 PREFIXED = ("s", "N", "J", "m", "m/s")  # units of results
 
 
@@ -134,6 +137,20 @@ def stories() -> list[dict[str, Any]]:
     ]
 
 
+def _laws_of_stories() -> list[dict[str, Any]]:
+    """Return the curves of contact laws that stories need, for a copy that solves none."""
+    views = [View.of(step["query"]) for story in stories() for step in story["steps"]]
+    curves = {}
+    for view in views:
+        for label in view.law:
+            chi, kappa = view.pair.chi, view.pair.kappa
+            psi = np.linspace(0.0, 4.0 * chi, POINTS)
+            out, _ = named(label)[0].law.rebound(psi, chi, kappa=kappa, return_status=True)
+            told = {"label": label, "chi": chi, "psi": psi.tolist(), "out": out.tolist()}
+            curves[label, chi, kappa] = told
+    return list(curves.values())
+
+
 def config(*, static: bool = False) -> dict[str, Any]:
     """Return what the page reads once, before anything is asked; a static one has no server."""
     return {
@@ -153,6 +170,7 @@ def config(*, static: bool = False) -> dict[str, Any]:
         "energies": PAGE["energies"] | PAGE["energies_of_contact"],
         "presets": [preset._asdict() for preset in PRESETS],
         "stories": stories(),
+        "story_laws": _laws_of_stories() if static else [],
         "datasets": [
             {"name": name, "title": read_table(path(name)).comments["title"]}
             for name in dataset_names()

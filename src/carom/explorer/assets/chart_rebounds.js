@@ -62,6 +62,7 @@ Carom.rebounds = (() => {
     const ink = color("ink");
     const entries = [{ sample: line({ color: ink, width: 2.6 }), text: "exact" }];
     if (first.curve.at) entries.push({ sample: marker({ color: ink }), text: "this impact" });
+    if (!Carom.level.isFull()) entries.push(...first.laws.map(({ label }) => ({ sample: line(Carom.laws.style(label)), text: label })));
     if (!second) return entries;
     const point = second.curve.at ? marker({ color: ink, fill: color("panel") }) : "";
     return [...entries, { sample: line({ ...BESIDE, color: color("beside") }) + point, text: "beside" }];

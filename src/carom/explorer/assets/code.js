@@ -23,8 +23,7 @@ Carom.code = (() => {
   function show(query = wanted) {
     if (query !== wanted) asking?.abort(); // or its answer would come after this
     wanted = query;
-    if (!Carom.source.can.code) place.textContent = Carom.source.why;
-    const seen = Carom.source.can.code && Carom.tabs.chosen() === "Python";
+    const seen = Carom.tabs.chosen() === "Python";
     window.clearTimeout(waiting);
     if (seen && wanted !== shown) waiting = window.setTimeout(ask, WAIT);
   }

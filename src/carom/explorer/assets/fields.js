@@ -142,8 +142,8 @@ Carom.fields = (() => {
     laws.filter((label) => !there.includes(label)).forEach((label) => odd.push(`Contact law: there is no ${label}`));
     Carom.laws.choose(there);
     const data = link.get("data") ?? "";
-    const has = !data || (Carom.source.can.fit && Carom.config.datasets.some(({ name }) => name === data));
-    if (!has) odd.push(`${described.data.label}: ${Carom.source.can.fit ? `there is no ${data}` : "not fitted in this copy"}`);
+    const has = !data || (Carom.source.live && Carom.config.datasets.some(({ name }) => name === data));
+    if (!has) odd.push(`${described.data.label}: ${Carom.source.live ? `there is no ${data}` : "not fitted in this copy"}`);
     Carom.fit.choose(has ? data : "");
     Carom.fit.changed();
     hide();

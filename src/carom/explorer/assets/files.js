@@ -29,8 +29,6 @@ Carom.files = (() => {
   }
 
   function build() {
-    const { can, why } = Carom.source;
-    if (!can.files) return place.replaceChildren(make("p", { className: "carom-note" }, why));
     notice = make("p", { id: "files-notice", className: "carom-note", role: "status" });
     place.replaceChildren(make("ul", { className: "carom-files" }, ...GROUPS.map(group)), notice);
     place.addEventListener("click", taken);

@@ -17,8 +17,6 @@ Carom.fit = (() => {
   let ticking = 0;
 
   function build() {
-    const { can, why } = Carom.source;
-    if (!can.fit) return panel.replaceChildren(make("p", { className: "carom-note" }, why));
     const published = Carom.config.datasets.map(({ name, title }) => make("option", { value: name, title }, name));
     parts.data = make("select", { id: "data" }, new Option("none", ""), ...published);
     parts.input = make("input", { id: "upload", type: "file", accept: ".csv,.txt,.tsv,.dat,.xlsx,.ods,.toml,text/csv,text/plain", hidden: true });

@@ -39,7 +39,6 @@ Carom.laws = (() => {
   const button = (className, onclick, ...words) => make("button", { className, type: "button", onclick }, ...words);
 
   function build() {
-    const { can, why } = Carom.source;
     const title = make("span", "carom-strip-title", "Contact laws");
     strip = make("fieldset", "carom-laws carom-folded", title, ...catalogue.map(chip));
     strip.ariaLabel = title.textContent;
@@ -48,8 +47,7 @@ Carom.laws = (() => {
     const buttons = make("div", "carom-law-buttons", more, clear);
     place = (folded) => (folded ? strip.append(buttons) : title.after(buttons));
     place(true);
-    strip.disabled = !can.laws;
-    if (!can.laws) strip.append(make("p", "carom-note", why));
+    strip.hidden = !Carom.source.live;
     strip.addEventListener("change", kept);
     document.getElementById("laws").replaceChildren(strip);
     update();
@@ -89,7 +87,6 @@ Carom.laws = (() => {
   function words(label) {
     const { users } = chips.get(label);
     if (!answer || !chips.get(label).input.checked) return `used by: ${users}`;
-    if (strip.disabled) return "not solved in this copy";
     if (answer.late.includes(label)) return "solving …";
     const law = answer.laws.find((each) => each.label === label);
     if (law && law.at !== null) return `ψ₂ ${number(law.at)}, ${off(law.off)}`;
@@ -117,9 +114,9 @@ Carom.laws = (() => {
     }
     const rest = catalogue.length - taken;
     more.textContent = folded ? `${taken ? "More laws" : "Choose laws"} (${rest})` : "Show chosen laws only";
-    more.hidden = strip.disabled || (folded && !rest);
+    more.hidden = folded && !rest;
     more.setAttribute("aria-expanded", !folded);
-    clear.hidden = strip.disabled || !taken;
+    clear.hidden = !taken;
   }
 
   // Until those of another impact are there, the curves of this one, where they are the same.

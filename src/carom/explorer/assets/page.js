@@ -107,15 +107,15 @@ Carom.page = (() => {
     const add = async (answer, wanted, ask, shown) => {
       if (!wanted) return;
       try {
-        Object.assign(answer, await ask(answer.query, signal));
+        Object.assign(answer, await ask(answer));
         if (answers === mine) shown();
       } catch (error) {
         if (error.name !== "AbortError") notice(error.message);
       }
     };
-    const verdict = async (query) => ({ findings: await Carom.source.verdict(query, signal) });
+    const verdict = async ({ query }) => ({ findings: await Carom.source.verdict(query, signal) });
     mine.filter(Boolean).forEach((each) => add(each, !each.findings, verdict, () => Carom.results.show(mine)));
-    const laws = async (query) => ({ ...(await Carom.source.laws(query, signal)), late: [] });
+    const laws = async (answer) => ({ ...(await Carom.source.laws(answer, signal)), late: [] });
     await add(mine[0], mine[0].late.length > 0, laws, () => {
       Carom.laws.show(mine[0]);
       Carom.stories.show(mine[0]);
@@ -261,7 +261,7 @@ Carom.page = (() => {
   function listen() {
     Carom.fields.hear(changed);
     byId("laws").addEventListener("change", () => changed("law"));
-    byId("fit-panel").addEventListener("change", ({ target }) => target.id === "data" && changed("data"));
+    byId("fit-panel")?.addEventListener("change", ({ target }) => target.id === "data" && changed("data"));
     Carom.presets.hear((query) => (Carom.fields.set(query), changed(""), replay()));
     Carom.stories.hear((query) => (Carom.fields.set(query), changed(""), replay()));
     Carom.level.hear(() => (Carom.fields.hide(), draw(), Carom.link.refresh(), Carom.charts.again()));

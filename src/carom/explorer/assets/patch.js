@@ -102,7 +102,8 @@ Carom.patch = (() => {
   function drawNames(pen, disc, now, name) {
     const middle = { align: "center", base: "middle", size: NAME };
     const room = 1.6 * now.stick * disc.unit;
-    if (room > canvas.widthOf(pen, "stick", NAME)) canvas.haloed(pen, "stick", disc.x, disc.y, middle);
+    const stick = Carom.scene.nameOf({ kind: "stick", sign: 0 });
+    if (room > canvas.widthOf(pen, stick, NAME)) canvas.haloed(pen, stick, disc.x, disc.y, middle);
     if (name) canvas.haloed(pen, now.phase, disc.x, name.top + name.high / 2, middle);
   }
 

@@ -25,7 +25,6 @@ Carom.results = (() => {
     lost_energy: "normal losses",
     shear_lost_energy: "losses in shear",
   };
-  const UNJUDGED = "Whether the theory holds for these bodies is judged by the program alone.";
   let unfolded = false;
   const { make } = Carom.elements;
   const box = (id) => document.getElementById(id);
@@ -77,8 +76,7 @@ Carom.results = (() => {
 
   // How far the theory holds, in a line; what it is judged by opens, and stays so for other impacts.
   function findings({ findings: all }, title) {
-    if (!all) return [make("p", "carom-note", UNJUDGED)];
-    if (!all.length) return [];
+    if (!all?.length) return [];
     const order = Object.keys(MARKS);
     const sorted = [...all].sort((a, b) => order.indexOf(a.mark) - order.indexOf(b.mark));
     const worst = sorted[0].mark;
@@ -103,7 +101,7 @@ Carom.results = (() => {
     const [first, second] = answers;
     box("results").replaceChildren(table(answers));
     const titles = second ? ["This: ", "Beside: "] : ["", ""];
-    if (answers.some((answer) => answer && !answer.findings) && Carom.source.can.fit) return; // until it is judged
+    if (answers.some((answer) => answer && !answer.findings) && Carom.source.live) return; // until it is judged
     const told = (answer, title) => [...plate(answer, title), ...findings(answer, title)];
     box("findings").replaceChildren(...answers.flatMap((answer, row) => (answer ? told(answer, titles[row]) : [])));
   }

@@ -4,7 +4,7 @@ Carom.scene = (() => {
   const ROUNDING = 1e-9;
   const HIGHEST = 9; // pressure that is drawn: at the edge it is infinite while viscous bodies load
   const SIGNS = { 1: " +", 0: "", "-1": " −" };
-  const WORDS = { stick: "it sticks", slip: "the rim slips", "gross slip": "it slides" };
+  const WORDS = { stick: "sticks", slip: "rim slips", "gross slip": "slides" };
   const nameOf = ({ kind, sign }) => (Carom.level.isFull() ? kind + SIGNS[sign] : WORDS[kind]);
 
   // The value of a series, evenly spaced between two ends, between its points.

@@ -38,11 +38,10 @@ Carom.source = (() => {
   }
 
   return {
-    can: { laws: true, fit: true, files: true, code: true },
-    why: "",
+    live: true,
     number: async (name, text) => (await asked(`number?${new URLSearchParams({ name, text })}`)).value,
     verdict: async (query, signal) => (await asked(`verdict?${query}`, { signal })).findings,
-    laws: (query, signal) => asked(`laws?${query}`, { signal }),
+    laws: ({ query }, signal) => asked(`laws?${query}`, { signal }),
     fit,
     code: (query, signal) => asked(`view.py?${query}`, { signal }),
     written: (address) => asked(address, {}, "blob"),

@@ -35,7 +35,7 @@ Carom.summary = (() => {
     const arc = still ? "" : `<path class="carom-ray-out" d="M${spin > 0 ? "-22 -12 A26 26 0 1 0 22 -12" : "22 -12 A26 26 0 1 1 -22 -12"}" transform="rotate(180 0 -12)" marker-end="url(#carom-tip)"/>`;
     const picture = `${TIP}<circle class="carom-ball" cx="0" cy="-12" r="16"/>${arc}`;
     const kind = spin > 0 ? "backspin" : "topspin";
-    const words = still ? "without spin" : `with ${plain(turns)} turns a second, ${kind}`;
+    const words = still ? "without spin" : `with ${plain(turns)} turns/s, ${kind}`;
     return tile("It spins", picture, words, view.spin ? `It came with ${plain(view.spin / (2 * Math.PI))}, ${view.spin > 0 ? "backspin" : "topspin"}.` : "It came without spin.");
   }
 

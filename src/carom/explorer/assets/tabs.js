@@ -28,6 +28,7 @@ Carom.tabs = (() => {
   }
 
   function show() {
+    list.hidden = panels.length === 1;
     panels.forEach((panel, row) => {
       const is = panel.dataset.tab === chosen;
       panel.hidden = !is;
