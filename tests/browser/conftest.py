@@ -21,8 +21,10 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore"]
 PATIENCE = 30.0  # s, on a machine that does other things too
 PREPARED = 300.0  # s; without its library Carom compiles first
+FULL = "level=full"
 READY = "document.querySelector('#results table') && window.Carom && Carom.page.answers()[0]"
 BETWEEN = "?angle=1.5&friction=0.05"  # no test begins here
+CHARTED = "Carom.tabs.chosen() === 'Charts' && Carom.level.isFull()"
 CHART = "document.querySelector('#rebounds .js-plotly-plot')?._fullData"
 TRAVEL = f"""query => {{
   const top = Object.assign(document.createElement("i"), {{ tabIndex: -1 }});
@@ -60,7 +62,7 @@ class Visit:
 
         From a tab without charts it goes by way of another link, as there is no chart to change.
         """
-        charts = self.page.evaluate("Carom.tabs.chosen()") == "Charts"
+        charts = self.page.evaluate(CHARTED)
         for where in (query or "?",) if charts else (BETWEEN, query or "?"):
             self.page.evaluate(TRAVEL, where)
             self.until(lambda: self.page.evaluate("Carom.page.answers()[0] !== window.left"))
@@ -68,7 +70,7 @@ class Visit:
 
     def _drawn(self):
         """Tell whether the chart shows the impact, if it is to be seen."""
-        if self.page.evaluate("Carom.tabs.chosen()") != "Charts":
+        if not self.page.evaluate(CHARTED):
             return True
         if not self.page.evaluate(f"{CHART} !== window.drawn"):
             return False
@@ -102,8 +104,9 @@ class Visit:
             self.page.wait_for_timeout(30)
 
     def link(self):
-        """Return the query of the link that the page offers."""
-        return urlsplit(self.page.input_value("#link")).query
+        """Return the query of the link that the page offers, but for the level that tests take."""
+        words = urlsplit(self.page.input_value("#link")).query.split("&")
+        return "&".join(word for word in words if word != FULL)
 
     def linked(self, word):
         """Wait until the link holds these words, or does not: "!angle"."""
@@ -207,11 +210,16 @@ def page(visit, tabs):
 def visit(address, chromium, tabs):
     """Open a link: in the page that is there, loading it, or fresh in a browser never here.
 
-    The film does not run by itself, as for those who prefer that, unless it is not `still`.
+    The film does not run by itself, as for those who prefer that, unless it is not `still`. All of
+    the page is shown, unless another level is asked for.
     """
     own = []
 
-    def open_page(query="", *, width=1280, loading=False, fresh=False, ready=True, still=True):
+    def open_page(
+        query="", *, width=1280, loading=False, fresh=False, ready=True, still=True, level="full"
+    ):
+        if level == "full":
+            query = f"{query or '?'}&{FULL}" if query.strip("?") else f"?{FULL}"
         fresh |= not still
         loading |= fresh or not tabs
         if fresh or not tabs:

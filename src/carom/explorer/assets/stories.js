@@ -84,8 +84,17 @@ Carom.stories = (() => {
     return value > above && value < below;
   }
 
+  // Whether an impact differs from that of the step in its control alone: none is left from before.
+  function belongs({ view }) {
+    const { query: words, control } = story.steps[step];
+    const first = new URLSearchParams(words);
+    const same = ([name, { default: usual }]) => String(view[name]) === (first.get(name) ?? String(usual));
+    const others = Object.entries(Carom.config.fields).filter(([name]) => ![control, "law", "data"].includes(name));
+    return others.every((each) => same(each) || view[each[0]] === Infinity);
+  }
+
   function show(answer) {
-    if (!story || solved.has(step) || !answers(answer)) return;
+    if (!story || solved.has(step) || !answer.view || !belongs(answer) || !answers(answer)) return;
     solved.add(step);
     tell();
   }
