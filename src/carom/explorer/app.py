@@ -84,6 +84,7 @@ def _add_parts(server: Flask) -> None:
     def kernels() -> Response:
         answer = Response(script_of_kernels(), content_type="text/javascript; charset=utf-8")
         answer.add_etag()
+        answer.cache_control.no_cache = True
         return answer.make_conditional(request)
 
     @server.get("/plotly.min.js")
