@@ -102,11 +102,7 @@ def test_a_number_is_asked_of_fields_that_hold_one(client):
         ("verdict?angle=95", "angle", "must be a number from 0 to 89.9 deg, not '95'"),
         ("verdict?angle=3 m", "angle", "must be a number from 0 to 89.9 deg, not '3 m'"),
         ("verdict?material=stell", "material", "there is no 'stell'; did you mean 'steel'"),
-        (
-            "verdict?against=wall",
-            "against",
-            "there is no 'wall'; there are half-space; sphere; cup",
-        ),
+        ("laws?against=wall", "against", "there is no 'wall'; there are half-space; sphere; cup"),
         ("verdict?" + "psi=1&" * 1000, "", "the link has 6000 characters; at most "),
         ("laws?friction=", "friction", "must be a number from 0 to 10; it is empty"),
         ("verdict?frction=1", "", "the link says 'frction', which is unknown; did you mean"),

@@ -103,13 +103,12 @@ EXTREME = {name: st.sampled_from([knob.least, knob.most]) for name, knob in KNOB
 def test_any_numbers_are_answered_or_refused_by_field(view):
     try:
         outcome = outcome_of(view)
-        told = json.dumps(verdict(view), allow_nan=False)
+        numbers = outcome.chi, outcome.kappa, outcome.lasts, outcome.force_scale
+        text = json.dumps([verdict(view), *numbers], allow_nan=False)
     except Refused as error:
-        event(error.field)
-        assert error.field in FIELDS
-    else:
-        assert outcome.rubs == np.isfinite(outcome.psi_out)
-        assert (told == "[]") == view.in_numbers
+        text = error.field
+        event(text)
+    assert text in FIELDS or text.startswith("[[],") == view.in_numbers
 
 
 def test_own_materials_are_those_of_the_numbers():
