@@ -85,7 +85,8 @@ def _add_parts(server: Flask) -> None:
         answer = Response(script_of_kernels(), content_type="text/javascript; charset=utf-8")
         answer.add_etag()
         answer.cache_control.no_cache = True
-        return answer.make_conditional(request)
+        answer.make_conditional(request)
+        return answer
 
     @server.get("/plotly.min.js")
     def plotly() -> Response:
