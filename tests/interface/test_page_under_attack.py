@@ -27,5 +27,4 @@ def test_a_page_under_attack_answers():
         for angle in (20, 40, 60):
             with closing(Page(url, PATIENCE)) as page:
                 assert page.verdict(f"angle={angle}")
-                assert page.laws(f"angle={angle}&law=mindlin") == ["mindlin"]
             time.sleep(0.5)
