@@ -109,7 +109,7 @@ def draw(url: str, row: int) -> None:
 def follow(url: str, row: int) -> None:
     """Ask for the slowest contact law, at the largest chi."""
     view = {"given": "numbers", "chi": 10 - time.time() % 1, "law": "Walton & Braun"}
-    Page(url, patience=0.5).follow(urlencode(view))
+    Page(url, patience=0.5).laws(urlencode(view))
 
 
 KINDS: dict[str, list[Callable[[str, int], None]]] = {
@@ -127,7 +127,7 @@ def answers(url: str, moves: int, random: np.random.Generator) -> list[float]:
     for _ in range(moves):
         query = moved(BODIES, (), False, random)
         begin = time.perf_counter()
-        Page(url, patience=60.0).answer(query)
+        Page(url, patience=60.0).verdict(query)
         times.append(1e3 * (time.perf_counter() - begin))
         time.sleep(0.02)
     return times

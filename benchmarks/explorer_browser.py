@@ -1,4 +1,4 @@
-"""How long the page takes in a browser: from the command to its answer, and a frame of its film.
+"""How long the page takes in a browser: its first answer, one more, a frame of its film.
 
 python benchmarks/explorer_browser.py            also with the processor slowed down four times
 python benchmarks/explorer_browser.py --smoke    a quick pass through the same code
@@ -15,6 +15,7 @@ import time
 from typing import Any
 
 import numpy as np
+from explorer import BODIES, moved
 from playwright.sync_api import sync_playwright
 
 COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore"]
@@ -22,6 +23,22 @@ OPTIONS = ["--no-open", "--port", "0", "--json"]
 STATE = "?angle=25&friction=0.25&law=mindlin"
 SIZE = {"width": 1440, "height": 900}
 SHOWN = "window.Carom?.page?.answers()[0] && document.querySelector('#results tr')"
+SEED = 20261127
+KINDS = {
+    "bodies": BODIES,
+    "numbers": {"given": "numbers"},
+    "bodies with losses": BODIES | {"restitution": 0.8},
+    "a plate": BODIES | {"thickness": 10.0},
+}
+ANSWERS = """async queries => {
+  const cost = [];
+  for (const query of queries) {
+    const start = performance.now();
+    await Carom.reading.answer(query);
+    cost.push(performance.now() - start);
+  }
+  return cost;
+}"""
 FRAMES = """async count => {
   const found = { cost: [], apart: [] };
   let before = 0;
@@ -48,6 +65,14 @@ def first_answer(browser: Any) -> tuple[float, Any, subprocess.Popen[str]]:
     tab.goto(address + STATE, wait_until="commit")
     tab.wait_for_function(SHOWN, timeout=600_000)
     return time.perf_counter() - start, tab, program
+
+
+def answers(tab: Any, kind: str, count: int) -> str:
+    """Return what answers to a kind of view cost, its sliders somewhere else each time."""
+    random = np.random.default_rng(SEED)
+    queries = [moved(KINDS[kind], (), False, random) for _ in range(count)]
+    middle, most = np.percentile(tab.evaluate(ANSWERS, queries), [50, 95])
+    return f"{middle:.1f} ms, 95 % within {most:.1f} ms"
 
 
 def frames(tab: Any, slowed: int, count: int) -> str:
@@ -77,6 +102,8 @@ def main() -> None:
             seconds, tab, program = first_answer(browser)
             times.append(seconds)
             if len(times) == starts:
+                for kind in KINDS:
+                    print(f"an answer, {kind}: {answers(tab, kind, count)}")
                 for slowed in (1, 4):
                     told = frames(tab, slowed, count)
                     print(f"a frame of the film, processor slowed down {slowed} times: {told}")

@@ -6,6 +6,7 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 import urllib.error
 import urllib.request
 
@@ -14,7 +15,7 @@ import pytest
 pytest.importorskip("flask", reason="the explorer needs flask: pip install 'carom[explore]'")
 
 from carom import InputError
-from carom.explorer import Explorer, explorer
+from carom.explorer import Explorer, explorer, page as page_of_carom, serving
 
 HEARS = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"  # in jobs, too
 START = f"{HEARS}; from carom.cli import run; run()"
@@ -52,6 +53,14 @@ def test_a_port_that_is_taken(refusal):
         line = refusal("explore", "--no-open", "--port", port)
     assert f"port: {port}" in line
     assert "take another" in line
+
+
+def test_a_page_without_its_kernels(run, monkeypatch, tmp_path):
+    monkeypatch.setattr(page_of_carom, "FOLDER", tmp_path)
+    monkeypatch.setattr(serving, "kernels", page_of_carom.kernels.__wrapped__)  # not kept
+    code, _, told = run("explore", "--no-open", "--port", "0")
+    assert code == 2
+    assert told == "carom: the explorer needs the kernels for browsers; install carom again\n"
 
 
 @pytest.mark.parametrize("port", [True, "8050", 80.5, None])
@@ -99,7 +108,10 @@ def test_an_end_is_one_at_once_and_leaves_no_process_behind(end):
         url = json.loads(server.stdout.readline())["url"]
         with urllib.request.urlopen(url, timeout=10) as answer:
             assert b"Carom" in answer.read()
-        helpers = psutil.Process(server.pid).children(recursive=True)
+        helpers, late = [], time.monotonic() + 30.0  # they start once the page is there
+        while len(helpers) < 2 and time.monotonic() < late:
+            time.sleep(0.1)
+            helpers = psutil.Process(server.pid).children(recursive=True)
         with socket.create_connection(("127.0.0.1", port_of(url))) as asking:
             asking.sendall(b"GET /course.png HTTP/1.1\r\nHost: localhost\r\n\r\n")
             server.send_signal(getattr(signal, end))

@@ -19,8 +19,9 @@ pytest.importorskip("flask")
 from carom.explorer import files, uploads
 from carom.explorer.app import ANSWERED_IN_JSON, WRITTEN_FILES, new_app
 from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
+from carom.explorer.outcomes import outcome_of
+from carom.explorer.overlays import law_curves
 from carom.explorer.views import CHOICES, FIELDS, LAWS, View
-from carom.explorer.warming import STEPS, Warming
 
 SOON = 5.0  # s of a core, for the slowest answer
 REFUSED = {400, 403, 404, 405, 411, 413, 414, 415, 503}
@@ -57,12 +58,8 @@ class InThisProcess:
 
 @pytest.fixture(scope="module")
 def server():
-    for step in STEPS:  # compiles, if need be
-        step()
-    warming = Warming()
-    warming.start()
-    warming.check(View(law=LAWS), laws=True)
-    return new_app(InThisProcess(), warming, ["localhost"])
+    law_curves(outcome_of(View()), LAWS)  # compiles, if need be
+    return new_app(InThisProcess(), ["localhost"])
 
 
 @pytest.fixture(autouse=True)
@@ -141,10 +138,23 @@ def test_links_and_files(ask, calls):
     rng = random.Random(0)
     right = 0
     for _ in range(calls // 20):
-        name = rng.choice(["view.py", "answer"] * 20 + ["laws"] * 8 + [*WRITTEN_FILES])
+        name = rng.choice(["view.py", "verdict"] * 20 + ["laws"] * 8 + [*WRITTEN_FILES])
         right += ask(f"/{name}?{quote(link(rng), safe='=&%+', errors='replace')}")
     assert right > 0
     assert not ask(f"/view.py?{'a' * (LONGEST_LINK + 1)}")
+
+
+def test_numbers(ask, calls):
+    """Texts of fields, which are often numbers, with units that are often right."""
+    rng = random.Random(4)
+    right = 0
+    for _ in range(calls // 4):
+        name = rng.choice([*FIELDS, "law", "other"])
+        units = ["", "", " mm", " in", " rpm", " deg", "kg"]
+        text = word(rng, name) + rng.choice(units)
+        asked = {"name": name, "text": text}
+        right += ask(f"/number?{urlencode(asked, errors='replace')}")
+    assert right > 0
 
 
 def test_addresses_methods_and_headers(ask, calls):

@@ -12,13 +12,6 @@ pytest.importorskip("flask", reason="the explorer needs flask: pip install 'caro
 from carom.explorer import export as exporting
 
 
-@pytest.fixture
-def quick(monkeypatch):
-    """Export without the tables, which take long."""
-    script = "window.Carom = window.Carom || {};\nCarom.tables = {};\n"
-    monkeypatch.setattr(exporting, "tables", lambda advance: script)
-
-
 def names(folder):
     return {each.name for each in folder.iterdir()}
 
@@ -26,7 +19,6 @@ def names(folder):
 refused = partial(checks.refused, "", exporting.export)
 
 
-@pytest.mark.usefixtures("quick")
 def test_everything_that_the_page_names_is_there(tmp_path):
     copy = exporting.export(tmp_path / "page")
     html = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
@@ -39,7 +31,6 @@ def test_everything_that_the_page_names_is_there(tmp_path):
     assert names(tmp_path) == {"page"}
 
 
-@pytest.mark.usefixtures("quick")
 def test_an_empty_folder_and_an_older_copy_are_replaced(tmp_path):
     page = tmp_path / "page"
     page.mkdir()
@@ -56,7 +47,6 @@ def test_an_empty_folder_and_an_older_copy_are_replaced(tmp_path):
     assert page.stat().st_ino == same  # who works in it still does
 
 
-@pytest.mark.usefixtures("quick")
 def test_a_file_of_ones_own_beside_the_parts_is_kept(tmp_path):
     exporting.export(tmp_path)
     (tmp_path / "assets" / "logo.png").write_text("mine")
@@ -64,7 +54,6 @@ def test_a_file_of_ones_own_beside_the_parts_is_kept(tmp_path):
     assert (tmp_path / "assets" / "logo.png").read_text() == "mine"
 
 
-@pytest.mark.usefixtures("quick")
 @pytest.mark.parametrize("moves", range(6))
 def test_an_older_copy_is_put_back_if_the_new_one_cannot_take_its_place(
     tmp_path, monkeypatch, moves
@@ -84,7 +73,6 @@ def test_an_older_copy_is_put_back_if_the_new_one_cannot_take_its_place(
     assert {each: each.stat().st_ino for each in tmp_path.rglob("*")} == before
 
 
-@pytest.mark.usefixtures("quick")
 def test_what_is_not_a_copy_is_left_alone(tmp_path):
     (tmp_path / "course").mkdir()
     (tmp_path / "course" / "notes.txt").write_text("mine")
@@ -102,10 +90,10 @@ def test_what_is_not_a_copy_is_left_alone(tmp_path):
 
 
 def test_what_fails_leaves_nothing(tmp_path, monkeypatch):
-    def broken(advance):
+    def broken():
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(exporting, "tables", broken)
+    monkeypatch.setattr(exporting, "kernels", broken)
     assert "No space left" in refused(tmp_path / "page")
     assert names(tmp_path) == set()
 
@@ -115,7 +103,6 @@ def test_refusal_on_the_command_line(tmp_path, refusal):
     refusal("explore", "--export", tmp_path)
 
 
-@pytest.mark.slow
 def test_command(tmp_path, run):
     code, out, _ = run("explore", "--export", tmp_path / "page", "--json")
     record = json.loads(out)

@@ -43,7 +43,6 @@ OWN = {  # private to Carom: what its files know of each other's classes, and us
     "verify/errors.py": {"_most_steps", "_why"},
     "verify/pack/writing.py": {"_arguments", "_called"},
     "verify/scoring/velocities.py": {"_describe"},
-    "explorer/scenes.py": {"_losses"},
     **{f"fitting/{name}.py": {"_best"} for name in ("advice", "comparison", "datasets", "report")},
     "fitting/report_file.py": {"_best"},
     "fitting/joint_result.py": {"_sections"},

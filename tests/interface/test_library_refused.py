@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from base64 import b64decode
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
@@ -12,8 +13,9 @@ import pytest
 
 import carom
 from carom.dimensionless.numerics import shared_library
-from carom.dimensionless.numerics.shared_library import CONTENTS
-from carom.native import building
+from carom.dimensionless.numerics.shared_library import BROWSER, BROWSER_CONTENTS, CONTENTS
+from carom.explorer import page
+from carom.native import browser, building
 
 needs_library = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 NONE = "there is no compiled library; install carom again, with a C compiler"
@@ -185,8 +187,10 @@ def test_a_failed_build_is_told_at_the_first_call(
     hook.initialize(version, data)
     included = {target: Path(source) for source, target in data["force_include"].items()}
     if version == "editable":
-        included = {f"carom/lib/{CONTENTS}": tmp_path / "src/carom/lib" / CONTENTS}
-    assert list(included) == [f"carom/lib/{CONTENTS}"]
+        own = tmp_path / "src/carom"
+        included = {path.relative_to(own.parent).as_posix(): path for path in own.glob("lib/*")}
+    names = [CONTENTS] if line else [BROWSER_CONTENTS, BROWSER, CONTENTS]  # the page needs no C
+    assert sorted(included) == [f"carom/lib/{name}" for name in names]
     assert "tag" not in data
     assert reason.startswith("exit") or reason in capfd.readouterr().err  # for pip --verbose
     monkeypatch.setattr(shared_library, "FOLDER", included[f"carom/lib/{CONTENTS}"].parent)
@@ -274,3 +278,71 @@ def test_a_read_only_installation(read_only, way):
         assert float(value) == carom.rebound(0.5, 1.44)
     else:
         assert [float(text) for text in run.stdout.split()] == [1.0, 0.0]
+
+
+@pytest.fixture
+def for_browsers(folder, monkeypatch):
+    """A copy of the kernels for the page, in use from now on."""
+    monkeypatch.setattr(page, "FOLDER", folder)
+    page.kernels.cache_clear()
+    yield folder
+    page.kernels.cache_clear()
+
+
+def refused_by_the_page():
+    refused = r"^the explorer needs the kernels for browsers; install carom again$"
+    with pytest.raises(carom.InputError, match=refused):
+        page.kernels()
+
+
+@needs_library
+def test_kernels_for_browsers_are_those_of_these_sources(for_browsers):
+    contents = json.loads((for_browsers / BROWSER_CONTENTS).read_text())
+    program = "from carom.native import browser; print(*browser.source_files(), sep='\\n')"
+    command = [sys.executable, "-c", program]
+    ran = subprocess.run(command, capture_output=True, text=True, check=True)
+    loaded = [Path(line).relative_to(shared_library.PACKAGE) for line in ran.stdout.splitlines()]
+    needed = {path.as_posix() for path in loaded if path.parts[0] != "native"}
+    assert set(contents["files"]) == needed
+    described = json.loads(json.dumps(browser.described()))
+    assert {name: contents[name] for name in described} == described
+    told = json.loads(page.kernels().decode().removeprefix("Carom.wasm = ").rstrip(";\n"))
+    assert b64decode(told.pop("code")) == (for_browsers / BROWSER).read_bytes()
+    assert told == described
+
+
+@needs_library
+@pytest.mark.parametrize("change", [*CUT, turned])
+def test_damaged_kernels_for_browsers_are_refused(for_browsers, change):
+    module = for_browsers / BROWSER
+    module.write_bytes(change(module.read_bytes()))
+    refused_by_the_page()
+
+
+@needs_library
+@pytest.mark.parametrize("name", [BROWSER, BROWSER_CONTENTS])
+def test_missing_kernels_for_browsers_are_refused(for_browsers, name):
+    (for_browsers / name).unlink()
+    refused_by_the_page()
+
+
+@needs_library
+@pytest.mark.parametrize("text", ["", "{", "[]", "{}", "null", '{"files": 5}', "\0"])
+def test_damaged_contents_of_kernels_for_browsers_are_refused(for_browsers, text):
+    (for_browsers / BROWSER_CONTENTS).write_text(text)
+    refused_by_the_page()
+
+
+@needs_library
+def test_kernels_for_browsers_of_other_sources_are_refused(for_browsers, tmp_path, monkeypatch):
+    """One line of any file that they are made from is enough."""
+    contents = json.loads((for_browsers / BROWSER_CONTENTS).read_text())
+    for name in contents["files"]:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(shared_library.PACKAGE / name, tmp_path / name)
+    monkeypatch.setattr(page, "PACKAGE", tmp_path)
+    assert page.kernels()
+    page.kernels.cache_clear()
+    with (tmp_path / "dimensionless/rebounds.py").open("a") as file:
+        file.write("# another line\n")
+    refused_by_the_page()

@@ -1,23 +1,18 @@
-"""What the server of the page says: answers as JSON, refusals by field, files; no browser."""
+"""What the server of the page says: JSON, refusals by field, files; no browser."""
 
 import json
 import logging
+import math
 import subprocess
 import sys
-import threading
-import time
 
 import pytest
 
 pytest.importorskip("flask")
 
-from carom.explorer import answers, warming
+from carom.explorer import outcomes
 from carom.explorer.app import WRITTEN_FILES, new_app
-from carom.explorer.page import plotly_file
-from carom.explorer.views import LAWS, View
-from carom.explorer.warming import Preparing, Warming
-
-PATIENCE = 60.0  # s
+from carom.explorer.page import kernels, plotly_file
 
 
 class Told:
@@ -38,16 +33,7 @@ class Told:
 
 @pytest.fixture(scope="module")
 def client():
-    actual = Warming()
-    actual.start()
-    end = time.monotonic() + 5 * PATIENCE  # it may compile
-    while time.monotonic() < end:
-        try:
-            actual.check(View(law=LAWS, restitution=0.8), laws=True)
-            break
-        except Preparing:
-            continue
-    return new_app(Told(), actual, ["localhost"]).test_client()
+    return new_app(Told(), ["localhost"]).test_client()
 
 
 def test_the_page_asks_only_what_is_here(client):
@@ -61,12 +47,12 @@ def test_the_page_asks_only_what_is_here(client):
                 assert response.status_code == 200, address
     policy = html.headers["Content-Security-Policy"]
     assert "script-src 'self' 'unsafe-eval';" in policy  # nor scripts within the page
-    config = json.loads(text.partition('id="config">')[2].partition("</script>")[0])
-    assert config["static"] is False
+    assert text.count('src="assets/server.js"') == 1
+    assert "assets/copy.js" not in text
 
 
 def test_parts_are_kept_by_the_browser_as_long_as_they_are_the_same(client):
-    for path in ("/assets/theme.js", "/plotly.min.js"):
+    for path in ("/assets/theme.js", "/assets/wasm.js", "/plotly.min.js"):
         with client.get(path) as first:
             assert first.data
         assert first.headers["Cache-Control"] == "no-cache"
@@ -76,27 +62,59 @@ def test_parts_are_kept_by_the_browser_as_long_as_they_are_the_same(client):
     assert plotly_file().stat().st_size > 1_000_000
 
 
-def test_an_answer_and_its_laws(client):
+def test_the_kernels_are_a_script_of_the_page(client):
+    with client.get("/assets/wasm.js") as script:
+        assert script.data == kernels()
+        assert script.content_type == "text/javascript; charset=utf-8"
+    assert client.get("/").text.count('src="assets/wasm.js"') == 1
+
+
+def test_a_verdict_and_laws(client):
     query = "given=numbers&psi=2&chi=1.5&law=mindlin"
-    answer = client.get(f"/answer?{query}&time=0.3&tab=Files").get_json()
-    assert answer["query"] == View.of(query).query()
+    assert client.get(f"/verdict?{query}&time=0.3&tab=Files").get_json() == {"findings": []}
     laws = client.get(f"/laws?{query}").get_json()
     assert [law["label"] for law in laws["laws"]] == ["mindlin"]
+    assert client.get("/verdict?angle=50").get_json()["findings"]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        *(("radius", "2 in", 50.8), ("radius", "3 cm", 30.0), ("radius", "7", 7.0)),
+        *(("spin", "-60 rpm", -2.0 * math.pi), ("angle", "0.5 rad", math.degrees(0.5))),
+        *(("young", "200 MPa", 0.2), ("density", "1 g/cm^3", 1000.0), ("chi", "1.44", 1.44)),
+        ("thickness", "thick", None),  # an infinite one, which JSON has not
+    ],
+)
+def test_a_number_is_read_in_the_unit_of_its_field(client, name, text, value):
+    told = client.get("/number", query_string={"name": name, "text": text}).get_json()
+    assert told == {"value": value and pytest.approx(value, rel=1e-12)}
+
+
+def test_a_number_is_asked_of_fields_that_hold_one(client):
+    for query in ("", "name=material&text=steel", "name=nowhere&text=1", "name=law"):
+        assert client.get(f"/number?{query}").status_code == 404
 
 
 @pytest.mark.parametrize(
     ("path", "field", "message"),
     [
-        ("answer?angle=95", "angle", "must be a number from 0 to 89.9 deg, not '95'"),
-        ("answer?angle=3 m", "angle", "must be a number from 0 to 89.9 deg, not '3 m'"),
-        ("answer?material=stell", "material", "there is no 'stell'; did you mean 'steel'"),
-        ("answer?against=wall", "against", "there is no 'wall'; there are half-space; sphere; cup"),
-        ("answer?" + "psi=1&" * 1000, "", "the link has 6000 characters; at most "),
-        ("answer?friction=", "friction", "must be a number from 0 to 10; it is empty"),
-        ("answer?frction=1", "", "the link says 'frction', which is unknown; did you mean"),
+        ("verdict?angle=95", "angle", "must be a number from 0 to 89.9 deg, not '95'"),
+        ("verdict?angle=3 m", "angle", "must be a number from 0 to 89.9 deg, not '3 m'"),
+        ("verdict?material=stell", "material", "there is no 'stell'; did you mean 'steel'"),
+        ("laws?against=wall", "against", "there is no 'wall'; there are half-space; sphere; cup"),
+        ("verdict?" + "psi=1&" * 1000, "", "the link has 6000 characters; at most "),
+        ("laws?friction=", "friction", "must be a number from 0 to 10; it is empty"),
+        ("verdict?frction=1", "", "the link says 'frction', which is unknown; did you mean"),
         ("laws?law=mindlinn", "law", "there is no 'mindlinn'; did you mean 'mindlin'"),
-        ("answer?against=cup&second_radius=3", "second_radius", "must be above 5 mm"),
+        ("verdict?against=cup&second_radius=3", "second_radius", "must be above 5 mm"),
+        ("laws?against=cup&second_radius=3", "second_radius", "must be above 5 mm"),
         ("fit?data=none", "data", "must be one of foerster1994"),
+        ("number?name=radius&text=2 kg", "radius", "must be a number from 0.001 to 10000 mm, not"),
+        ("number?name=radius&text=2 km", "radius", "must be a number from 0.001 to 10000 mm, not"),
+        ("number?name=radius", "radius", "must be a number from 0.001 to 10000 mm; it is empty"),
+        ("number?name=psi&text=nan", "psi", "must be a number from -1e+06 to 1e+06, not 'nan'"),
+        ("number?name=thickness&text=thin", "thickness", "must be a number from 0.001 to 10000 mm"),
     ],
 )
 def test_refusals_name_the_field(client, path, field, message):
@@ -115,9 +133,9 @@ def test_files_are_refused_in_a_line_of_text(client, caplog):
     assert client.get("/nowhere").data == b"carom: 404: Not Found\n"
     assert client.get("/assets/../app.py").status_code == 404
     assert client.get("/history.png").data == b"carom: failed, RuntimeError\n"
-    assert client.post("/answer").get_json()["message"] == "405: Method Not Allowed"
+    assert client.post("/verdict").get_json()["message"] == "405: Method Not Allowed"
     for host in ("elsewhere", "elsewhere:8050", "localhost.elsewhere", "[", "a@b", ""):
-        answered = client.get("/answer", headers={"Host": host})
+        answered = client.get("/verdict", headers={"Host": host})
         assert answered.json == {"field": "", "message": "400: Bad Request"}
 
 
@@ -138,7 +156,7 @@ def test_addresses_of_files(client):
 
 def test_addresses_of_fits():
     worker = Told()
-    client = new_app(worker, Warming()).test_client()
+    client = new_app(worker).test_client()
     for _ in range(2):  # a data set is fitted once
         assert client.get("/fit?data=kharaz2001").json == {"words": "fitted"}
     assert worker.asked == [{"data": "kharaz2001"}]
@@ -164,33 +182,8 @@ def test_a_failure_is_a_line(client, monkeypatch, caplog):
         raise ZeroDivisionError("a secret\nof the program")
 
     caplog.set_level(logging.ERROR)
-    monkeypatch.setattr(answers, "answer", fail)
-    response = client.get("/answer")
+    monkeypatch.setattr(outcomes, "verdict", fail)
+    response = client.get("/verdict")
     assert response.status_code == 500
     assert response.get_json() == {"field": "", "message": "failed, ZeroDivisionError"}
     assert "Traceback" not in caplog.text
-
-
-def test_what_is_compiled_is_told_with_how_far_it_is(monkeypatch):
-    go = threading.Event()
-    steps = [lambda: None, *[lambda: go.wait(PATIENCE)] * 4]
-    monkeypatch.setattr(warming, "STEPS", steps)
-    monkeypatch.setattr(warming, "PATIENCE_SECONDS", 0.2)
-    monkeypatch.setattr(warming.shared_library, "reason", lambda: "there is none")
-    busy = Warming()
-    client = new_app(Told(), busy, ["localhost"]).test_client()
-    busy.start()
-    response = client.get("/answer")
-    assert response.status_code == 200
-    answer = response.get_json()
-    assert (answer["percent"], answer["again"]) == (33, 1)  # one step of three
-    assert "33 % of what this answer needs" in answer["message"]
-    go.set()
-    monkeypatch.setattr(warming, "PATIENCE_SECONDS", PATIENCE)
-    for query in ("angle=3", "restitution=0.9"):
-        assert "scene" in client.get(f"/answer?{query}").get_json()
-
-
-def test_with_the_library_nothing_is_waited_for(monkeypatch):
-    monkeypatch.setattr(warming.shared_library, "reason", lambda: "")
-    Warming().check(View(law=LAWS), laws=True)

@@ -14,7 +14,7 @@ pytest.importorskip("flask")
 from carom.explorer import files
 from carom.explorer.app import PICTURES
 from carom.explorer.files import NumbersImpact, contact_figure, history_figure
-from carom.explorer.scenes import impact_of
+from carom.explorer.outcomes import impact_of
 from carom.explorer.views import NUMBERS, View
 
 BODIES = View(angle=41.5)

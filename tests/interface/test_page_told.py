@@ -1,4 +1,4 @@
-"""What the page is told: an impact, its contact laws, results and findings, as JSON holds them."""
+"""What the page is told: its fields, contact laws and findings, as JSON holds them."""
 
 import json
 import re
@@ -11,69 +11,27 @@ import pytest
 
 pytest.importorskip("flask")
 
-from carom.explorer.answers import answer, laws
-from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.answers import laws
+from carom.explorer.outcomes import impact_of, outcome_of, verdict
+from carom.explorer.overlays import law_curves
 from carom.explorer.page import REGIMES, config
-from carom.explorer.scenes import ENERGIES, impact_of, scene_of
-from carom.explorer.views import FIELDS, LAWS, NUMBERS, View
+from carom.explorer.views import FIELDS, LAWS, NUMBERS, PAGE, View
 from carom.impacts.curves import REGIMES as LONG
 from carom.plots.bands import BANDS
 from carom.plots.impact import ENERGIES as IN_FIGURES, LOST
 from carom.plots.regimes import REGIMES as OF_FIGURES
 
 
-def test_an_answer_is_the_scene_as_json_holds_it():
-    view = View(law=LAWS[:2], angle=41.5)
-    scene, reply = scene_of(view), json.loads(json.dumps(answer(view), allow_nan=False))
-    assert View.of(reply["query"]) == view
-    assert reply["carried"] == {
-        "psi": float(f"{scene.psi_in:.6g}"),
-        "chi": float(f"{scene.chi:.6g}"),
-        "inelasticity": 0.0,
-    }
-    psi, out = exact_curve(scene)
-    np.testing.assert_allclose(reply["curve"]["psi"], psi, atol=1e-7)
-    np.testing.assert_allclose(reply["curve"]["out"], out, atol=1e-7)
-    assert reply["curve"]["at"] == [scene.psi_in, scene.psi_out]
-    chi = scene.chi
-    np.testing.assert_allclose(reply["curve"]["borders"], [1.0, 2.0 * chi, 4.0 * chi - 1.0])
-    history = reply["history"]
-    np.testing.assert_allclose(history["force"], scene.force, atol=1e-5)
-    np.testing.assert_allclose(np.sum(list(history["energies"].values()), axis=0), 1.0, atol=1e-4)
-    assert set(history["energies"]) == set(scene.energies)
-
-
-def test_laws_that_are_not_there_follow():
+def test_laws_are_those_of_the_outcome_as_json_holds_them():
     view = View(given=NUMBERS, psi=1.0, chi=1.61803, law=LAWS)
-    reply = answer(view)
-    assert {law["label"] for law in reply["laws"]} | set(reply["late"]) == set(LAWS)
     followed = json.loads(json.dumps(laws(view), allow_nan=False))
     assert followed["slow"] == []
     assert [law["label"] for law in followed["laws"]] == list(LAWS)
-    scene = scene_of(view)
-    for law, curve in zip(followed["laws"], law_curves(scene, LAWS), strict=True):
+    outcome = outcome_of(view)
+    for law, curve in zip(followed["laws"], law_curves(outcome, LAWS), strict=True):
         assert law["at"] == curve.at
-        assert law["off"] == pytest.approx(curve.at - scene.psi_out, abs=1e-15)
+        assert law["off"] == pytest.approx(curve.at - outcome.psi_out, abs=1e-15)
         np.testing.assert_allclose(law["out"], curve.psi_out, atol=1e-7)
-    assert answer(view)["late"] == []  # remembered
-
-
-def test_results_are_the_numbers_of_the_impact():
-    view = View(restitution=0.8, spin=40.0)
-    hit = impact_of(view)
-    rows = {row["name"]: row for row in answer(view)["results"]}
-    assert float(rows["psi_out"]["value"]) == pytest.approx(hit.psi_out, rel=1e-5)
-    assert rows["psi_out"]["symbol"] == "ψ₂"
-    angle = rows["rebound_angle"]
-    assert angle["unit"] == "deg"
-    assert float(angle["value"]) == pytest.approx(np.degrees(hit.rebound_angle), rel=1e-5)
-    micro = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9}[rows["duration"]["unit"]]
-    assert float(rows["duration"]["value"]) * micro == pytest.approx(hit.duration, rel=1e-5)
-    assert float(rows["normal_restitution"]["value"]) == pytest.approx(0.8, abs=1e-3)
-    assert rows["kappa"]["unit"] == ""
-    assert set(config()["symbols"]) >= {row["symbol"] for row in rows.values()}
-    free = {row["name"]: row["value"] for row in answer(View(friction=0.0))["results"]}
-    assert free["psi_in"] == "none: it slides freely"
 
 
 RUBBER = View(radius=0.2, material="rubber", speed=60.0, second_material="steel", friction=0.05)
@@ -81,7 +39,7 @@ RUBBER = View(radius=0.2, material="rubber", speed=60.0, second_material="steel"
 
 @pytest.mark.parametrize("view", [RUBBER, View(thickness=300.0)], ids=["rubber", "thick plate"])
 def test_findings_speak_of_the_page(view):
-    reply, actual = answer(view)["findings"], impact_of(view).validity
+    reply, actual = verdict(view), impact_of(view).validity
     assert len(reply) == len(actual.findings)
     marks = [row["mark"] for row in reply]
     assert marks == sorted(marks, key=["FAILS", "?", "ok"].index)
@@ -103,9 +61,10 @@ def test_the_page_is_told_all_that_it_shows():
     assert record["materials"]["rigid"]["young"] is None
     assert record["materials"]["steel"] == {"young": 210e9, "poisson": 0.3, "density": 7850}
     assert tuple(OF_FIGURES) == REGIMES
-    assert {name: words[0] for name, words in (IN_FIGURES | LOST).items()} == ENERGIES
+    assert {name: words[0] for name, words in (IN_FIGURES | LOST).items()} == PAGE["energies"]
+    assert set(record["energies"]) == {*PAGE["energies"], *PAGE["energies_of_contact"]}
     for preset in record["presets"]:
-        answer(View.of(preset["query"]))
+        verdict(View.of(preset["query"]))
 
 
 SHEET = files("carom.explorer").joinpath("assets", "carom.css").read_text("utf-8")

@@ -7,15 +7,13 @@ from urllib.parse import parse_qsl
 import numpy as np
 import pytest
 
+from carom.explorer.outcomes import impact_of
 from carom.explorer.page import PRESETS, SYMBOLS
-from carom.explorer.results import SIGNS, SIGNS_OF_LOSSES
-from carom.explorer.scenes import impact_of
-from carom.explorer.views import FIELDS, View
+from carom.explorer.views import FIELDS, PAGE, View
 from carom.quantities.glossary import GLOSSARY
 
 NAMED = {preset.id: preset for preset in PRESETS}
 IDS = [preset.id for preset in PRESETS]
-RESTITUTIONS = (1.0, 0.9, 0.7)  # for which a static copy has tables
 MEASURED = {  # what stories quote of their sources
     "superball": ("98.4", "0.59"),
     "golf": ("59.2",),
@@ -92,14 +90,6 @@ def test_a_link_is_a_state_of_the_page(preset):
     assert {name: str(getattr(view, name)).removesuffix(".0") for name in values} == values
 
 
-def test_a_static_copy_can_show_it(preset):
-    view = View.of(preset.query)
-    hit = impact_of(view)
-    assert view.restitution in RESTITUTIONS
-    assert abs(hit.psi_in) <= 10.0
-    assert 0.5 <= hit.pair.chi <= 3.0
-
-
 def test_a_story_tells_what_is_computed(preset):
     matches = re.findall(r"\d+(?:\.\d+)?", preset.story)
     computed = numbers(preset.id)
@@ -147,7 +137,7 @@ def test_symbols_are_sentences_in_letters_of_the_page():
 
 def test_every_symbol_of_fields_and_results_is_explained():
     shown = {words.symbol for words in FIELDS.values()} | {
-        *SIGNS.values(),
-        *SIGNS_OF_LOSSES.values(),
+        *PAGE["signs"].values(),
+        *PAGE["signs_of_losses"].values(),
     }
     assert shown - {""} - set(SYMBOLS) == set()

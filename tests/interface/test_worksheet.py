@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import carom
-from carom.explorer.scenes import impact_of
 from carom.explorer.views import View
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -21,14 +20,6 @@ OPENED = [explore_links.opened(link) for link in re.findall(r"{explore}`[^<`]*<(
 LINKS = [query for _, query in OPENED]
 LIVE = [query for page, query in OPENED if page == explore_links.LIVE]
 COPY = [query for query in LINKS if query not in LIVE]
-
-
-def state(view):
-    """Return psi_1 and chi of a view."""
-    if view.in_numbers:
-        return view.psi, view.chi
-    hit = impact_of(view)
-    return hit.psi_in, hit.pair.chi
 
 
 def test_ten_questions_each_with_a_link_and_a_folded_answer():
@@ -44,12 +35,7 @@ def test_ten_questions_each_with_a_link_and_a_folded_answer():
 
 def test_the_copy_can_show_what_links_to_it_open():
     assert len(COPY) == 11
-    for query in COPY:
-        view = View.of(query)
-        psi, chi = state(view)
-        assert abs(psi) <= 10.0
-        assert 0.5 <= chi <= 3.0
-        assert view.restitution in (1.0, 0.9, 0.7)
+    assert [(view.law, view.data) for view in map(View.of, COPY)] == 11 * [((), "")]
 
 
 def test_laws_and_data_need_the_live_page():

@@ -84,7 +84,9 @@ def _add_parts(server: Flask) -> None:
     def kernels() -> Response:
         answer = Response(script_of_kernels(), content_type="text/javascript; charset=utf-8")
         answer.add_etag()
-        return answer.make_conditional(request)
+        answer.cache_control.no_cache = True
+        answer.make_conditional(request)
+        return answer
 
     @server.get("/plotly.min.js")
     def plotly() -> Response:

@@ -65,7 +65,7 @@ def places(outcome: Outcome) -> Array:
     """Return the psi_1 over which curves are drawn: all regimes, and the present point."""
     low, high = _span(outcome)
     grid = np.linspace(0.0, _regimes(outcome.chi), POINTS)
-    return np.unique(np.concatenate([-grid[-grid >= low], grid, [high]]))
+    return np.unique(np.concatenate([-grid[-grid >= low], grid, [low, high]]))
 
 
 def law_curves(

@@ -32,7 +32,6 @@ from carom.explorer.limits import LARGEST_UPLOAD, LONGEST_LINK
 from carom.explorer.views import CHOICES, FIELDS, OWN, PAGE, PAGE_ONLY, UNDAMPED, View
 from carom.impacts.curves import REGIMES as LONG
 from carom.io.tables import read_table
-from carom.io.version import __version__
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import READ
 from carom.quantities.refusals import InputError
@@ -83,7 +82,7 @@ def kernels() -> bytes:
         made_from = digest(PACKAGE / name for name in contents.pop("files"))
         fits = made_from == contents.pop("sources")
         fits = fits and sha256(module).hexdigest() == contents.pop("sha256")
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
         fits = False
     if not fits:
         raise InputError("the explorer needs the kernels for browsers; install carom again")
@@ -154,8 +153,6 @@ def _laws_of_stories() -> list[dict[str, Any]]:
 def config(*, static: bool = False) -> dict[str, Any]:
     """Return what the page reads once, before anything is asked; a static one has no server."""
     return {
-        "version": __version__,
-        "static": static,
         "page_only": PAGE_ONLY,
         "longest_link": LONGEST_LINK,
         "largest_upload": LARGEST_UPLOAD,

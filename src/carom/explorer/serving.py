@@ -24,6 +24,7 @@ from carom.explorer.limits import (
 from carom.explorer.overlays import followers
 from carom.explorer.page import kernels
 from carom.explorer.worker import Worker
+from carom.quantities.refusals import InputError
 
 OWN_NAMES = [LOOPBACK, "localhost", "::1"]
 LOADED_SECONDS = 3.0  # in which a page is there; only then others take a processor
@@ -160,7 +161,11 @@ def explorer(*, host: str = LOOPBACK, port: int = DEFAULT_PORT) -> Explorer:
 
 def serving(bound: socket.socket, host: str) -> Explorer:
     """Return the page on a socket that listens."""
-    kernels()
+    try:
+        kernels()
+    except InputError:
+        bound.close()
+        raise
     worker = Worker()
     server = Server(new_app(worker, OWN_NAMES if host in OWN_NAMES else None), bound)
     worker.start(LOADED_SECONDS)

@@ -20,7 +20,7 @@ import llvmlite.binding as llvm
 
 from carom.dimensionless.elastic import dense_output, phases, record
 from carom.dimensionless.lossy import law, layout
-from carom.dimensionless.lossy.springs import march, motion
+from carom.dimensionless.lossy.springs import march, motion, springs
 from carom.dimensionless.lossy.viscoelastic import impacts, record as viscous, work
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.kernels import ENTRIES, Kernel
@@ -98,7 +98,7 @@ def described() -> dict[str, Any]:
                 for name, value in _places(layout, "").items()
                 if name.isupper() and not name.startswith(("AT_", "ROWS", "NUMBERS"))
             },
-            "frames": {"PULLED": march.PULLED, "X": march.of.X},
+            "frames": {"PULLED": march.PULLED, "X": springs.X},
         },
         "sizes": {
             "sampled": dense_output.SAMPLED,

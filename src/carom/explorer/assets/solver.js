@@ -12,7 +12,6 @@ Carom.solver = (() => {
   const HIGHEST = 9; // of a traction: at the edge it is infinite while viscous bodies load
   const [SHORTEST, SHORTEST_VISCOUS] = [1e-12, 1e-6]; // of a phase
   const AT_ONCE = 1e-12; // by which springs in series with dashpots are as Kelvin's & Voigt's
-  const POINTS = { elastic: 1, viscous: 5 }; // of the points of a curve, one in so many is solved
   const LEAST_ALPHA = -18; // powers of e between which alpha is sought
   const [MOST_ALPHA, BISECTIONS] = [6, 60];
   const HALVINGS = 32; // of a panel, to find an instant
