@@ -32,7 +32,7 @@ TRAVEL = f"""query => {{
   top.focus(); // from where the tab key goes on
   top.remove();
   scrollTo(0, 0);
-  window.left = Carom.page.answers()[0];
+  window.left = Carom.page.scenes[0];
   window.drawn = {CHART};
   history.pushState({{}}, "", query);
   dispatchEvent(new Event("popstate"));
@@ -65,7 +65,7 @@ class Visit:
         charts = self.page.evaluate(CHARTED)
         for where in (query or "?",) if charts else (BETWEEN, query or "?"):
             self.page.evaluate(TRAVEL, where)
-            self.until(lambda: self.page.evaluate("Carom.page.answers()[0] !== window.left"))
+            self.until(lambda: self.page.evaluate("Carom.page.scenes[0] !== window.left"))
         self.until(self._drawn)
 
     def _drawn(self):

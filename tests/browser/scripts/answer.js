@@ -1,2 +1,2 @@
-async queries => Promise.all(queries.map(query => Carom.source.answer(query)
+async queries => Promise.all(queries.map(query => Carom.reading.answer(query)
   .then(answer => ({answer}), refusal => ({refusal}))))

@@ -1,5 +1,5 @@
 async ([query, parts, boxes, shares]) => {
-  const { scene } = await Carom.source.answer(query);
+  const { scene } = await Carom.reading.answer(query);
   const made = Carom.scene.of(scene);
   const kind = CanvasRenderingContext2D.prototype;
   const fillText = kind.fillText;

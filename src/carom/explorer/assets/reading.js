@@ -41,12 +41,13 @@ Carom.reading = (() => {
       if (!(name in fields || OWN.includes(name))) refuse("", `the link says '${name.slice(0, LONGEST)}', which is unknown; leave it out`);
     }
     const of = (name) => words.getAll(name).at(-1) ?? String(fields[name].default);
-    const laws = words.getAll("law").filter(Boolean).map((label) => choice("law", label));
-    const values = { law: [...new Set(laws)], data: of("data") };
-    for (const name of Object.keys(fields)) {
-      if (name in values) continue;
+    const values = {};
+    const laws = new Set(words.getAll("law").filter(Boolean));
+    for (const name of new Set([...words.keys(), ...Object.keys(fields)])) {
+      if (OWN.includes(name)) continue;
       try {
-        values[name] = fields[name].least === null ? choice(name, of(name)) : await number(name, of(name));
+        if (name === "law") values.law = [...laws].map((label) => choice("law", label));
+        else values[name] = fields[name].least === null ? choice(name, of(name)) : await number(name, of(name));
       } catch (refusal) {
         if (Carom.fields.counts(name, of)) throw refusal;
         values[name] = await number(name, String(fields[name].default)).catch(() => fields[name].default);
@@ -58,7 +59,8 @@ Carom.reading = (() => {
   // The query of what differs from the page as it opens.
   function canonical(values) {
     const words = new URLSearchParams();
-    for (const [name, value] of Object.entries(values)) {
+    for (const name of Object.keys(fields)) {
+      const value = values[name];
       if (name === "law") value.forEach((label) => words.append("law", label));
       else if (String(value) !== String(fields[name].default) && value !== Infinity) words.set(name, value);
     }
@@ -110,7 +112,10 @@ Carom.reading = (() => {
     const words = new URLSearchParams(query);
     words.sort();
     const key = words.toString();
-    if (!kept.has(key)) kept.set(key, answered(query));
+    if (!kept.has(key)) {
+      kept.set(key, answered(query));
+      kept.get(key).catch(() => kept.delete(key)); // a program that is lost may be there again
+    }
     if (kept.size > KEPT) kept.delete(kept.keys().next().value);
     return kept.get(key);
   }

@@ -11,6 +11,7 @@ Carom.solver = (() => {
   const SPRINGS = 160;
   const HIGHEST = 9; // of a traction: at the edge it is infinite while viscous bodies load
   const [SHORTEST, SHORTEST_VISCOUS] = [1e-12, 1e-6]; // of a phase
+  const JUST = 1 - 1e-9; // of the area of a contact: springs beyond are touched at that time, and bear nothing yet
   const AT_ONCE = 1e-12; // by which springs in series with dashpots are as Kelvin's & Voigt's
   const LEAST_ALPHA = -18; // powers of e between which alpha is sought
   const [MOST_ALPHA, BISECTIONS] = [6, 60];
@@ -214,15 +215,17 @@ Carom.solver = (() => {
       const [pulled, times] = [numbers(frames), of("AT_TIME")];
       const x = numbers(work[1]).slice(0, most);
       const places = placesOf(times, even(INSTANTS, times[count]));
-      const [areas, moving, speed] = [of("AT_B").map((b) => b * b), of("AT_PSI"), of("AT_V")].map((column) => between(column, places));
+      const areas = of("AT_B").map((b) => b * b);
+      const [area, moving, speed] = [areas, of("AT_PSI"), of("AT_V")].map((column) => between(column, places));
       const row = (i) => pulled.subarray((i * sizes.frames + columns.frames.PULLED) * most);
       return places.map(([i, part], instant) => {
         const touches = instant > 0 && instant < INSTANTS;
         if (!touches) return Array(RADII).fill(0);
-        const [one, other, edge] = [row(i), row(i + 1), Math.sqrt(areas[instant])];
+        const [one, other, edge] = [row(i), row(i + 1), Math.sqrt(area[instant])];
         const rim = alpha * Math.max(0, speed[instant]); // what viscous bodies bear there while they load
         const last = clamped(alpha * moving[instant], -rim, rim);
-        const knots = knotsOf(x, edge, (j) => (1 - part) * one[j] + part * other[j], last);
+        const bears = (j) => (1 - part) * (x[j] ** 2 < JUST * areas[i] ? one[j] : last) + part * other[j];
+        const knots = knotsOf(x, edge, bears, last);
         const of = (radius) => clamped((Math.sign(psi) * traction(knots, radius)) / widest, -HIGHEST, HIGHEST) || 0;
         return Array.from({ length: RADII }, (_, j) => of((edge * j) / (RADII - 1)));
       });
