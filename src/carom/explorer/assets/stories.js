@@ -80,7 +80,7 @@ Carom.stories = (() => {
   // Whether the impact that is shown answers the question.
   function answers({ numbers, laws }) {
     const { quantity, below = Infinity, above = -Infinity } = story.steps[step].until;
-    const value = quantity === "off" ? Math.abs(laws[0]?.off ?? 0) : numbers?.[quantity];
+    const value = quantity === "off" ? Math.abs(laws[0]?.off ?? NaN) : numbers?.[quantity]; // laws follow
     return value > above && value < below;
   }
 
