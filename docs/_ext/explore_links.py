@@ -1,7 +1,8 @@
 """Links that open a state of the page, {explore}`10° from the normal <angle=10>`, and its copy.
 
 They go to the copy of the page in the manual, and to the live page on the reader's own machine if
-they ask for contact laws or data, which only that has. `example=ID` stands for an example.
+they ask for contact laws or data, which only that has. `example=ID` stands for an example, and
+`story=ID.N` for a step of a story; all else shows the whole page.
 """
 
 from pathlib import Path
@@ -25,6 +26,7 @@ def opened(target: str) -> tuple[str, str]:
     """Return which page a link opens, the live one where only that has it, and with what."""
     name, _, example = target.partition("=")
     query = f"{EXAMPLES[example]}&preset={example}" if name == "example" else target
+    query = query if name == "story" else f"level=full&{query}"
     live = ONLY_LIVE & parse_qs(query, keep_blank_values=True).keys()
     return LIVE if live else COPY, quote(query, safe="=&+%-._")
 

@@ -14,10 +14,12 @@ from playwright.sync_api import sync_playwright
 from carom.explorer import explorer
 
 FIGURES = Path(__file__).parents[1] / "figures" / "explorer"
-VIEW = "?angle=25&friction=0.25&time=0.6&theme=light"
+VIEW = "?angle=25&friction=0.25&time=0.6&theme=light&level=full"
 STATE = f"{VIEW}&law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun&data=kharaz2001"
 SIZES = {400: 800, 1024: 768, 1440: 900, 1920: 1080}  # heights of windows by their widths
 PICTURES = {  # state, width
+    "first": ("?theme=light", 1440),
+    "story": ("?theme=light&story=contact.1", 1440),
     **{f"{width}": (STATE, width) for width in SIZES},
     "dark": (STATE.replace("light", "dark"), 1440),
     "two": (f"{VIEW}&beside=angle%3D60%26friction%3D0.25", 1440),
@@ -32,10 +34,13 @@ def main() -> None:
     with sync_playwright() as play:
         browser = play.chromium.launch(executable_path=which("chromium"), args=["--no-sandbox"])
         for name, (state, width) in PICTURES.items():
-            tab = browser.new_page(viewport={"width": width, "height": SIZES[width]})
+            size = {"width": width, "height": SIZES[width]}
+            tab = browser.new_page(viewport=size, reduced_motion="reduce")
             tab.goto(page.url + state)
-            tab.wait_for_selector(".main-svg", state="attached")
-            tab.wait_for_timeout(5000)  # laws, fits and charts are all there
+            tab.wait_for_timeout(8000)  # laws, fits and charts are all there
+            if name == "story":
+                tab.get_by_role("button", name="Show me").click()
+                tab.wait_for_timeout(2000)
             picture = Image.open(BytesIO(tab.screenshot())).convert("RGB")
             picture.save(FIGURES / f"{name}.png", optimize=True)
             tab.close()

@@ -4,6 +4,7 @@ Carom.answer = (() => {
   const { solver } = Carom;
   const POINTS = { elastic: 240, viscous: 60 }; // intervals of the curve, over all regimes
   const BEYOND = 1.15; // of the present psi_1, that is shown
+  const OF_CURVES = 1e-7; // of a panel: psi_2 to 1e-6
   const KEPT = 16; // curves that are remembered
   const CARRIED = 6; // digits that go over from bodies to numbers
   const NO_SPIN = 1e-9; // of the spin before: less is rounding
@@ -33,7 +34,7 @@ Carom.answer = (() => {
     if (!curves.has(key)) {
       const count = loss.alpha ? POINTS.viscous : POINTS.elastic;
       const psi = Array.from({ length: count + 1 }, (_, i) => (last * i) / count);
-      curves.set(key, [psi, solver.rebounds(psi, chi, loss)]);
+      curves.set(key, [psi, solver.rebounds(psi, chi, loss, OF_CURVES)]);
     }
     if (curves.size > KEPT) curves.delete(curves.keys().next().value);
     return curves.get(key);

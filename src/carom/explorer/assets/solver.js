@@ -14,7 +14,8 @@ Carom.solver = (() => {
   const JUST = 1 - 1e-9; // of the area of a contact: springs beyond are touched at that time, and bear nothing yet
   const AT_ONCE = 1e-12; // by which springs in series with dashpots are as Kelvin's & Voigt's
   const LEAST_ALPHA = -18; // powers of e between which alpha is sought
-  const [MOST_ALPHA, BISECTIONS] = [6, 60];
+  const MOST_ALPHA = 6;
+  const [HALVED, TRIALS, ROUNDING] = [4, 60, 1e-14];
   const HALVINGS = 32; // of a panel, to find an instant
   const alphas = new Map();
 
@@ -28,18 +29,23 @@ Carom.solver = (() => {
     return alphas.get(e);
   }
 
+  // By false position in log(alpha), the end that stays weighed half (the Illinois method).
   function sought(e) {
+    const excess = (at) => call("lossy.viscoelastic.normal.restitution", [Math.exp(at), ...lasting.viscous])[0] - e;
     let [low, high] = [LEAST_ALPHA, MOST_ALPHA];
-    for (let i = 0; i < BISECTIONS; i++) {
-      const middle = 0.5 * (low + high);
-      const [reached] = call("lossy.viscoelastic.normal.restitution", [Math.exp(middle), ...lasting.viscous]);
-      [low, high] = reached > e ? [middle, high] : [low, middle];
+    let [over, under] = [excess(low), excess(high)];
+    for (let i = 0; i < TRIALS && high - low > ROUNDING; i++) {
+      const next = i < HALVED ? 0.5 * (low + high) : high - (under * (high - low)) / (under - over);
+      const value = excess(next);
+      if (value > 0) [low, over, under] = [next, value, i < HALVED ? under : 0.5 * under];
+      else [high, under, over] = [next, value, i < HALVED ? over : 0.5 * over];
+      if (Math.abs(value) < ROUNDING) return Math.exp(next);
     }
     return Math.exp(0.5 * (low + high));
   }
 
   // psi_2 of many impacts, NaN of those that are not solved.
-  function rebounds(psi, chi, { alpha, give }) {
+  function rebounds(psi, chi, { alpha, give }, tolerance = tolerances.panel) {
     return within(() => {
       const out = array([psi.length]);
       const status = array([psi.length], "i1");
@@ -51,7 +57,7 @@ Carom.solver = (() => {
       }
       const table = array([psi.length, sizes.numbers]);
       const work = [...lasting.viscous, ...lasting.no_panels, table, status];
-      call("lossy.viscoelastic.impacts.fill", [at, chis, losing, tolerances.panel, work]);
+      call("lossy.viscoelastic.impacts.fill", [at, chis, losing, tolerance, work]);
       return Array.from(psi, (_, i) => (numbers(status)[i] ? NaN : numbers(table)[i * sizes.numbers + columns.numbers.PSI_OUT]));
     });
   }
