@@ -87,7 +87,7 @@ def test_a_hand_lets_the_film_run_where_motion_is_welcome(visit):
 def test_the_first_level_has_words_and_no_symbols(visit):
     seen = visit(level="first")
     fields = seen.page.locator(".carom-field:visible label").all_inner_texts()
-    assert fields == ["Angle", "Speed", "Spin", "Friction", "Bounce", "Ball", "It strikes"]
+    assert fields == ["Angle", "Speed", "Backspin", "Friction", "Bounce", "Ball", "It strikes"]
     words = seen.page.inner_text("body")
     assert not set("ψχκθω") & set(words)
     assert all(told in words for told in ("18.6°", "turns", "94.3 %"))

@@ -26,13 +26,13 @@ Carom.fields = (() => {
   }
 
   function number(name) {
-    const { slider, label, unit } = described[name];
+    const { slider, label, plain, unit } = described[name];
     // of type "number" a browser drops what it does not know, and 1,5 becomes 15
     const typed = make("input", { id: name, type: "text", autocomplete: "off" });
     const parts = [labelOf(name), typed, make("span", { className: "carom-unit", textContent: unit })];
     if (slider) {
       const [min, max, step] = slider;
-      parts.push(make("input", { id: `${name}-slider`, type: "range", min, max, step, ariaLabel: `${label}, slider` }));
+      parts.push(make("input", { id: `${name}-slider`, type: "range", min, max, step, ariaLabel: `${plain || label}, slider` }));
     }
     return parts;
   }
@@ -80,6 +80,15 @@ Carom.fields = (() => {
 
   // Whether a field matters, where the others have these words.
   const counts = (name, word) => Object.entries(described[name].needs).every(([other, words]) => words.includes(word(other)));
+
+  // Show one field alone, its slider over a range of its own; "" shows all again.
+  function only(name, range) {
+    const ends = ([min, max, step]) => ({ min, max, step });
+    const slider = (field) => Object.assign(box(`${field}-slider`), ends((field === name && range) || described[field].slider));
+    names().filter((field) => described[field].slider).forEach((field) => (slider(field), follow(field)));
+    alone = name;
+    hide();
+  }
 
   // What is not given, or not there, is not asked for.
   function hide() {
@@ -182,7 +191,7 @@ Carom.fields = (() => {
   return {
     build,
     hide,
-    only: (name) => ((alone = name), hide()),
+    only,
     counts,
     query,
     set,
@@ -192,7 +201,7 @@ Carom.fields = (() => {
     complain,
     words,
     plate,
-    label: (name) => (described[name] ? described[name].label : ""),
+    label: (name) => (!Carom.level.isFull() && described[name]?.plain) || (described[name]?.label ?? ""),
     reset,
     withUnit,
     hear: (listener) => heard.push(listener),

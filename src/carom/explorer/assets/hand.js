@@ -38,7 +38,7 @@ Carom.hand = (() => {
     const near = NEAR[event.pointerType] ?? NEAR.mouse;
     if (arrow && away(point, ...[arrow.from, arrow.to].map(last.seen.at)) < near) return "arrow";
     const [x, y] = last.seen.at([last.ball.x, last.ball.y]);
-    return Math.hypot(point[0] - x, point[1] - y) < last.ball.radius * last.seen.unit ? "ball" : null;
+    return Math.hypot(point[0] - x, point[1] - y) < 1.15 * last.ball.radius * last.seen.unit ? "ball" : null;
   }
 
   const number = (name) => parseFloat(Carom.fields.value(name)) || 0;

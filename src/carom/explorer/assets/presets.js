@@ -36,7 +36,7 @@ Carom.presets = (() => {
     const from = sources.map((source) => make("p", {}, source));
     const fold = make("details", {}, make("summary", {}, "Where the numbers are from"), ...from);
     const head = make("summary", {}, make("h2", {}, title));
-    place.replaceChildren(make("details", { open: true }, head, make("p", {}, story), ...stretched, fold));
+    place.replaceChildren(make("details", { open: Carom.level.isFull() }, head, make("p", {}, story), ...stretched, fold));
   }
 
   // Show a story; return the query that it sets, as a link may hold other words.

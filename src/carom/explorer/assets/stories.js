@@ -36,6 +36,7 @@ Carom.stories = (() => {
     Carom.presets.choose("");
     Carom.level.choose("first");
     tell();
+    focus((story ? place : below).querySelector("h2"));
     heard.forEach((hear) => hear(new URLSearchParams(story ? story.steps[row].query : "")));
   }
 
@@ -57,7 +58,8 @@ Carom.stories = (() => {
       ...(done ? [] : [button("Show me", reveal)]),
       button(last ? "More stories" : "Next", () => (last ? go(null, 0) : go(story, step + 1)), "carom-next"),
       button("Leave the story", () => go(null, 0)));
-    return [[head, make("p", "", text), asked], [found, steps]];
+    const off = make("p", { className: "carom-note", id: "story-off" });
+    return [[head, make("p", "", text), asked], [off, found, steps]];
   }
 
   function tell() {
@@ -67,7 +69,13 @@ Carom.stories = (() => {
     const now = story ? story.steps[step] : null;
     document.body.classList.toggle("carom-in-story", Boolean(now));
     document.body.dataset.chart = now?.chart ?? "";
-    Carom.fields.only(now?.control ?? "");
+    Carom.fields.only(now?.control ?? "", now?.slider);
+  }
+
+  // Whoever uses the keyboard goes on where the story does.
+  function focus(element) {
+    element.tabIndex = -1;
+    element.focus({ preventScroll: true });
   }
 
   function reveal() {
@@ -75,6 +83,7 @@ Carom.stories = (() => {
     solved.add(step);
     Carom.fields.move({ [control]: String(value) });
     tell();
+    focus(below.querySelector(".carom-answer"));
   }
 
   // Whether the impact that is shown answers the question.
@@ -94,6 +103,9 @@ Carom.stories = (() => {
   }
 
   function show(answer) {
+    const told = document.getElementById("story-off");
+    const off = answer.laws[0]?.off ?? null;
+    if (told) told.textContent = off === null ? "" : `The law is off by ${Math.abs(off).toFixed(3)}.`;
     if (!story || solved.has(step) || !answer.view || !belongs(answer) || !answers(answer)) return;
     solved.add(step);
     tell();
