@@ -1,7 +1,7 @@
 // Bands of phases and regimes behind a chart, with names where they fit; others are named where one points.
 
 Carom.bands = (() => {
-  const FONT = "11px";
+  const FONT = "12px";
   const LINE = 13; // pixels from one line of a name to the next
   const LINES = 3; // that a name may take
   const GAP = 3; // pixels between a name and the borders of its band

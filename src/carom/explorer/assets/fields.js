@@ -137,12 +137,9 @@ Carom.fields = (() => {
     }
     for (const name of names()) {
       const first = String(described[name].default);
-      const { label, least, choices } = described[name];
-      const same = least === null ? null : choices?.find(([each]) => Number(each) === Number(link.get(name)));
-      put(name, same ? String(same[0]) : (link.get(name) ?? first));
-      if (link.has(name) && !same && value(name) !== link.get(name)) {
-        const held = least === null && choices.length > 1 ? "" : `; this copy has ${choices.map(([each]) => each).join(", ")} only`;
-        odd.push(`${label}: there is no ${link.get(name)}${held}, and ${first} is shown`);
+      put(name, link.get(name) ?? first);
+      if (link.has(name) && value(name) !== link.get(name)) {
+        odd.push(`${described[name].label}: there is no ${link.get(name)}, and ${first} is shown`);
         put(name, first);
       }
     }

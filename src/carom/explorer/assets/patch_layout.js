@@ -15,7 +15,7 @@ Carom.patchLayout = (() => {
     rim: ["viscous bodies being loaded: p is unbounded at the edge", "p is unbounded at the edge"],
   };
   const BROAD = 1.4; // times the height
-  const SMALL = 11; // pixels of the words
+  const SMALL = 12; // pixels of the words
 
   // The notes that fit, the longest of each, and the lines that the words below take.
   function footOf(pen, scene, width, height) {

@@ -2,7 +2,7 @@
 
 Carom.plotting = (() => {
   const MARGIN = { l: 44, r: 12, t: 22, b: 40 };
-  const FONT = 11.5; // pixels
+  const FONT = 12; // pixels
   const LEAST = 60; // pixels of width and height below which nothing is drawn
   const WIDTH_OF_TICK = 42; // pixels
   const HEIGHT_OF_TICK = 28;

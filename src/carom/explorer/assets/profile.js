@@ -2,7 +2,7 @@
 
 Carom.profile = (() => {
   const { canvas } = Carom;
-  const SMALL = 11;
+  const SMALL = 12;
   const color = (name) => Carom.theme.color(name);
 
   // The zones behind the profile, as figures mark them.

@@ -6,7 +6,7 @@ Carom.stage = (() => {
   const FORCE = 1.1; // the largest tangential force, likewise
   const EDGE = 8; // pixels beside the words below
   const LINE = 17; // pixels of a line of them
-  const NOTE = 11.5;
+  const NOTE = 12;
   const drawings = new WeakMap(); // what was drawn last on a canvas
   const ROOMY = 220; // pixels of height from which on a long note has a line more
   const color = (name) => Carom.theme.color(name);
