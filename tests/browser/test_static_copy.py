@@ -9,6 +9,7 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 import pytest
 from tests.browser.scripts import script
 
+from carom.explorer.answers import laws
 from carom.explorer.export import export
 from carom.explorer.outcomes import outcome_of
 from carom.explorer.views import Refused, View
@@ -16,6 +17,11 @@ from carom.explorer.views import Refused, View
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 ANSWER = script("answer")
+LAWS = """async (queries) => {
+  const answers = await Promise.all(queries.map(Carom.reading.answer));
+  const told = await Promise.all(answers.map((each) => Carom.source.laws(each)));
+  return told.map(({ laws }) => laws[0]);
+}"""
 DRAWN = "document.querySelector('#rebounds .main-svg') && Carom.page.answers()[0]"
 QUERIES = (
     *("", "angle=40&spin=-50&material=brass", "restitution=0.63&against=cup&angle=12"),
@@ -63,7 +69,7 @@ def opened(chromium, place, *, offline=False):
     tab.on("pageerror", lambda error: trouble.append(str(error)))
     own = (place, "data:", "blob:")
     tab.on("request", lambda r: r.url.startswith(own) or trouble.append(f"asked for {r.url}"))
-    tab.goto(f"{place}/index.html?angle=41.5&time=0.25")
+    tab.goto(f"{place}/index.html?angle=41.5&time=0.25&level=full")
     tab.wait_for_function(DRAWN)
     yield tab
     assert trouble == []
@@ -136,13 +142,22 @@ def test_refusals(offline):
     assert twice["answer"]["query"] == "angle=40"
 
 
-def test_what_needs_the_library_says_so(offline):
-    can, why = offline.evaluate("[Carom.source.can, Carom.source.why]")
-    assert not any(can.values())
-    assert "carom explore" in why
-    assert offline.evaluate("Carom.source.fit({}).catch(refusal => refusal.message)") == why
+def test_what_needs_the_program_is_a_sentence(offline):
+    """No tab is dead; a law is known where a story brought its curve along."""
+    assert offline.locator("#tabs").is_hidden()
+    assert offline.locator("#laws fieldset").is_hidden()
+    assert "carom explore" in offline.inner_text(".carom-program")
     (odd,) = offline.evaluate("Carom.fields.set(new URLSearchParams('data=kharaz2001'))")
     assert odd.endswith("not fitted in this copy")
+
+
+def test_the_law_of_a_story_is_as_the_program_says(offline):
+    """To what its curve, with 241 points, allows."""
+    query = "law=mindlin&angle=22.2&speed=0.6"
+    (mine,) = offline.evaluate(LAWS, [query])
+    (law,) = laws(View.of(query))["laws"]
+    assert mine["at"] == pytest.approx(law["at"], abs=1e-3)
+    assert mine["off"] == pytest.approx(law["off"], abs=1e-3)
 
 
 def test_size(copy):
