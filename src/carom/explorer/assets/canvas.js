@@ -202,5 +202,5 @@ Carom.canvas = (() => {
     return Math.max(...takes);
   }
 
-  return { ready, layer, widthOf, word, haloed, name, meet, trace, arrows, phaseColor, hatch, band, drawKey, keyWidth };
+  return { ready, layer, forget: (canvas) => layers.delete(canvas), widthOf, word, haloed, name, meet, trace, arrows, phaseColor, hatch, band, drawKey, keyWidth };
 })();
