@@ -114,7 +114,7 @@ Carom.page = (() => {
       }
     };
     const verdict = async ({ query }) => ({ findings: await Carom.source.verdict(query, signal) });
-    mine.filter(Boolean).forEach((each) => add(each, !each.findings, verdict, () => Carom.results.show(mine)));
+    mine.filter(Boolean).forEach((each) => add(each, !each.findings, verdict, () => Carom.results.judge(mine)));
     const laws = async (answer) => ({ ...(await Carom.source.laws(answer, signal)), late: [] });
     await add(mine[0], mine[0].late.length > 0, laws, () => {
       Carom.laws.show(mine[0]);

@@ -98,13 +98,19 @@ Carom.results = (() => {
   }
 
   function show(answers) {
-    const [first, second] = answers;
     box("results").replaceChildren(table(answers));
-    const titles = second ? ["This: ", "Beside: "] : ["", ""];
-    if (answers.some((answer) => answer && !answer.findings) && Carom.source.live) return; // until it is judged
-    const told = (answer, title) => [...plate(answer, title), ...findings(answer, title)];
-    box("findings").replaceChildren(...answers.flatMap((answer, row) => (answer ? told(answer, titles[row]) : [])));
+    judge(answers);
   }
 
-  return { show };
+  // The verdict, which follows: whoever is at it by the keyboard stays there.
+  function judge(answers) {
+    if (answers.some((answer) => answer && !answer.findings) && Carom.source.live) return; // until it is there
+    const titles = answers[1] ? ["This: ", "Beside: "] : ["", ""];
+    const told = (answer, title) => [...plate(answer, title), ...findings(answer, title)];
+    const held = box("findings").contains(document.activeElement);
+    box("findings").replaceChildren(...answers.flatMap((answer, row) => (answer ? told(answer, titles[row]) : [])));
+    if (held) box("findings").querySelector("summary")?.focus();
+  }
+
+  return { show, judge };
 })();
