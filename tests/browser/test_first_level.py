@@ -62,6 +62,20 @@ def test_the_ball_is_turned_for_its_spin(visit):
     seen.until(lambda: seen.page.evaluate("Carom.page.answers()[0].view.spin") == spin)
 
 
+def test_a_hand_reads_other_units(visit):
+    """What is typed as 2 in and 60 cm/s turns and flies as 50.8 mm and 0.6 m/s do."""
+    seen = visit("?radius=2+in&speed=60+cm/s&angle=30", level="first")
+    places = seen.page.evaluate(PLACES)
+    (x, y), far = places["ball"], 0.6 * places["radius"]
+    ways = [(x + far * math.cos(0.1 * k), y - far * math.sin(0.1 * k)) for k in range(11)]
+    drag(seen.page, ways[0], *ways[1:])
+    assert numbers(seen, "spin")[0] == pytest.approx(0.6 / 50.8e-3, rel=0.02)
+    places = seen.page.evaluate(PLACES)
+    (x, y), (x0, y0) = places["tail"], places["ball"]
+    drag(seen.page, places["tail"], (x0 + 1.5 * (x - x0), y0 + 1.5 * (y - y0)))
+    assert numbers(seen, "speed")[0] == pytest.approx(0.9, rel=0.02)
+
+
 def test_what_psi_and_chi_give_cannot_be_taken(visit):
     seen = visit("?given=numbers&psi=1.5&chi=1.4")
     box = seen.page.locator("#stage").bounding_box()

@@ -10,10 +10,13 @@ Carom.hand = (() => {
   let over = null; // what the pointer is over: "arrow", "ball" or null
   let held = null; // what is dragged, and from where
 
+  // The impact that is shown, as numbers in the units of its fields, which may say others.
+  const view = () => Carom.page.answers()[0]?.view;
+
   // What was drawn last, where it can be taken: bodies, not numbers.
   function drawn() {
     const last = Carom.stage.last(element);
-    return last && Carom.fields.value("given") === "bodies" ? last : null;
+    return last && view() && Carom.fields.value("given") === "bodies" ? last : null;
   }
 
   // The velocity before of the first body.
@@ -41,7 +44,6 @@ Carom.hand = (() => {
     return Math.hypot(point[0] - x, point[1] - y) < 1.15 * last.ball.radius * last.seen.unit ? "ball" : null;
   }
 
-  const number = (name) => parseFloat(Carom.fields.value(name)) || 0;
   const within = (name, value) => Math.min(Carom.config.fields[name].most, Math.max(Carom.config.fields[name].least, value));
 
   function take(event) {
@@ -53,9 +55,10 @@ Carom.hand = (() => {
     if (what === "arrow") Carom.clock.set(Carom.clock.START); // it points at the ball as it touches
     const { seen, ball, scene } = drawn();
     const { x, y } = what === "arrow" ? scene.bodiesAt(Carom.clock.START)[0] : ball;
-    const rim = (1000 * number("speed")) / Number(Carom.fields.value("radius") || 1); // whose spin is one radian
+    const { speed, radius } = view();
+    const rim = (1000 * speed) / radius; // the spin of one radian: its rim is as fast as the ball
     held = { what, start: seen.at([x, y]), point: place(event), grip: place(event), rim, turned: 0 };
-    held.before = { angle: number("angle"), speed: number("speed"), spin: number("spin") };
+    held.before = view();
     held.last = direction(held.point);
     Carom.view.hold(true);
     Carom.page.redraw();

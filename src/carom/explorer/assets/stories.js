@@ -99,7 +99,7 @@ Carom.stories = (() => {
     const first = new URLSearchParams(words);
     const same = ([name, { default: usual }]) => String(view[name]) === (first.get(name) ?? String(usual));
     const others = Object.entries(Carom.config.fields).filter(([name]) => ![control, "law", "data"].includes(name));
-    return others.every((each) => same(each) || view[each[0]] === Infinity);
+    return others.every((each) => same(each) || (view[each[0]] === Infinity && !first.has(each[0])));
   }
 
   function show(answer) {
