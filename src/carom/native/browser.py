@@ -109,7 +109,6 @@ def described() -> dict[str, Any]:
         },
         "losses": {each.name: each.value for each in law.Loss},
         "kinds": {str(int(kind)): name for kind, name in KIND_NAMES.items()},
-        "statuses": [each.message for each in phases.Status],
         "inertia": list(motion.Inertia(0.0)),
         "tolerances": {"step": STEP_TOLERANCE, "panel": impacts.TOLERANCE},
         "smallest": {"elastic": LINEAR_PSI, "viscous": impacts.SMALLEST_PSI},
