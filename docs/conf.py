@@ -25,6 +25,7 @@ extensions = [
     "contents",
     "explore_links",
     "formulas",
+    "glossary_links",
     "names",
     "schema",
 ]
@@ -79,10 +80,10 @@ html_show_sourcelink = False
 html_copy_source = False
 html_theme_options = {
     "logo": {"text": "Carom"},
-    "header_links_before_dropdown": 7,
+    "header_links_before_dropdown": 8,
     "navbar_align": "left",
     "show_toc_level": 2,
     "footer_start": ["copyright"],
     "footer_end": [],
 }
-html_sidebars = {page: [] for page in ("index", "tutorial", "laws", "architecture")}
+html_sidebars = {page: [] for page in ("index",)}
