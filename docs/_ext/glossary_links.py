@@ -14,6 +14,7 @@ from sphinx.util import relative_uri
 
 PAGE = "glossary"
 SYMBOLS = {r"\kappa": "stiffness-kappa", r"\psi": "direction-psi", r"\chi": "inertia-chi"}
+STAY = (nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.raw)
 FREE = ("glossary", "cheatsheet", "signs", "index", "reference/", "gallery/", "schema", "scripts")
 TOO_COMMON = {"phase", "memory"}  # words that mostly mean something else
 
@@ -44,10 +45,11 @@ def link(document: nodes.document, glossary: str, app: Sphinx) -> None:
     waiting = [term for term in terms(text) if term not in TOO_COMMON]
     symbols = dict(SYMBOLS)
     for node in list(document.findall(lambda node: isinstance(node, nodes.Text | nodes.math))):
-        if inside(node, nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.raw):
+        if inside(node, *STAY):
             continue
         if isinstance(node, nodes.math):
-            said = [symbol for symbol in symbols if re.search(rf"\{symbol}(?![a-z])", node.astext())]
+            formula = node.astext()
+            said = [symbol for symbol in symbols if re.search(rf"\{symbol}(?![a-z])", formula)]
             if said:
                 place = symbols.pop(said[0])
                 node.replace_self(reference(f"{glossary}#{place}", node.deepcopy()))
