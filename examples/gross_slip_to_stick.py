@@ -6,7 +6,7 @@ How gross slip ends: the contact stops slipping everywhere at once.
 In the plane of both velocities gross slip is a straight line of slope :math:`2\chi`, (33). It ends
 where it meets :math:`\psi = V_z/V_1`, (32), at the speed (34). The stick that follows starts with a
 slope of :math:`g` that is zero by (35). Continuity of the force requires
-:math:`b\,g' = \frac{5}{2}(1 - 2\chi)\,x/(1 - x)` instead. Grey: the slope of (35).
+:math:`b\,g' = \frac{5}{2}(1 - 2\chi)\,x/(1 - x)` instead. Grey: (35) as printed.
 
 Barber (1979), ZAMP 30:468, equations (31) to (35).
 """
@@ -73,7 +73,6 @@ def main(folder: str | Path = ".") -> str:
     axes[0].legend(loc="lower left")
     axes[0].text(1.04, 0.92, r"$\psi = V_z/V_1$", color="0.4", va="center", ha="right")
     axes[0].set(xlim=(1.5, 0), xticks=[1, 0.5, 0], xlabel="$V_z/V_1$", ylabel=r"$\psi$")
-    axes[0].set_title("velocities until the turning point")
     axes[0].axhline(0, color="0.5", lw=0.5)
 
     worst = 0.0
@@ -91,7 +90,6 @@ def main(folder: str | Path = ".") -> str:
     axes[1].plot([], [], "o", mfc="white", mec=BLACK, mew=0.8, label="whole impacts")
     axes[1].axhline(0, color="0.5", lw=0.5)
     axes[1].set(ylim=(-1.05, 1.05), xlabel=r"$\psi_1$", ylabel="$V_z/V_1$")
-    axes[1].set_title("speed at which gross slip ends")
 
     for psi, color, dash in zip(SPEEDS[1:], LINES[1:], DASHES[1:], strict=False):
         start = transition_speed(psi, CHI)
@@ -104,10 +102,9 @@ def main(folder: str | Path = ".") -> str:
         axes[2].plot(x, by_15(x, 0), color="0.6", ls=dash, lw=0.9)
     axes[2].axhline(0, color="0.5", lw=0.5)
     axes[2].plot([], [], color=BLACK, lw=1.6, label="gross slip, $g = 1$")
-    axes[2].plot([], [], color="0.6", lw=0.9, label="with $g' = 0$ of (35)")
+    axes[2].plot([], [], color="0.6", lw=0.9, label="(35) as printed")
     axes[1].legend(loc="upper right")
     axes[2].set(xlim=(0, 1), ylim=(-1, 1.15), xlabel="$x = (b/b_{max})^5$", ylabel="$g$")
-    axes[2].set_title("memory of the stick that follows")
     axes[2].legend(loc="lower left")
     save_figure(figure, Path(folder) / "gross_slip_to_stick.png")
     return f"(32)-(34) within {worst:.0e} of whole impacts; slope after the transition corrected"
