@@ -1,4 +1,4 @@
-"""Write the table of docs/phases.md and draw its figure, from the table that the solver follows."""
+"""Write the table of transitions of docs/theory/sequences.md and draw its figure."""
 
 from collections import defaultdict
 
@@ -12,7 +12,7 @@ from carom.quantities.statuses import Cause
 
 from page_blocks import page_with, table  # isort: skip  # run_pages says where it is
 
-PAGE, FIGURE = DOCS / "phases.md", DOCS / "figures" / "phases.png"
+PAGE, FIGURE = DOCS / "theory" / "sequences.md", DOCS / "figures" / "phases.png"
 HALVES = {False: "loading", True: "unloading"}
 SIGNS = {SAME: ", same sign", OPPOSITE: ", opposite sign"}
 PLACES = {Kind.STICK: (25.0, 41.0), Kind.SLIP: (84.0, 24.0), Kind.GROSS_SLIP: (25.0, 7.0)}

@@ -99,6 +99,50 @@ def test_1_friction_touches_the_energy_of_the_contact_point_alone():
     assert lost == pytest.approx(0.5 * SPHERES.tangential_mass * (before**2 - after**2), rel=1e-12)
 
 
+@pytest.mark.parametrize("share", [0.4, 0.8])
+def test_equations_in_the_notation_of_the_paper_are_ours(share):
+    """(4) to (14) and (31) as the pages print them, in SI, beside a whole impact that sticks."""
+    R, V_1, mu, psi_1 = 0.005, 1.3, 0.2, 0.6
+    ball = carom.Sphere(radius=R, material=STEEL)
+    pair = carom.Pair(ball, carom.HalfSpace(STEEL), mu)
+    unit = pair.scales(V_1)
+    nu, G, M, K2 = STEEL.poisson, STEEL.shear_modulus, ball.mass, 0.4 * R**2
+    chi = (1 - nu) / (2 - nu) * (1 + R**2 / K2)  # (16)
+    c = 16 * G / (15 * M * R**2 * V_1**2 * (1 - nu))  # (5)
+    assert [chi, c] == pytest.approx([pair.chi, (R * unit.length) ** -2.5], rel=1e-12)
+    contact = carom.solve(psi_1, chi)
+    t = share * contact.phases[0].end
+    now = contact.at(t)
+    b, rest = float(now.contact_radius[0]) * unit.radius, 1 - float(now.contact_radius[0]) ** 5
+    root, level = sqrt(240 * chi + 1), 2 * G * mu / (pi * R * (1 - nu))
+
+    def g(b):
+        return psi_1 * hyp2f1((11 + root) / 20, (11 - root) / 20, 0.6, c * b**5)  # (17), (18), (27)
+
+    def traction(r):
+        return level * quad(lambda y: g(sqrt(r * r + y * y)), 0, sqrt(b * b - r * r))[0]  # (6)
+
+    V_z = V_1 * sqrt(1 - c * b**5)  # (4)
+    grows = R * V_1 / (2 * b) * sqrt(1 - c * b**5)  # (9)
+    V_x = (2 - nu) * mu * b * g(b) / (R * (1 - nu)) * grows  # (8)
+    assert V_z == pytest.approx(V_1 * now.speed[0], rel=1e-9)
+    assert V_x == pytest.approx(mu * V_1 / pair.kappa * now.psi[0], rel=1e-8)
+    ends = mu * (2 - nu) / (R * (1 - nu)) * b * grows  # (31)
+    assert ends == pytest.approx(mu * V_z / pair.kappa)
+    later = contact.memory(t * 1.00001).profile()
+    before, r = contact.memory(t).profile(), 0.5 * b
+    rise = [surface.traction(one, r / unit.radius) for one in (before, later)]
+    assert traction(r) == pytest.approx(mu * unit.pressure * rise[0], rel=1e-7)
+    steep = mu * unit.pressure * (rise[1] - rise[0]) / (1e-5 * t * unit.time)
+    assert level * b * g(b) / sqrt(b * b - r * r) * grows == pytest.approx(steep, rel=1e-3)  # (7)
+    force = quad(lambda r: 2 * pi * r * traction(r), 0, b)[0]  # (11)
+    assert force == pytest.approx(unit.tangential_force * now.force[0], rel=1e-7)
+    slope = (g(b * 1.00001) - g(b * 0.99999)) / (2e-5 * b)
+    bracket = 2.5 * c * b**4 * g(b) - rest * slope
+    motion = (2 - nu) * R * V_1**2 * mu / (4 * (1 - nu) * b) * bracket  # (14)
+    assert force / M * (1 + R**2 / K2) == pytest.approx(motion, rel=1e-6)
+
+
 def test_2_hertz():
     assert quad(lambda y: y * np.arccos(y), 0, 1)[0] == pytest.approx(pi / 8)  # (2.2)
     assert 0.8 * beta(0.4, 0.5) == pytest.approx(hertz.DURATION, rel=1e-15)  # (2.9)
