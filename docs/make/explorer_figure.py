@@ -1,4 +1,4 @@
-"""Draw the page of `carom explore` as a browser shows it, at four widths: docs/figures/explorer/.
+"""Draw the page of `carom explore` as a browser shows it: docs/figures/explorer/.
 
 Needs a browser and Playwright: python docs/make/explorer_figure.py
 """
@@ -16,14 +16,12 @@ from carom.explorer import explorer
 FIGURES = Path(__file__).parents[1] / "figures" / "explorer"
 VIEW = "?angle=25&friction=0.25&time=0.6&theme=light&level=full"
 STATE = f"{VIEW}&law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun&data=kharaz2001"
-SIZES = {400: 800, 1024: 768, 1440: 900, 1920: 1080}  # heights of windows by their widths
-PICTURES = {  # state, width
-    "first": ("?theme=light", 1440),
-    "story": ("?theme=light&story=contact.1", 1440),
-    **{f"{width}": (STATE, width) for width in SIZES},
-    "dark": (STATE.replace("light", "dark"), 1440),
-    "two": (f"{VIEW}&beside=angle%3D60%26friction%3D0.25", 1440),
-    "fit": (STATE + "&tab=Measurements", 1440),
+SIZE = {"width": 1440, "height": 900}
+PICTURES = {  # states
+    "first": "?theme=light",
+    "story": "?theme=light&story=contact.1",
+    "1440": STATE,
+    "fit": STATE + "&tab=Measurements",
 }
 
 
@@ -33,9 +31,8 @@ def main() -> None:
     Thread(target=page.serve, daemon=True).start()
     with sync_playwright() as play:
         browser = play.chromium.launch(executable_path=which("chromium"), args=["--no-sandbox"])
-        for name, (state, width) in PICTURES.items():
-            size = {"width": width, "height": SIZES[width]}
-            tab = browser.new_page(viewport=size, reduced_motion="reduce")
+        for name, state in PICTURES.items():
+            tab = browser.new_page(viewport=SIZE, reduced_motion="reduce")
             tab.goto(page.url + state)
             tab.wait_for_timeout(8000)  # laws, fits and charts are all there
             if name == "story":

