@@ -1,29 +1,30 @@
-"""What the gallery does beside running the examples: their pictures, and where they are."""
+"""What the Cookbook does beside running the examples: their pictures, and their order."""
 
-import builtins
 from pathlib import Path
-from shutil import move
+from shutil import move, rmtree
 from typing import Any
 
 from sphinx_gallery.scrapers import figure_rst
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
+PICTURES = (".png", ".gif")
 
 
 def take_picture(block: Any, variables: dict[str, Any], gallery: dict[str, Any]) -> str:
     """Take what a script has drawn, a file of its own name; return how a page shows it."""
     script = Path(variables["src_file"])
-    written = [path for path in map(script.with_suffix, (".png", ".gif")) if path.exists()]
     places = map(Path, variables["image_path_iterator"])
-    taken = [move(path, next(places).with_suffix(path.suffix)) for path in written]
+    taken = []
+    for path in sorted(script.parent.glob(f"{script.stem}.*")):
+        if path.suffix in PICTURES:
+            taken.append(move(path, next(places).with_suffix(path.suffix)))
+        elif path.is_dir():
+            rmtree(path)
+        elif path != script:
+            path.unlink()
     return figure_rst(taken, gallery["src_dir"])
-
-
-def give_file(gallery: dict[str, Any], script: str | None) -> None:
-    """Let a script know where it is: the gallery runs its text without `__file__`."""
-    vars(builtins)["__file__"] = str(EXAMPLES / (script or ""))
 
 
 def place_in_index(script: str) -> int:
     """Return where the index of the examples names a script: their order."""
-    return (EXAMPLES / "README.md").read_text(encoding="utf-8").find(f"[{script}]")
+    return (EXAMPLES / "README.md").read_text(encoding="utf-8").find(f"[{Path(script).name}]")
