@@ -63,6 +63,8 @@ sphinx_gallery_conf = {
     "filename_pattern": r"\.py$",
     "image_scrapers": ("pictures.take_picture",),
     "thumbnail_size": (1110, 740),
+    "reset_modules": ("pictures.clear",),
+    "reset_modules_order": "after",
     "show_memory": False,
     "download_all_examples": False,
     "show_signature": False,

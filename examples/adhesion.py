@@ -88,6 +88,7 @@ def draw(rebounds):
     for line, (poisson, hit) in zip(LINES, rebounds.items(), strict=False):
         right.plot(SPEEDS, hit.psi_out / hit.psi_in, color=line, label=f"$\\nu$ = {poisson:g}")
         right.plot([6e3, 1e4], [large_friction(hit.pair.chi)] * 2, color=line, lw=2.5)
+    right.plot([], [], color="0.4", lw=2.5, label="limits without adhesion")
     zero_line(right)
     right.set(xscale="log", xlim=(1.0, 1e4), ylim=(-1.0, 1.0), xlabel="$V_1/V_s$")
     right.set(title="rebound without slip", ylabel="$\\psi_2/\\psi_1$")

@@ -107,7 +107,7 @@ with style():
         axes[2].plot(x, by_15(x, 0), color="0.6", ls=dash, lw=0.9)
     axes[2].axhline(0, color="0.5", lw=0.5)
     axes[2].plot([], [], color=BLACK, lw=1.6, label="gross slip, $g = 1$")
-    axes[2].plot([], [], color="0.6", lw=0.9, label="slope of zero, as in the paper")
+    axes[2].plot([], [], color="0.6", lw=0.9, label="slope 0 (printed)")
     axes[1].legend(loc="upper right")
     axes[2].set(xlim=(0, 1), ylim=(-1.7, 1.15), xlabel="$x = (b/b_{max})^5$", ylabel="$g$")
     axes[2].set_title("the stick after it")

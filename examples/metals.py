@@ -94,6 +94,7 @@ def draw(metals, plastic):
     left.plot(early, jackson(early), ".", color=BLACK, ms=3, label="Jackson, Green & Marghitu")
     left.set(title="restitution", ylim=(0.2, 1.02), ylabel="$e$")
     right.axhline(HARDNESS, color="0.4", lw=0.6)
+    right.text(1.1, HARDNESS + 0.02, "2.84 $Y$, fully plastic", color="0.4")
     right.set(title="mean pressure on the largest contact", ylim=(0.9, 3.0), ylabel="$p_m/Y$")
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure

@@ -16,7 +16,6 @@ from scipy.integrate import solve_ivp
 from scipy.special import beta
 
 import carom
-from carom.plots.legends import legend_above
 from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, style
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
@@ -52,7 +51,7 @@ with style():
     error = np.abs(stepped[0] - depth).max() / hit.max_penetration
     assert error < 1e-10, f"penetration by stepping the motion differs by {error:.1e}"
 
-    figure, (axes,) = new_figure(1, 3, width=DOUBLE, height=56)
+    figure, (axes,) = new_figure(1, 3, width=DOUBLE, height=64)
     in_time = ((force / hit.max_force, "$F_z/P_{max}$"), (b / b.max(), "$b/b_{max}$"))
     for (values, name), color, dash in zip(
         (*in_time, (speed, "$V_z/V_1$")), LINES, DASHES, strict=False
@@ -78,7 +77,9 @@ with style():
     axes[2].set(xlabel="$r$ (µm)", ylabel="$p$ (GPa)")
     axes[2].set(xlim=(0, 255), xticks=[0, 100, 200], ylim=(0, 5))
     axes[1].set(xlim=(0, 255), xticks=[0, 100, 200])
-    legend_above(axes[0], 3, handlelength=1.8, columnspacing=0.7)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
+    for axis, title in zip(axes, ("in time", "speed and radius", "pressure"), strict=True):
+        axis.set_title(title)
     axes[2].legend(loc="upper right", handlelength=1.8)
     save_figure(figure, "normal_impact.png")
     ratio = hit.duration * hit.normal_speed / hit.max_penetration

@@ -65,7 +65,7 @@ def draw(tables):
     left.text(84.0, -0.012, "surface", ha="right")
     left.set(title="depth of the largest shear stress", xlim=(0.0, 85.0), ylim=(0.5, -0.04))
     left.set_ylabel("depth over contact radius, $z/a_0$")
-    right.set(title="its size", xlim=(0.0, 85.0), ylim=(0.3, 0.55))
+    right.set(title="largest shear stress", xlim=(0.0, 85.0), ylim=(0.3, 0.55))
     right.set_ylabel(r"stress over pressure, $\tau/p_0$")
     for axis in (left, right):
         axis.set_xlabel(r"angle from the normal, $\theta$ (deg)")

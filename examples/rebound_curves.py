@@ -17,6 +17,7 @@ import carom
 from carom.dimensionless.lossy.springs.march import march_rebound
 from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
 from carom.plots.legends import legend_above
+from carom.plots.style import style
 
 chis, psi = (0.5, 1.0, 1.44, 2.0), np.linspace(0, 8.5, 426)
 curves = carom.curve(chis, psi)
@@ -36,7 +37,8 @@ for chi in chis:
         np.testing.assert_allclose(marched, carom.rebound(at, chi), atol=1e-5)
         axis.plot(at, marched, "kx", ms=4, mew=0.8, zorder=4)
 axis.plot([], [], "kx", ms=4, mew=0.8, label="rings in small steps")
-legend_above(axis, 3)
+with style():
+    legend_above(axis, 3)
 carom.plots.save_figure(figure, "rebound_curves.png")
 
 # %%

@@ -3,8 +3,8 @@ r"""Take the rebound to a C program
 
 `carom curve --export c` writes the exact rebound of a pair as a C header without dependencies.
 
-The function `carom_rebound` in it returns :math:`\psi_2` for :math:`\psi_1` to 1e-9, from a table
-of polynomials of 11 kB. `carom.laws.ReboundLaw` is the same table in Python.
+The function `carom_rebound` in it returns :math:`\psi_2` for :math:`\psi_1` to 1e-9 or better,
+from a table of polynomials of 11 kB. `carom.laws.ReboundLaw` is the same table in Python.
 """
 
 from pathlib import Path
@@ -27,8 +27,8 @@ with style():
     figure, ((above,), (below,)) = new_figure(2, 1, height=84, sharex=True)
     above.plot(psi, law(psi))
     above.set(ylabel=r"$\psi_2$", xlim=(0, 8))
-    below.plot(psi, 1e9 * (law(psi) - carom.rebound(psi, pair.chi)))
-    below.set(xlabel=r"$\psi_1$", ylabel=r"error of the table ($10^{-9}$)")
+    below.plot(psi, 1e12 * (law(psi) - carom.rebound(psi, pair.chi)))
+    below.set(xlabel=r"$\psi_1$", ylabel=r"error of the table ($10^{-12}$)")
     save_figure(figure, "rebound_table.png")
 
 # %%

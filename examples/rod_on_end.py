@@ -16,7 +16,6 @@ import numpy as np
 from scipy.optimize import brentq
 
 import carom
-from carom.plots.legends import legend_above
 from carom.plots.style import BLACK, DASHES, DOUBLE, LINES, new_figure, save_figure, styled
 
 size = {"length": "60 mm", "radius": "3 mm", "material": "bearing steel"}
@@ -72,13 +71,14 @@ def draw(dropped, moving):
         left.plot(ANGLES, e, color=color, label=rf"$\mu$ = {mu:g}")
     for color, (sliding, (e, rule)) in zip(LINES, moving.items(), strict=False):
         right.plot(ANGLES, e, color=color, label=SLIDING[sliding])
-        right.plot(ANGLES, rule, color=color, ls=DASHES[1], label="by Poisson's rule")
+        right.plot(ANGLES, rule, color=color, ls=DASHES[1], label="rigid, by Poisson's rule")
     for axis in (left, right):
         axis.set(xlim=(0.0, 85.0), xlabel="angle between rod and normal (degrees)")
-        legend_above(axis, 2)
     left.set(title="falls along the normal", ylim=(0.6, 1.05))
     left.set_ylabel("restitution of the contact points, $e$")
-    right.set(title=r"slides, too: $\mu$ = 1, $V_x = \pm V_1/2$", ylabel="$e$")
+    right.set(title=r"slides, too: $\mu$ = 1, $V_x = \pm V_1/2$", ylabel="$e$", ylim=(0.6, 1.6))
+    left.legend(loc="lower right")
+    right.legend(loc="upper left", ncols=2)
     return figure
 
 

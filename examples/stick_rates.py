@@ -69,8 +69,8 @@ with style():
     for axis in axes:
         axis.axhline(0, color="0.5", lw=0.5)
         axis.set(xlim=(0, None), xlabel="$r$ (µm)")
-    axes[0].set(ylabel=r"$\partial f_x/\partial t$ (MPa/µs)")
-    axes[1].set(ylabel=r"$\partial u_x/\partial t$ (m/s)")
+    axes[0].set(title="growth of the traction", ylabel=r"$\partial f_x/\partial t$ (MPa/µs)")
+    axes[1].set(title="velocity of the surface", ylabel=r"$\partial u_x/\partial t$ (m/s)")
     axes[1].legend(title="time since the first touch", loc="upper right", bbox_to_anchor=(1, 0.9))
     save_figure(figure, "stick_rates.png")
     print(f"(7) holds; du_x/dt = V_x all over the patch, (8) and (10), within {worst:.0e}")

@@ -91,7 +91,7 @@ with style():
     axes[0, 0].plot(-down, z, color=VERMILION, ls=DASHES[1], label=r"$-\sigma_{zz}$")
     axes[0, 0].plot(shear, z, color=BLACK, ls=DASHES[2], label=r"$\tau_{max}$")
     axes[0, 0].plot(0.31, 0.48, "+", color=BLACK, ms=7)
-    axes[0, 0].set(xlim=(0, 1.02), ylim=(2, 0), ylabel="$z/b$")
+    axes[0, 0].set(title="no friction, on the axis", xlim=(0, 1.02), ylim=(2, 0), ylabel="$z/b$")
     axes[0, 0].set_xlabel("stress at rest, over $p_0$")
     axes[0, 0].legend(loc="lower right")
     maps = {

@@ -7,22 +7,24 @@ from typing import Any
 from sphinx_gallery.scrapers import figure_rst
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-PICTURES = (".png", ".gif")
 
 
 def take_picture(block: Any, variables: dict[str, Any], gallery: dict[str, Any]) -> str:
     """Take what a script has drawn, a file of its own name; return how a page shows it."""
     script = Path(variables["src_file"])
+    written = [path for path in map(script.with_suffix, (".png", ".gif")) if path.exists()]
     places = map(Path, variables["image_path_iterator"])
-    taken = []
-    for path in sorted(script.parent.glob(f"{script.stem}.*")):
-        if path.suffix in PICTURES:
-            taken.append(move(path, next(places).with_suffix(path.suffix)))
-        elif path.is_dir():
-            rmtree(path)
-        elif path != script:
-            path.unlink()
+    taken = [move(path, next(places).with_suffix(path.suffix)) for path in written]
     return figure_rst(taken, gallery["src_dir"])
+
+
+def clear(gallery: dict[str, Any], script: str | None, when: str) -> None:
+    """Remove what else a script has left beside it: tables, reports, stores of its name."""
+    for path in EXAMPLES.glob(f"{Path(script).stem}.*") if script else ():
+        if path.is_dir():
+            rmtree(path)
+        elif path.name != Path(script).name:
+            path.unlink()
 
 
 def place_in_index(script: str) -> int:
