@@ -71,10 +71,10 @@ def draw(dropped, moving):
         left.plot(ANGLES, e, color=color, label=rf"$\mu$ = {mu:g}")
     for color, (sliding, (e, rule)) in zip(LINES, moving.items(), strict=False):
         right.plot(ANGLES, e, color=color, label=SLIDING[sliding])
-        right.plot(ANGLES, rule, color=color, ls=DASHES[1], label="rigid, by Poisson's rule")
+        right.plot(ANGLES, rule, color=color, ls=DASHES[1], label="rigid, Poisson's rule")
     for axis in (left, right):
         axis.set(xlim=(0.0, 85.0), xlabel="angle between rod and normal (degrees)")
-    left.set(title="falls along the normal", ylim=(0.6, 1.05))
+    left.set(title="falls along the normal", ylim=(0.5, 1.05))
     left.set_ylabel("restitution of the contact points, $e$")
     right.set(title=r"slides, too: $\mu$ = 1, $V_x = \pm V_1/2$", ylabel="$e$", ylim=(0.6, 1.6))
     left.legend(loc="lower right")

@@ -37,7 +37,7 @@ from carom.cli import main as command
 
 DOCS = Path(__file__).parents[1]
 EXAMPLES = DOCS.parent / "examples"
-MAPS = {"contact_through_impact", "patch_in_microslip"}  # of tractions: they keep all colours
+MAPS = {"contact_through_impact", "full_contact", "patch_in_microslip"}  # they keep all colours
 sys.path.append(str(DOCS.parent / "studies"))
 
 from small_pictures import store_small  # noqa: E402
