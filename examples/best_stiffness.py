@@ -4,7 +4,7 @@ r"""Find the best stiffness for a DEM law
 `carom.verify.tune` finds the stiffness with which a contact law comes closest to the exact rebound.
 
 No stiffness makes these laws exact, but a softer tangential spring divides the largest error of the
-commonest laws by three to ten. `advised_steps` says how short the time step must be.
+commonest laws by two to ten. `advised_steps` says how short the time step must be.
 """
 
 import carom

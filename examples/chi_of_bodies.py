@@ -5,7 +5,7 @@ The one number that distinguishes bodies, against Poisson's ratio and the shape 
 
 The ratio :math:`\chi` compares inertia and stiffness along the surface with those across it. Solid
 spheres have :math:`\chi` from 1.17 to 1.75, thin shells have less. A contact with
-:math:`\chi = 1/2` would never slip, but this takes a flywheel with a radius of gyration
+:math:`\chi = 1/2` would never slip, but this needs a flywheel with a radius of gyration
 :math:`K \ge \sqrt{2}\,R`. A sphere that cannot turn has :math:`\chi = \kappa/2`. Points: solid
 spheres of the materials of the catalogue.
 

@@ -7,7 +7,7 @@ Points: 5 mm alumina spheres on glass at 3.9 m/s (Kharaz, Gorham & Salman 2001, 
 120:281). Their tangential restitution gives the energy without a model of the contact; only
 friction is fitted, where they slide. The formula for rigid bodies, which slide or roll at last, is
 22 % too high at 20 degrees, where the contact sticks and springs back. Right: the angle from the
-surface at which friction takes most. Metals erode most at 20 to 30 degrees (Hutchings 1981, Wear
+surface with the most work of friction. Metals erode most at 20 to 30 degrees (Hutchings 1981, Wear
 70:269).
 """
 

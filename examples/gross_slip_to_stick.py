@@ -6,8 +6,8 @@ How gross slip ends: the contact stops slipping everywhere at once.
 In the plane of both velocities gross slip is a straight line of slope :math:`2\chi`, (33). It ends
 where it meets :math:`\psi = V_z/V_1`, (32), at the speed (34). The stick that follows starts with a
 slope of :math:`g` that is zero by (35). Continuity of the force requires
-:math:`b\,g' = \frac{5}{2}(1 - 2\chi)\,x/(1 - x)` instead. Grey: the slope of
-zero.
+:math:`b\,g' = \frac{5}{2}(1 - 2\chi)\,x/(1 - x)` instead. Grey: with the
+slope of zero.
 
 Barber (1979), ZAMP 30:468, equations (31) to (35).
 """

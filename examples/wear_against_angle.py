@@ -4,11 +4,11 @@ r"""Find where friction wears most
 `hit.wear` gives the work of friction over the contact, which Archard's law turns into a depth.
 
 Where the ball slides throughout, friction dissipates
-:math:`W = 2\mu m_n V_1 (V_x - \mu m_n V_1/m_t)`.
-This is largest where :math:`\tan 2\theta = -m_t/(\mu m_n)`, at 55 degrees from the normal for
-:math:`\mu = 0.1` and at 77 for 0.6. The work per area is then largest in the centre. Near the
-normal the middle of the contact sticks for a long time, and the largest work per area lies on a
-ring. By Archard's law the depth of wear is :math:`k/\mu` times the work per area.
+:math:`W = 2\mu m_n V_1 (V_x - \mu m_n V_1/m_t)`. This is largest where
+:math:`\tan 2\theta = -m_t/(\mu m_n)`, at 55 degrees from the normal for :math:`\mu = 0.1` and at 77
+for 0.6. The work per area is then largest in the centre. Near the normal the middle of the contact
+sticks for a long time, and the largest work per area lies on a ring. By Archard's law the depth of
+wear is :math:`k/\mu` times the work per area.
 
 Archard (1953), J. Appl. Phys. 24:981; Maw, Barber & Fawcett (1976), Wear 38:101.
 """
@@ -22,11 +22,10 @@ from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, st
 ball = carom.Sphere(radius="5 mm", material="steel")
 wall = carom.HalfSpace(material="steel")
 pair = carom.Pair(ball, wall, friction=0.3)
-worn = carom.impact(pair, speed="2 m/s", angle="50 deg").wear(coefficient=1e-4)
-print(f"friction dissipates {1e3 * worn.dissipated_energy:.3f} mJ", end=", ")
-print(
-    f"wears {1e9 * worn.max_wear_depth:.3f} nm, {1e6 * worn.max_wear_radius:.0f} um off the centre"
-)
+wear = carom.impact(pair, speed="2 m/s", angle="50 deg").wear(coefficient="1e-13 m^2/N")
+print(f"friction dissipates {1e3 * wear.dissipated_energy:.3f} mJ", end=", ")
+print(f"wears {1e9 * wear.max_wear_depth:.3f} nm", end=", ")
+print(f"most at a radius of {1e6 * wear.max_wear_radius:.0f} um")
 
 # %%
 # A steel ball on steel: which angle wears most, and where in the contact.
