@@ -33,7 +33,10 @@ print("{:.1f} deg on average in theory, {:.1f} deg in the full contact".format(*
 by_elements = full.fields(0.66 * full.duration)
 time, radius = float(by_elements.time), float(by_elements.contact_radius)
 line = np.linspace(-1.02, 1.02, 301) * radius
-patches = {"theory": theory.fields(time, line, line), "full contact, by 40 elements": by_elements}
+patches = {
+    "theory": theory.fields(time, line, line),
+    "full contact, 40 elements across": by_elements,
+}
 bound = np.degrees(np.arcsin(0.5 / 1.5))
 assert abs(full.psi_out - theory.psi_out) < 5e-3
 pull = np.hypot(by_elements.traction_x, by_elements.traction_y)

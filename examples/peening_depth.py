@@ -69,7 +69,7 @@ def draw(tables):
     right.set_ylabel(r"stress over pressure, $\tau/p_0$")
     for axis in (left, right):
         axis.set_xlabel(r"angle from the normal, $\theta$ (deg)")
-    left.legend(loc="lower left", bbox_to_anchor=(0.0, 0.2))
+    left.legend(loc="upper right", bbox_to_anchor=(1.0, 0.9))
     right.legend(loc="upper left")
     return figure
 
@@ -85,6 +85,6 @@ first = [float(surfaces[mu][0]) for mu in (0.3, 0.5)]
 
 save_figure(draw(tables), "peening_depth.png")
 print(
-    f"without friction at {depth[0]:.3f} a, {stress[0]:.3f} p_0; at the surface from"
-    f" {first[0]:g} and {first[1]:g} deg on with mu = 0.3 and 0.5"
+    f"without friction at {depth[0]:.3f} a, {stress[0]:.3f} p_0; at the surface above"
+    f" {first[0] - 1:g} and {first[1] - 1:g} deg with mu = 0.3 and 0.5"
 )
