@@ -30,7 +30,10 @@ extensions = [
     "schema",
 ]
 templates_path = ["_templates"]
-suppress_warnings = ["etoc.toctree"]  # reference and gallery have their own tables of contents
+suppress_warnings = [
+    "etoc.toctree",  # reference and Cookbook have their own tables of contents
+    "sphinx_gallery.config",  # the Cookbook names scripts, not the functions that they use
+]
 exclude_patterns = ["_ext", "gallery/*.ipynb", "gallery/*.py"]
 default_role = "code"
 smartquotes = False  # "--json" is not a dash
@@ -61,11 +64,22 @@ sphinx_gallery_conf = {
     "filename_pattern": r"\.py$",
     "image_scrapers": ("pictures.take_picture",),
     "thumbnail_size": (1110, 740),
-    "reset_modules": ("pictures.give_file",),
+    "reset_modules": ("pictures.clear",),
+    "reset_modules_order": "after",
     "show_memory": False,
     "download_all_examples": False,
     "show_signature": False,
     "within_subsection_order": "pictures.place_in_index",
+    "minigallery_sort_order": "pictures.place_in_index",
+    "capture_repr": (),
+    "last_notebook_cell": """\
+# The picture that was stored last
+from pathlib import Path
+
+from IPython.display import Image
+
+pictures = [path for path in Path().iterdir() if path.suffix in (".png", ".gif")]
+Image(max(pictures, key=lambda path: path.stat().st_mtime))""",
     "nested_sections": False,
     "write_computation_times": False,
     "abort_on_example_error": True,

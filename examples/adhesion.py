@@ -1,7 +1,7 @@
-r"""Spheres that adhere
-===================
+r"""Let small spheres adhere
+========================
 
-Spheres that adhere: the loop of force and approach, restitution, and the rebound without slip.
+`carom.classical.adhesive_impact` gives the rebound of spheres that pull on each other.
 
 Left: the contact of Johnson, Kendall & Roberts (1971) jumps in where the spheres touch, and out
 where the approach is least; the shaded work is what an impact loses. Middle: the restitution that
@@ -9,15 +9,21 @@ is left, and how long the contact lasts. Right: the rebound of the contact point
 against the speed; lines at the margin are the limits without adhesion.
 """
 
-from pathlib import Path
-
 import numpy as np
 from scipy.special import rgamma
 
 import carom
 from carom.classical import adhesive_impact
-from carom.plots.legends import legend_above
 from carom.plots.style import BLACK, DOUBLE, LINES, new_figure, save_figure, styled, zero_line
+
+toner = carom.Material(young="3 GPa", poisson=0.3, density=1100.0)
+bead = carom.Sphere(radius="10 um", material=toner)
+pair = carom.Pair(bead, carom.HalfSpace(toner), friction=0.3)
+hit = adhesive_impact(pair, normal_speed=0.2, work_of_adhesion=0.1)  # J/m^2
+print(f"sticks below {hit.sticking_speed:.3f} m/s; at 0.2 m/s e {hit.normal_restitution:.3f}")
+
+# %%
+# The figure: the loop of force and approach, restitution, and the rebound without slip.
 
 GAMMA = 0.1  # J/m^2
 POISSONS = (0.5, 0.3, 0.1)
@@ -60,7 +66,7 @@ def large_friction(chi: float) -> float:
 @styled
 def draw(rebounds):
     """Draw the loop of force and approach, e and duration, and psi_2/psi_1."""
-    figure, axes = new_figure(1, 3, width=DOUBLE, height=66.0)
+    figure, axes = new_figure(1, 3, width=DOUBLE, height=70.0)
     left, middle, right = axes[0]
     radius, approach, force = loop()
     pulled = radius <= 1.0
@@ -69,51 +75,48 @@ def draw(rebounds):
     left.plot([0.0, 0.0], [0.0, -8.0 / 9.0], color=LINES[1], ls=":")
     left.plot(approach, force, color=LINES[0], label="in contact")
     left.plot([approach[0]] * 2, [force[0], 0.0], color=LINES[0], ls=":")
-    left.set(xlim=(-1.1, 0.8), ylim=(-1.3, 0.7), xlabel="approach $d R^*/a_0^2$")
+    left.set(xlim=(-1.1, 0.8), ylim=(-1.3, 0.7), xlabel="approach, $d R^*/a_0^2$", title="force")
     left.text(0.04, -0.15, "jumps in")
     left.text(-0.51, -0.3, "jumps out", ha="right")
     left.set_ylabel("force over pull-off force")
     first = rebounds[0.3]
     middle.plot(SPEEDS, first.normal_restitution, color=BLACK, label="$e$")
+    middle.set_title("restitution and duration")
     middle.set(xscale="log", xlim=(1.0, 100.0), ylim=(0.0, 1.8), xlabel="$V_1/V_s$")
     share = first.duration / first.scales.time / HERTZ
-    middle.plot(SPEEDS, share, color=LINES[2], ls="--", label="duration over Hertz's")
+    middle.plot(SPEEDS, share, color=LINES[2], ls="--", label="duration/Hertz's")
     for line, (poisson, hit) in zip(LINES, rebounds.items(), strict=False):
         right.plot(SPEEDS, hit.psi_out / hit.psi_in, color=line, label=f"$\\nu$ = {poisson:g}")
         right.plot([6e3, 1e4], [large_friction(hit.pair.chi)] * 2, color=line, lw=2.5)
+    right.plot([], [], color="0.4", lw=2.5, label="limits without adhesion")
     zero_line(right)
     right.set(xscale="log", xlim=(1.0, 1e4), ylim=(-1.0, 1.0), xlabel="$V_1/V_s$")
-    right.set_ylabel("$\\psi_2/\\psi_1$ without slip")
-    for axis in (left, middle, right):
-        legend_above(axis, 3, handlelength=1.2)
+    right.set(title="rebound without slip", ylabel="$\\psi_2/\\psi_1$")
+    left.legend(loc="upper left")
+    middle.legend(loc="upper right")
+    right.legend(loc="lower right")
     return figure
 
 
-def main(folder: str | Path = ".") -> str:
-    """Solve impacts of beads that adhere, check them against closed forms, and draw them."""
-    rebounds = {poisson: impacts(pair_of(poisson)) for poisson in POISSONS}
-    radius, approach, force = loop()
-    pulled = radius <= 1.0
-    work = -np.trapezoid(force[pulled], approach[pulled])
-    for hit in rebounds.values():
-        pair, energy = hit.pair, GAMMA
-        a_0 = (2.0 * np.pi * energy * pair.effective_radius**2 / pair.effective_modulus) ** (1 / 3)
-        unit = hit.pull_off_force * a_0**2 / pair.effective_radius
-        np.testing.assert_allclose(hit.lost_energy, work * unit, rtol=1e-6)
-        left = np.sqrt(1.0 - SPEEDS**-2.0)
-        np.testing.assert_allclose(hit.normal_restitution, left, atol=1e-9)
-        ratio = hit.psi_out / hit.psi_in
-        assert np.all(np.abs(ratio) <= 1.0)
-        np.testing.assert_allclose(ratio[-1], large_friction(pair.chi), atol=0.012)
-        assert hit.tabor > 5.0
-    save_figure(draw(rebounds), Path(folder) / "adhesion.png")
-    hit = rebounds[0.3]
-    return (
-        f"a bead of 10 um sticks below {hit.sticking_speed:.3g} m/s; at ten times that "
-        f"psi_2/psi_1 is {np.interp(10.0, SPEEDS, hit.psi_out / hit.psi_in):.2f}, "
-        f"without adhesion {large_friction(hit.pair.chi):.2f}"
-    )
-
-
-if __name__ == "__main__":
-    print(main())
+rebounds = {poisson: impacts(pair_of(poisson)) for poisson in POISSONS}
+radius, approach, force = loop()
+pulled = radius <= 1.0
+work = -np.trapezoid(force[pulled], approach[pulled])
+for hit in rebounds.values():
+    pair, energy = hit.pair, GAMMA
+    a_0 = (2.0 * np.pi * energy * pair.effective_radius**2 / pair.effective_modulus) ** (1 / 3)
+    unit = hit.pull_off_force * a_0**2 / pair.effective_radius
+    np.testing.assert_allclose(hit.lost_energy, work * unit, rtol=1e-6)
+    left = np.sqrt(1.0 - SPEEDS**-2.0)
+    np.testing.assert_allclose(hit.normal_restitution, left, atol=1e-9)
+    ratio = hit.psi_out / hit.psi_in
+    assert np.all(np.abs(ratio) <= 1.0)
+    np.testing.assert_allclose(ratio[-1], large_friction(pair.chi), atol=0.012)
+    assert hit.tabor > 5.0
+save_figure(draw(rebounds), "adhesion.png")
+hit = rebounds[0.3]
+print(
+    f"a bead of 10 um sticks below {hit.sticking_speed:.3g} m/s; at ten times that "
+    f"psi_2/psi_1 is {np.interp(10.0, SPEEDS, hit.psi_out / hit.psi_in):.2f}, "
+    f"without adhesion {large_friction(hit.pair.chi):.2f}"
+)

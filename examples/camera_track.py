@@ -1,136 +1,65 @@
-"""Speeds and spins from a video
-=============================
+"""Get speeds and spins from a video
+=================================
 
-What the positions of a ball and of a mark on it tell of its impact, and how certainly.
+`carom.track` turns positions of a ball and of a mark on it into the motion before and after impact.
 
 A steel ball strikes a steel plate at nine angles and is filmed at 1000 frames a second, with 10
-pixels a millimetre. The impacts are calculated, and every position gets noise of 0.2 pixels.
-`track` finds where the two parabolas meet, and the motion there; its standard errors are those by
-which the numbers miss the truth. `fit` takes the table as it is and finds friction and stiffness
-ratio.
-
-With a folder as argument the script writes three of the tracks into files, as Tracker, DeepLabCut
-and SLEAP write them.
+pixels a millimetre. The impacts are calculated here, and every position gets noise of 0.2 pixels.
+`track` finds where the two parabolas meet, and the motion there, with standard errors. `fit` takes
+the table as it is. Exports of Tracker, DeepLabCut and SLEAP are read as they are.
 """
 
-import sys
-from pathlib import Path
-
 import numpy as np
-import pandas as pd
 
 import carom
-from carom.plots.style import BLUE, DOUBLE, VERMILION, new_figure, save_figure, styled
+from carom.plots.style import BLUE, DOUBLE, VERMILION, new_figure, save_figure, style
 
-RATE, PIXELS_PER_MM, NOISE = 1000.0, 10.0, 0.2
-FRAMES, GRAVITY = 12, 9.80665  # on each side; m/s^2
-MARK = 0.7  # of the radius, from the centre
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.15)
-ANGLES = np.radians([8.0, 14.0, 20.0, 26.0, 32.0, 38.0, 45.0, 55.0, 65.0])
-NAMES = ("normal_speed", "tangential_speed", "normal_speed_out", "tangential_speed_out")
-NAMES = (*NAMES, "spin", "spin_out")
+ball = carom.Sphere(radius="5 mm", material="steel")
+pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.15)
+angles = np.radians([8.0, 14.0, 20.0, 26.0, 32.0, 38.0, 45.0, 55.0, 65.0])
+losses, random = carom.KelvinVoigt(restitution=0.95), np.random.default_rng(1)
+hits = [carom.impact(pair, speed=1.5, angle=angle, losses=losses) for angle in angles]
 
 
-def filmed(hit, seed, *, frames=FRAMES, tilt=0.0, noise=NOISE, phase=0.37):
+def filmed(hit):
     """Return positions in pixels, y downwards, of a ball that flies, strikes and flies on."""
-    random = np.random.default_rng(seed)
-    time = (np.arange(-frames, frames) + phase) / RATE
-    is_before = time < 0.0
-    normal = time * np.where(is_before, -hit.normal_speed, hit.normal_speed_out)
-    along = time * np.where(is_before, hit.tangential_speed, hit.tangential_speed_out)
-    turned = 0.4 + time * np.where(is_before, hit.spin, hit.spin_out)
-    x = along * np.cos(tilt) - normal * np.sin(tilt)
-    y = along * np.sin(tilt) + normal * np.cos(tilt) - 0.5 * GRAVITY * time**2
-    reach = MARK * BALL.radius
-    places = {
-        "x": x,
-        "y": y,
-        "mark_x": x + reach * np.cos(turned),
-        "mark_y": y + reach * np.sin(turned),
-    }
-    track = {"frame": np.arange(2 * frames)}
-    for name, metres in places.items():
-        pixels = 320.0 + (-1.0 if "y" in name else 1.0) * 1e3 * PIXELS_PER_MM * metres
-        track[name] = pixels + random.normal(0.0, noise, pixels.shape)
-    return track
+    time = (np.arange(-12, 12) + 0.37) / 1000.0  # s
+    before, reach = time < 0.0, 0.7 * ball.radius
+    x = time * np.where(before, hit.tangential_speed, hit.tangential_speed_out)
+    y = time * np.where(before, -hit.normal_speed, hit.normal_speed_out) - 4.9033 * time**2
+    turned = 0.4 + time * np.where(before, hit.spin, hit.spin_out)
+    mark = x + reach * np.cos(turned), y + reach * np.sin(turned)
+    places = {"x": x, "y": -y, "mark_x": mark[0], "mark_y": -mark[1]}
+    return {name: 1e4 * value + random.normal(0, 0.2, 24) for name, value in places.items()}
 
 
-def impacts():
-    """Return the impacts that are filmed, with losses."""
-    losses = carom.KelvinVoigt(restitution=0.95)
-    return [carom.impact(PAIR, speed=1.5, angle=angle, losses=losses) for angle in ANGLES]
+# %%
+# These positions stand for files: `carom.track("video.csv", ...)`.
+tracks = [{"frame": np.arange(24), **filmed(hit)} for hit in hits]
+motions = carom.track(tracks, frame_rate=1000.0, pixels_per_mm=10.0)
+found = carom.fit(motions, pair=pair)
+print(f"friction {found.friction} and kappa {found.kappa} from nine tracks")
 
-
-def as_tracker(track):
-    """Return an export of Tracker: a name, tabs, times in s, lengths in m, y upwards."""
-    metre = 1e-3 / PIXELS_PER_MM
-    rows = zip(track["frame"] / RATE, metre * track["x"], -metre * track["y"], strict=True)
-    lines = ("\t".join(f"{value:.9E}" for value in row) for row in rows)
-    return "\n".join(["mass_A\t\t", "t\tx\ty", *lines]) + "\n"
-
-
-def as_deeplabcut(track):
-    """Return an export of DeepLabCut: scorer, body parts and coordinates above the columns."""
-    parts = {"ball": ("x", "y"), "mark": ("mark_x", "mark_y")}
-    sure = np.full(len(track["frame"]), 0.99)
-    columns = {
-        ("net", part, name): values
-        for part, axes in parts.items()
-        for name, values in zip(
-            ("x", "y", "likelihood"), (*(track[a] for a in axes), sure), strict=True
-        )
-    }
-    frame = pd.DataFrame(columns, index=track["frame"])
-    frame.columns.names = ("scorer", "bodyparts", "coords")
-    return frame.to_csv(float_format="%.4f", lineterminator="\n")
-
-
-def as_sleap(track):
-    """Return an export of SLEAP: points by name, x, y and score."""
-    points = {"ball.x": "x", "ball.y": "y", "mark.x": "mark_x", "mark.y": "mark_y"}
-    frame = pd.DataFrame({"track": "ball", "frame_idx": track["frame"], "instance.score": 0.97})
-    for head, name in points.items():
-        frame[head] = track[name]
-        if head.endswith("y"):
-            frame[head.replace(".y", ".score")] = 0.98
-    return frame.to_csv(index=False, float_format="%.4f", lineterminator="\n")
-
-
-def store(folder):
-    """Write the track at 32 degrees as three programs export it."""
-    track = filmed(impacts()[4], 4)
-    exports = {"tracker.txt": as_tracker, "deeplabcut.csv": as_deeplabcut, "sleap.csv": as_sleap}
-    for name, export in exports.items():
-        Path(folder, f"track_{name}").write_text(export(track), encoding="utf-8", newline="\n")
-
-
-@styled
-def main(folder="."):
-    hits = impacts()
-    tracks = [filmed(hit, seed) for seed, hit in enumerate(hits, 100)]
-    motions = carom.track(tracks, frame_rate=RATE, pixels_per_mm=PIXELS_PER_MM)
-    truth = {name: np.array([getattr(hit, name) for hit in hits]) for name in NAMES}
-    off = [(motions[n] - truth[n]).values / motions[f"{n}_error"].values for n in NAMES]
-    assert np.abs(off).max() < 4.0
-    assert 0.7 < np.sqrt(np.mean(np.square(off))) < 1.3
-
-    found = carom.fit(motions, pair=PAIR)
-    assert found.friction.low < 0.15 < found.friction.high
-    assert found.kappa.low < PAIR.kappa < found.kappa.high
-
-    figure, ((path, spins),) = new_figure(1, 2, width=DOUBLE)
-    metre = 1e-3 / PIXELS_PER_MM
-    path.plot(1e3 * metre * tracks[4]["x"], -1e3 * metre * tracks[4]["y"], "o", color=BLUE)
-    path.set(xlabel="$x$ (mm)", ylabel="$y$ (mm)")
-    degrees, width = np.degrees(ANGLES), 2.0 * motions.spin_out_error
-    spins.plot(degrees, truth["spin_out"], color=VERMILION, label="impacts")
-    spins.errorbar(degrees, motions.spin_out, width, fmt="o", color=BLUE, label="tracks")
-    spins.set(xlabel=r"$\theta$ (deg)", ylabel=r"$\omega'$ (rad/s)")
+with style():
+    figure, ((path, spins),) = new_figure(1, 2, width=DOUBLE, height=66)
+    path.plot(0.1 * tracks[4]["x"], -0.1 * tracks[4]["y"], "o", color=BLUE, label="centre")
+    path.plot(0.1 * tracks[4]["mark_x"], -0.1 * tracks[4]["mark_y"], "x", label="mark")
+    path.set(title="the track at 32 degrees", xlabel="$x$ (mm)", ylabel="$y$ (mm)")
+    path.legend()
+    bars = {"fmt": "o", "color": BLUE, "label": "from the tracks, 95 %"}
+    spins.plot(np.degrees(angles), [hit.spin_out for hit in hits], color=VERMILION, label="truth")
+    spins.errorbar(np.degrees(angles), motions.spin_out, 2.0 * motions.spin_out_error, **bars)
+    spins.set(title="spin after", xlabel=r"$\theta$ (deg)", ylabel=r"$\omega'$ (rad/s)")
     spins.legend()
-    save_figure(figure, Path(folder, "camera_track.png"))
-    print(f"friction {found.friction} and kappa {found.kappa} from nine tracks")
+    save_figure(figure, "camera_track.png")
 
-
-if __name__ == "__main__":
-    store(sys.argv[1]) if len(sys.argv) > 1 else main()
+# %%
+# Check: standard errors are those by which the numbers miss the truth, and so are the intervals.
+names = ("normal_speed", "tangential_speed", "spin")
+names = (*names, *(f"{name}_out" for name in names))
+truth = {name: np.array([getattr(hit, name) for hit in hits]) for name in names}
+off = [(motions[n] - truth[n]).values / motions[f"{n}_error"].values for n in names]
+assert np.abs(off).max() < 4.0
+assert 0.7 < np.sqrt(np.mean(np.square(off))) < 1.3
+assert found.friction.low < 0.15 < found.friction.high
+assert found.kappa.low < pair.kappa < found.kappa.high

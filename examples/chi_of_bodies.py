@@ -5,7 +5,7 @@ The one number that distinguishes bodies, against Poisson's ratio and the shape 
 
 The ratio :math:`\chi` compares inertia and stiffness along the surface with those across it. Solid
 spheres have :math:`\chi` from 1.17 to 1.75, thin shells have less. A contact with
-:math:`\chi = 1/2` would never slip, but this takes a flywheel with a radius of gyration
+:math:`\chi = 1/2` would never slip, but this needs a flywheel with a radius of gyration
 :math:`K \ge \sqrt{2}\,R`. A sphere that cannot turn has :math:`\chi = \kappa/2`. Points: solid
 spheres of the materials of the catalogue.
 
@@ -14,12 +14,11 @@ there).
 """
 
 from math import inf, sqrt
-from pathlib import Path
 
 import numpy as np
 
 import carom
-from carom.plots.style import BLACK, DASHES, LINES, label, new_figure, save_figure, styled
+from carom.plots.style import BLACK, DASHES, LINES, label, new_figure, save_figure, style
 
 SHAPES = {"solid": 0.4, "thin shell": 2 / 3, "ring, $K = R$": 1.0, r"$K = \sqrt{2}\,R$": 2.0}
 
@@ -29,9 +28,7 @@ def chi_16(nu, ratio):
     return (1 - nu) / (2 - nu) * (1 + 1 / ratio)
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check chi of pairs of equal materials against (16); draw it for several shapes."""
+with style():
     nu = np.linspace(0, 0.5, 26)
     figure, ((axis,),) = new_figure(height=68)
     worst = 0.0
@@ -63,11 +60,7 @@ def main(folder: str | Path = ".") -> str:
     axis.text(0.2, 0.52, r"$\chi = 1/2$")
     axis.set(xlim=(0, 0.5), ylim=(0.2, 2.6), xlabel=label("poisson"), ylabel=label("chi"))
     axis.legend(ncols=2, loc="upper right", columnspacing=0.8)
-    save_figure(figure, Path(folder) / "chi_of_bodies.png")
-    return (
+    save_figure(figure, "chi_of_bodies.png")
+    print(
         f"chi of {len(carom.materials())} materials and {len(SHAPES)} shapes is (16), {worst:.0e}"
     )
-
-
-if __name__ == "__main__":
-    print(main())

@@ -12,15 +12,13 @@ impacts.
 Barber (1979), ZAMP 30:468, section 6 and equations (26), (34).
 """
 
-from pathlib import Path
-
 import numpy as np
 from scipy.optimize import brentq
 from scipy.special import hyp2f1
 
 import carom
 from carom.plots.legends import legend_above
-from carom.plots.style import BLACK, DASHES, LINES, new_figure, save_figure, styled
+from carom.plots.style import BLACK, DASHES, LINES, new_figure, save_figure, style
 
 CHIS = (0.8, 1.44, 2.5)
 
@@ -55,9 +53,7 @@ def stick_phase(psi, chi):
     return start, end
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check begin and end of stick of whole impacts against the closed form; draw both."""
+with style():
     figure, ((axis,),) = new_figure(height=72)
     worst = 0.0
     for chi, color, dash in zip(CHIS, LINES, DASHES, strict=False):
@@ -84,9 +80,5 @@ def main(folder: str | Path = ".") -> str:
     axis.set(xlim=(0, 5), ylim=(0, 1.1), xlabel=r"$\psi_1$")
     axis.set_ylabel("$V_z/V_1$")
     legend_above(axis, 2)
-    save_figure(figure, Path(folder) / "end_of_stick.png")
-    return f"begin and end of stick are those of the closed form within {worst:.0e}"
-
-
-if __name__ == "__main__":
-    print(main())
+    save_figure(figure, "end_of_stick.png")
+    print(f"begin and end of stick are those of the closed form within {worst:.0e}")

@@ -11,14 +11,12 @@ part. Without the root they agree to rounding, and (15) follows. Here :math:`\ps
 Barber (1979), ZAMP 30:468, equations (10) to (15).
 """
 
-from pathlib import Path
-
 import numpy as np
 from scipy.special import hyp2f1
 
 import carom
 from carom.plots.legends import legend_above
-from carom.plots.style import BLACK, BLUE, DASHES, VERMILION, new_figure, save_figure, styled
+from carom.plots.style import BLACK, BLUE, DASHES, VERMILION, new_figure, save_figure, style
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
@@ -41,9 +39,7 @@ def decelerated(b, g, slope, root):
     return M * unit * bracket / (1 + 1 / BALL.gyration_ratio)
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check (12) to (15) with numbers of a ball, and that (14) is misprinted; draw the forces."""
+with style():
     velocity = PSI * MU * SPEED / PAIR.kappa
     hit = carom.impact(PAIR, normal_speed=SPEED, tangential_speed=velocity)
     assert abs(hit.psi_in - PSI) < 1e-12
@@ -88,9 +84,5 @@ def main(folder: str | Path = ".") -> str:
     axis.set(xlim=(0, None), xlabel="$b$ (µm)")
     axis.set(ylabel="$F_x$ (N)")
     legend_above(axis, 2)
-    save_figure(figure, Path(folder) / "equation_of_motion.png")
-    return f"(12) within {error_12:.0e}, (14) within {error:.0e}, as printed off by {misprint:.0%}"
-
-
-if __name__ == "__main__":
-    print(main())
+    save_figure(figure, "equation_of_motion.png")
+    print(f"(12) within {error_12:.0e}, (14) within {error:.0e}, as printed off by {misprint:.0%}")

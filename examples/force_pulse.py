@@ -1,7 +1,7 @@
-r"""The force of an impact in time and in frequency
-===============================================
+r"""Get the force and its spectrum
+==============================
 
-Hertz's pulse, and the powers of a sine that stand for it in codes and sensors.
+`hit.spectrum` gives the force of an impact in frequency, with its corners and first zero.
 
 Left: the normal force in time, and below it how far the powers of a sine of the same peak and
 duration are from it. Right: the amplitude spectra over the impulse of Hertz's pulse, with the
@@ -9,25 +9,23 @@ corners at -3 dB and -6 dB. The first zero lies at :math:`1.804/t_c`. For :math:
 at :math:`1.75/t_c`, and for the half sine at :math:`1.5/t_c`.
 """
 
-from pathlib import Path
-
 import numpy as np
 from scipy.special import gamma, rgamma
 
 import carom
-from carom.plots.legends import legend_above
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    DOUBLE,
-    VERMILION,
-    new_figure,
-    save_figure,
-    styled,
-    zero_line,
-)
+from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, styled, zero_line
 
+ball = carom.Sphere(radius="5 mm", material="steel")
+pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+hit = carom.impact(pair, normal_speed=2.0, tangential_speed=0.0)
+spectrum = hit.spectrum(np.linspace(0.0, 6.0, 1201) / hit.duration)
+print(f"half of the impulse's amplitude at {spectrum.normal_half_frequency:.0f} Hz", end=", ")
+print(f"first zero at {spectrum.normal_notch_frequency:.0f} Hz")
+
+# %%
+# Hertz's pulse beside the powers of a sine that stand for it in codes and sensors.
+
+BLUE, VERMILION, _, _, BLACK = LINES
 POWERS = {1.5: (BLUE, DASHES[1], r"$\sin^{3/2}$"), 1.0: (VERMILION, DASHES[2], "half sine")}
 
 
@@ -57,44 +55,32 @@ def draw(time, force, cycles, spectra, corners):
     for place, share, mark in zip(corners, (0.5**0.5, 0.5), "os", strict=True):
         right.plot(place, share, mark, color=BLACK, mfc="white")
     zero_line(difference)
-    pulse.set(xlim=(0.0, 1.0), ylim=(0.0, 1.05), ylabel=r"$F_z/P_{max}$")
+    pulse.set(title="force in time", xlim=(0.0, 1.0), ylim=(0.0, 1.05), ylabel=r"$F_z/P_{max}$")
     difference.set(xlim=(0.0, 1.0), xlabel=r"$t/t_c$", ylabel="difference (% of peak)")
     right.set(xscale="log", yscale="log", xlim=(0.05, cycles[-1]), ylim=(1e-4, 2.0))
-    right.set(xlabel=r"$f\,t_c$", ylabel=r"$|\hat F_z|/J_n$")
-    for axis in (pulse, right):
-        legend_above(axis, 3)
+    right.set(title="amplitude spectrum", xlabel=r"$f\,t_c$", ylabel=r"$|\hat F_z|/J_n$")
+    figure.legend(*right.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
 
 
-def main(folder: str | Path = ".") -> str:
-    """Compare Hertz's pulse with powers of a sine in time and in frequency, and draw them."""
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    hit = carom.impact(pair, normal_speed=2.0, tangential_speed=0.0)
-    history = hit.history(2001)
-    time = history.time.values / hit.duration
-    force = history.normal_force.values / hit.max_force
-    far = {nu: float(np.abs(np.sin(np.pi * time) ** nu - force).max()) for nu in POWERS}
-    np.testing.assert_allclose([far[1.5], far[1.0]], [0.02432, 0.16899], atol=1e-5)
+history = hit.history(2001)
+time = history.time.values / hit.duration
+force = history.normal_force.values / hit.max_force
+far = {nu: float(np.abs(np.sin(np.pi * time) ** nu - force).max()) for nu in POWERS}
+np.testing.assert_allclose([far[1.5], far[1.0]], [0.02432, 0.16899], atol=1e-5)
 
-    cycles = np.linspace(0.0, 6.0, 1201)
-    found = hit.spectrum(cycles / hit.duration)
-    impulse = float(found.normal_impulse)
-    spectra = {0.0: found.normal_spectrum.values / impulse}
-    for nu in POWERS:
-        spectra[nu] = sine_spectrum(nu, cycles) * hit.max_force * hit.duration / impulse
-    np.testing.assert_allclose([s[0] for s in spectra.values()], [1.0, 1.02356, 1.17109], atol=1e-5)
-    names = ("corner", "half", "notch")
-    told = [float(found[f"normal_{name}_frequency"]) * hit.duration for name in names]
-    np.testing.assert_allclose(told, [0.669616, 0.927810, 1.804028], atol=1e-6)
+cycles, impulse = spectrum.frequency.values * hit.duration, float(spectrum.normal_impulse)
+spectra = {0.0: spectrum.normal_spectrum.values / impulse}
+for nu in POWERS:
+    spectra[nu] = sine_spectrum(nu, cycles) * hit.max_force * hit.duration / impulse
+np.testing.assert_allclose([s[0] for s in spectra.values()], [1.0, 1.02356, 1.17109], atol=1e-5)
+names = ("corner", "half", "notch")
+told = [float(spectrum[f"normal_{name}_frequency"]) * hit.duration for name in names]
+np.testing.assert_allclose(told, [0.669616, 0.927810, 1.804028], atol=1e-6)
 
-    save_figure(draw(time, force, cycles, spectra, told[:2]), Path(folder) / "force_pulse.png")
-    more = spectra[1.5][0] - 1.0
-    return (
-        f"sin^1.5 is off by {100 * far[1.5]:.1f} % of the peak, {100 * more:.1f} % of the impulse;"
-        f" the first zero lies at {told[2]:.3f}/t_c instead of 1.75/t_c"
-    )
-
-
-if __name__ == "__main__":
-    print(main())
+save_figure(draw(time, force, cycles, spectra, told[:2]), "force_pulse.png")
+more = spectra[1.5][0] - 1.0
+print(
+    f"sin^1.5 is off by {100 * far[1.5]:.1f} % of the peak, {100 * more:.1f} % of the impulse;"
+    f" the first zero lies at {told[2]:.3f}/t_c instead of 1.75/t_c"
+)

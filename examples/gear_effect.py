@@ -1,7 +1,7 @@
-"""Gear effect of a golf driver
-============================
+"""Strike a ball off centre
+========================
 
-Sidespin of a golf ball against how far off the centre of the face a driver strikes it.
+`carom.Body` is any rigid body with a place of contact: here a golf club that hooks the ball.
 
 The centre of mass lies behind the face. Struck towards the toe, the head turns, its face moves
 towards the toe and takes the ball along, as one gear takes another: a hook. A face that bulges is
@@ -9,28 +9,34 @@ inclined there and makes less of it.
 """
 
 from math import asin, cos, pi, sin
-from pathlib import Path
 
 import numpy as np
 
 import carom
-from carom.plots.legends import legend_above
 from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, styled, zero_line
 
+rubber = carom.Material(young="60 MPa", poisson=0.45, density=1127)
+ball = carom.Sphere(radius="21.35 mm", material=rubber)
+losses = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="0.2 ms")  # e = 0.82
+at = {"contact": (0.0127, -0.036), "curvature_radius": 1e3}  # m: x to the toe; a flat face
+head = carom.Body(mass="200 g", inertia=4.5e-4, material="titanium alloy", **at)
+hit = carom.impact(carom.Pair(head, ball, friction=0.4), normal_speed=45.0, losses=losses)
+print(f"half an inch to the toe a flat face hooks with {-hit.spin2_out * 30 / pi:.0f} rpm")
+
+# %%
+# The figure: against the place, for faces and frictions.
+
 DEPTH, BULGE, FLAT = 0.036, 0.305, 1e3  # m: centre of mass behind the face; 12 inches
-RUBBER = carom.Material(young="60 MPa", poisson=0.45, density=1127)  # in contact for 0.5 ms
-BALL = carom.Sphere(radius="21.35 mm", material=RUBBER)
-LOSS = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="0.2 ms")  # e = 0.82
 PLACES = np.linspace(-30.0, 30.0, 61)  # mm off the centre of the face, positive to the toe
 
 
-def strike(place, friction=0.4, bulge=BULGE, speed=45.0, losses=LOSS):
+def strike(place, friction=0.4, bulge=BULGE, speed=45.0, losses=losses):
     """Return the impact of a driver's head that moves straight on, at a place in mm."""
     lean = asin(1e-3 * place / bulge)  # of the face there
     x, z = (bulge - DEPTH) * sin(lean), (bulge - DEPTH) * cos(lean) - bulge
     size = {"mass": "200 g", "inertia": 4.5e-4, "contact": (x, z), "curvature_radius": bulge}
     head = carom.Body(**size, material="titanium alloy", name="driver")
-    pair = carom.Pair(head, BALL, friction)
+    pair = carom.Pair(head, ball, friction)
     along = {"normal_speed": speed * cos(lean), "tangential_speed": -speed * sin(lean)}
     return carom.impact(pair, **along, losses=losses)
 
@@ -44,34 +50,29 @@ def hook(hit):
 def draw(faces, frictions):
     """Draw sidespin over the place, for two faces and for four frictions."""
     figure, axes = new_figure(1, 2, width=DOUBLE, height=66.0)
-    for axis, curves in zip(axes[0], (faces, frictions), strict=True):
+    titles = (r"two faces, $\mu$ = 0.4", "the bulged face, four frictions")
+    for axis, curves, title in zip(axes[0], (faces, frictions), titles, strict=True):
         zero_line(axis)
         for color, dash, (name, spins) in zip(LINES, DASHES, curves.items(), strict=False):
             axis.plot(PLACES, spins, color=color, ls=dash, label=name)
-        axis.set(xlim=PLACES[[0, -1]], xlabel="place on the face, toe positive (mm)")
+        axis.set(title=title, xlim=PLACES[[0, -1]], xlabel="place on the face, toe positive (mm)")
         axis.set_ylabel("sidespin, hook positive (rpm)")
-        legend_above(axis, 2)
+        axis.legend(loc="upper left", ncols=2)
     return figure
 
 
-def main(folder: str | Path = ".") -> str:
-    """Check the mirror, momentum of the ball, rolling off a flat face; draw both dependences."""
-    faces = {"flat face": FLAT, "bulge 305 mm": BULGE}
-    faces = {name: [hook(strike(x, bulge=b)) for x in PLACES] for name, b in faces.items()}
-    friction = {f"$\\mu$ = {m:g}": m for m in (0.05, 0.1, 0.2, 0.4)}
-    friction = {name: [hook(strike(x, m)) for x in PLACES] for name, m in friction.items()}
-    for spins in (*faces.values(), *friction.values()):
-        np.testing.assert_allclose(spins, -np.array(spins)[::-1], atol=1e-6, err_msg="toe, heel")
-    hit = strike(12.7)
-    turned = BALL.gyration_ratio * BALL.mass * BALL.radius * hit.spin2_out  # I omega = R J
-    np.testing.assert_allclose(turned, hit.tangential_impulse * -1.0, rtol=1e-9)
-    np.testing.assert_allclose(strike(12.7, losses=None).lost_energy, 0.0, atol=1e-9)
-    assert hook(strike(12.7, bulge=FLAT)) > hook(hit) > 0.0, "bulge makes less hook"
-    assert hook(strike(25.0, 0.05)) < 0.0, "a slippery face slices"
-    save_figure(draw(faces, friction), Path(folder) / "gear_effect.png")
-    flat = hook(strike(12.7, bulge=FLAT))
-    return f"half an inch to the toe: hook of {hook(hit):.0f} rpm, of a flat face {flat:.0f} rpm"
-
-
-if __name__ == "__main__":
-    print(main())
+faces = {"flat face": FLAT, "bulge 305 mm": BULGE}
+faces = {name: [hook(strike(x, bulge=b)) for x in PLACES] for name, b in faces.items()}
+friction = {f"$\\mu$ = {m:g}": m for m in (0.05, 0.1, 0.2, 0.4)}
+friction = {name: [hook(strike(x, m)) for x in PLACES] for name, m in friction.items()}
+for spins in (*faces.values(), *friction.values()):
+    np.testing.assert_allclose(spins, -np.array(spins)[::-1], atol=1e-6, err_msg="toe, heel")
+hit = strike(12.7)
+turned = ball.gyration_ratio * ball.mass * ball.radius * hit.spin2_out  # I omega = R J
+np.testing.assert_allclose(turned, hit.tangential_impulse * -1.0, rtol=1e-9)
+np.testing.assert_allclose(strike(12.7, losses=None).lost_energy, 0.0, atol=1e-9)
+assert hook(strike(12.7, bulge=FLAT)) > hook(hit) > 0.0, "bulge makes less hook"
+assert hook(strike(25.0, 0.05)) < 0.0, "a slippery face slices"
+save_figure(draw(faces, friction), "gear_effect.png")
+flat = hook(strike(12.7, bulge=FLAT))
+print(f"half an inch to the toe: hook of {hook(hit):.0f} rpm, of a flat face {flat:.0f} rpm")

@@ -11,14 +11,12 @@ while the contact grows, so that all points slip exactly along :math:`x`. As the
 Barber (1979), ZAMP 30:468, equations (28) to (30).
 """
 
-from pathlib import Path
-
 import numpy as np
 from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
 
 import carom
-from carom.plots.style import BLUE, DASHES, DOUBLE, MAP, VERMILION, new_figure, save_figure, styled
+from carom.plots.style import BLUE, DASHES, DOUBLE, MAP, VERMILION, new_figure, save_figure, style
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
@@ -38,9 +36,7 @@ def displacement_29(x, y, b):
     return along, unit * NU * r2 * np.sin(2 * theta)
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check (28), (29) and the uniform rate (30) of an impact at 45 degrees; draw the patch."""
+with style():
     hit = carom.impact(PAIR, speed="2 m/s", angle="45 deg")
     assert hit.phases[0].kind == "gross slip"
     time = 0.5 * hit.phases[0].end
@@ -97,10 +93,6 @@ def main(folder: str | Path = ".") -> str:
         bar = figure.colorbar(shading, ax=axis, location="top", label=f"$u_{name}$ (nm)", aspect=24)
         bar.set_ticks(levels[:: len(levels) // 4])
         axis.set(aspect="equal", xlabel="$x$ (µm)", ylabel="$y$ (µm)")
-    save_figure(figure, Path(folder) / "gross_slip_fields.png")
+    save_figure(figure, "gross_slip_fields.png")
     spread = np.ptp(rates[0]) / rate_30
-    return f"(28), (29) within {max(errors):.0e}; (30): du_x/dt uniform within {spread:.0e}"
-
-
-if __name__ == "__main__":
-    print(main())
+    print(f"(28), (29) within {max(errors):.0e}; (30): du_x/dt uniform within {spread:.0e}")

@@ -6,18 +6,17 @@ How gross slip ends: the contact stops slipping everywhere at once.
 In the plane of both velocities gross slip is a straight line of slope :math:`2\chi`, (33). It ends
 where it meets :math:`\psi = V_z/V_1`, (32), at the speed (34). The stick that follows starts with a
 slope of :math:`g` that is zero by (35). Continuity of the force requires
-:math:`b\,g' = \frac{5}{2}(1 - 2\chi)\,x/(1 - x)` instead. Grey: (35) as printed.
+:math:`b\,g' = \frac{5}{2}(1 - 2\chi)\,x/(1 - x)` instead. Grey: with the
+slope of zero.
 
 Barber (1979), ZAMP 30:468, equations (31) to (35).
 """
-
-from pathlib import Path
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 import carom
-from carom.plots.style import BLACK, DASHES, DOUBLE, LINES, new_figure, save_figure, styled
+from carom.plots.style import BLACK, DASHES, DOUBLE, LINES, new_figure, save_figure, style
 
 CHI = 1.44
 SPEEDS = (0.6, 1.2, 1.6, 2.2)
@@ -52,10 +51,8 @@ def by_15(x, first_slope):
     return solve_ivp(slope, (x[0], x[-1]), start, "DOP853", x, rtol=1e-12, atol=1e-14).y[0]
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check (31) to (34), and the slope after the transition; draw all three."""
-    figure, (axes,) = new_figure(1, 3, width=DOUBLE, height=62)
+with style():
+    figure, (axes,) = new_figure(1, 3, width=DOUBLE, height=72)
     v = np.linspace(1, 0, 201)
     axes[0].plot(v, v, color="0.5", lw=0.8)
     for psi, color, dash in zip(SPEEDS, LINES, DASHES, strict=False):
@@ -72,7 +69,13 @@ def main(folder: str | Path = ".") -> str:
     axes[0].plot([], [], "o", color=BLACK, label="gross slip ends, (34)")
     axes[0].legend(loc="lower left")
     axes[0].text(1.04, 0.92, r"$\psi = V_z/V_1$", color="0.4", va="center", ha="right")
-    axes[0].set(xlim=(1.5, 0), xticks=[1, 0.5, 0], xlabel="$V_z/V_1$", ylabel=r"$\psi$")
+    axes[0].set(
+        title="while it slips",
+        xlim=(1.5, 0),
+        xticks=[1, 0.5, 0],
+        xlabel="$V_z/V_1$",
+        ylabel=r"$\psi$",
+    )
     axes[0].axhline(0, color="0.5", lw=0.5)
 
     worst = 0.0
@@ -89,7 +92,9 @@ def main(folder: str | Path = ".") -> str:
     assert worst < 1e-11, f"(32), (34) differ from whole impacts by {worst:.1e}"
     axes[1].plot([], [], "o", mfc="white", mec=BLACK, mew=0.8, label="whole impacts")
     axes[1].axhline(0, color="0.5", lw=0.5)
-    axes[1].set(ylim=(-1.05, 1.05), xlabel=r"$\psi_1$", ylabel="$V_z/V_1$")
+    axes[1].set(
+        title="where gross slip ends", ylim=(-1.05, 1.05), xlabel=r"$\psi_1$", ylabel="$V_z/V_1$"
+    )
 
     for psi, color, dash in zip(SPEEDS[1:], LINES[1:], DASHES[1:], strict=False):
         start = transition_speed(psi, CHI)
@@ -102,13 +107,10 @@ def main(folder: str | Path = ".") -> str:
         axes[2].plot(x, by_15(x, 0), color="0.6", ls=dash, lw=0.9)
     axes[2].axhline(0, color="0.5", lw=0.5)
     axes[2].plot([], [], color=BLACK, lw=1.6, label="gross slip, $g = 1$")
-    axes[2].plot([], [], color="0.6", lw=0.9, label="(35) as printed")
+    axes[2].plot([], [], color="0.6", lw=0.9, label="slope 0 (printed)")
     axes[1].legend(loc="upper right")
-    axes[2].set(xlim=(0, 1), ylim=(-1, 1.15), xlabel="$x = (b/b_{max})^5$", ylabel="$g$")
+    axes[2].set(xlim=(0, 1), ylim=(-1.7, 1.15), xlabel="$x = (b/b_{max})^5$", ylabel="$g$")
+    axes[2].set_title("the stick after it")
     axes[2].legend(loc="lower left")
-    save_figure(figure, Path(folder) / "gross_slip_to_stick.png")
-    return f"(32)-(34) within {worst:.0e} of whole impacts; slope after the transition corrected"
-
-
-if __name__ == "__main__":
-    print(main())
+    save_figure(figure, "gross_slip_to_stick.png")
+    print(f"(32)-(34) within {worst:.0e} of whole impacts; slope after the transition corrected")

@@ -1,7 +1,7 @@
-r"""Metals beyond yield
-===================
+r"""Let metals yield
+================
 
-Metals beyond yield: restitution and pressure against speed, by several laws.
+`losses=carom.Metal()` gives the restitution of metals beyond yield, from their yield strength.
 
 Left: the restitution of spheres that yield at the normal velocity :math:`V_y`. In `carom.Metal` the
 load and the contact radius are those of finite elements (Jackson & Green 2005), drawn for yield
@@ -13,25 +13,23 @@ of 2.84 yield strengths, the lower one is for a strength of 0.008 of the modulus
 of Jackson, Green & Marghitu (2010, as quoted). Right: the mean pressure on the largest contact.
 """
 
-from pathlib import Path
-
 import numpy as np
 
 import carom
 from carom.bodies.strengths import yield_velocity
-from carom.plots.legends import legend_above
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    DOUBLE,
-    GREEN,
-    VERMILION,
-    new_figure,
-    save_figure,
-    styled,
-)
+from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, styled
 
+steel = carom.Material(young="210 GPa", poisson=0.3, density=7850, yield_strength="400 MPa")
+ball = carom.Sphere(radius="5 mm", material=steel)
+pair = carom.Pair(ball, carom.HalfSpace(material=steel), friction=0.2)
+for speed in ("0.1 m/s", "1 m/s", "10 m/s"):
+    hit = carom.impact(pair, speed=speed, angle="20 deg", losses=carom.Metal())
+    print(f"{speed}: e {hit.normal_restitution:.2f}, {hit.lost_energy:.1e} J lost in yield")
+
+# %%
+# The figure: restitution and pressure against speed, by several laws.
+
+BLUE, VERMILION, GREEN, _, BLACK = LINES
 RATIOS = np.geomspace(1.0, 1000.0, 40)
 STRAINS = {0.001: BLACK, 0.008: BLUE}  # yield strength over E/(1 - nu^2)
 SCALING = 2.08  # e (V_1/V_y)^(1/4) of fully plastic contacts by finite elements
@@ -83,7 +81,9 @@ def draw(metals, plastic):
         right.plot(RATIOS, mean, **style)
     for axis, values in zip((left, right), plastic, strict=True):
         axis.plot(RATIOS, values, color=VERMILION, ls=DASHES[2], label="ElasticPlastic")
-        axis.set(xscale="log", xlim=(1.0, 1000.0), xlabel="$V_1/V_y$")
+        axis.set(
+            xscale="log", xlim=(1.0, 1000.0), xlabel="speed over that of first yield, $V_1/V_y$"
+        )
     late = RATIOS[RATIOS > 60.0]
     johnson, scaled = (value * late**-0.25 for value in (fully_plastic(JOHNSON), SCALING))
     left.plot(late, johnson, color="0.5", lw=0.7, label="Johnson, fully plastic at 3 $Y$")
@@ -92,34 +92,29 @@ def draw(metals, plastic):
     left.plot(large, 0.62 * (large * max(STRAINS)) ** -0.5, color=GREEN, lw=0.9)
     early = np.geomspace(2.0, 60.0, 13)
     left.plot(early, jackson(early), ".", color=BLACK, ms=3, label="Jackson, Green & Marghitu")
-    left.set(ylim=(0.2, 1.02), ylabel="$e$")
+    left.set(title="restitution", ylim=(0.2, 1.02), ylabel="$e$")
     right.axhline(HARDNESS, color="0.4", lw=0.6)
-    right.set(ylim=(0.9, 3.0), ylabel="mean pressure/Y")
-    legend_above(left, 2)
+    right.text(1.1, HARDNESS + 0.02, "2.84 $Y$, fully plastic", color="0.4")
+    right.set(title="mean pressure on the largest contact", ylim=(0.9, 3.0), ylabel="$p_m/Y$")
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
 
 
-def main(folder: str | Path = ".") -> str:
-    """Solve impacts of metals, check them against fully plastic contacts, and draw them."""
-    metals = {strain: impacts(of_strain(strain), carom.Metal()) for strain in STRAINS}
-    plastic = impacts(of_strain(0.001), carom.ElasticPlastic())
-    scaling = fully_plastic(HARDNESS, UNIFORM)
-    np.testing.assert_allclose(scaling, SCALING, rtol=5e-3)
-    late = RATIOS > 100.0
-    for strain, (e, mean) in metals.items():
-        assert np.all(np.diff(e) <= 0.0)
-        off = e[late] - scaling * RATIOS[late] ** -0.25
-        assert np.max(np.abs(off)) < (0.05 if strain < 0.002 else 0.2)
-        assert np.all(mean[late & (RATIOS < 300.0)] > 2.1)
-    assert np.all(plastic[0][late] < metals[0.001][0][late] - 0.15)
-    figure = draw(metals, plastic)
-    save_figure(figure, Path(folder) / "metals.png")
-    at = int(np.argmin(np.abs(RATIOS - 277.0)))
-    return (
-        f"e at {RATIOS[at]:.0f} V_y: {metals[0.001][0][at]:.2f}, finite elements "
-        f"{SCALING * RATIOS[at] ** -0.25:.2f}, Thornton {plastic[0][at]:.2f}"
-    )
-
-
-if __name__ == "__main__":
-    print(main())
+metals = {strain: impacts(of_strain(strain), carom.Metal()) for strain in STRAINS}
+plastic = impacts(of_strain(0.001), carom.ElasticPlastic())
+scaling = fully_plastic(HARDNESS, UNIFORM)
+np.testing.assert_allclose(scaling, SCALING, rtol=5e-3)
+late = RATIOS > 100.0
+for strain, (e, mean) in metals.items():
+    assert np.all(np.diff(e) <= 0.0)
+    off = e[late] - scaling * RATIOS[late] ** -0.25
+    assert np.max(np.abs(off)) < (0.05 if strain < 0.002 else 0.2)
+    assert np.all(mean[late & (RATIOS < 300.0)] > 2.1)
+assert np.all(plastic[0][late] < metals[0.001][0][late] - 0.15)
+figure = draw(metals, plastic)
+save_figure(figure, "metals.png")
+at = int(np.argmin(np.abs(RATIOS - 277.0)))
+print(
+    f"e at {RATIOS[at]:.0f} V_y: {metals[0.001][0][at]:.2f}, finite elements "
+    f"{SCALING * RATIOS[at] ** -0.25:.2f}, Thornton {plastic[0][at]:.2f}"
+)

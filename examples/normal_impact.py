@@ -11,23 +11,18 @@ Barber (1979), ZAMP 30:468, equations (1) to (5) and (9); Hertz (1882). The cour
 checked by stepping the equation of motion with (2) and (3).
 """
 
-from pathlib import Path
-
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.special import beta
 
 import carom
-from carom.plots.legends import legend_above
-from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, styled
+from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, style
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PLATE = carom.HalfSpace(material="steel")
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check (1) to (5) in time and over the patch; draw them."""
+with style():
     hit = carom.impact(carom.Pair(BALL, PLATE, friction=0.2), normal_speed="1 m/s")
     history = hit.history(201)
     t, b, depth, speed, force = (
@@ -56,7 +51,7 @@ def main(folder: str | Path = ".") -> str:
     error = np.abs(stepped[0] - depth).max() / hit.max_penetration
     assert error < 1e-10, f"penetration by stepping the motion differs by {error:.1e}"
 
-    figure, (axes,) = new_figure(1, 3, width=DOUBLE, height=56)
+    figure, (axes,) = new_figure(1, 3, width=DOUBLE, height=64)
     in_time = ((force / hit.max_force, "$F_z/P_{max}$"), (b / b.max(), "$b/b_{max}$"))
     for (values, name), color, dash in zip(
         (*in_time, (speed, "$V_z/V_1$")), LINES, DASHES, strict=False
@@ -82,12 +77,10 @@ def main(folder: str | Path = ".") -> str:
     axes[2].set(xlabel="$r$ (µm)", ylabel="$p$ (GPa)")
     axes[2].set(xlim=(0, 255), xticks=[0, 100, 200], ylim=(0, 5))
     axes[1].set(xlim=(0, 255), xticks=[0, 100, 200])
-    legend_above(axes[0], 3, handlelength=1.8, columnspacing=0.7)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
+    for axis, title in zip(axes, ("in time", "speed and radius", "pressure"), strict=True):
+        axis.set_title(title)
     axes[2].legend(loc="upper right", handlelength=1.8)
-    save_figure(figure, Path(folder) / "normal_impact.png")
+    save_figure(figure, "normal_impact.png")
     ratio = hit.duration * hit.normal_speed / hit.max_penetration
-    return f"(1)-(5) hold; duration {ratio:.4f} d_max/V_1; stepped motion differs by {error:.0e}"
-
-
-if __name__ == "__main__":
-    print(main())
+    print(f"(1)-(5) hold; duration {ratio:.4f} d_max/V_1; stepped motion differs by {error:.0e}")

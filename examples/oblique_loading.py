@@ -11,13 +11,11 @@ dimensionless form, and therefore sticks to the last.
 Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327; Barber (1979), ZAMP 30:468, (36), (37).
 """
 
-from pathlib import Path
-
 import numpy as np
 
 import carom
 from carom.classical import critical_obliquity
-from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, styled
+from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, style
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
@@ -32,9 +30,7 @@ def path_at(ratio, n=80):
     return carom.load_path(PAIR, penetration=d, displacement=moved)
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check force, stick, retracing and work on either side of the critical angle; draw."""
+with style():
     np.testing.assert_allclose(np.tan(critical_obliquity(PAIR).force), PAIR.friction, rtol=1e-14)
     figure, (axes,) = new_figure(1, 2, width=DOUBLE, height=60)
     top = 78
@@ -69,13 +65,9 @@ def main(folder: str | Path = ".") -> str:
     axes[0].text(normal[1] / 2, -1.25 * PAIR.friction * normal[1] / 2, r"$-\mu F_z$", ha="right")
     axes[0].set_xlim(0, None)
     axes[0].axhline(0, color="0.5", lw=0.5)
-    axes[0].set(xlabel="$F_z$ (N)", ylabel="$F_x$ (N)")
+    axes[0].set(title="forces", xlabel="$F_z$ (N)", ylabel="$F_x$ (N)")
     axes[1].set(xlim=(0, None), ylim=(0, 1.4), xlabel="$r$ (µm)")
-    axes[1].set_ylabel(r"$f_x/\mu p_0$")
+    axes[1].set(title="traction on the largest contact", ylabel=r"$f_x/\mu p_0$")
     axes[1].legend(title="obliquity", alignment="left")
-    save_figure(figure, Path(folder) / "oblique_loading.png")
-    return f"sticks below, slides beyond the critical angle; F_x within {worst:.0e} of mu P"
-
-
-if __name__ == "__main__":
-    print(main())
+    save_figure(figure, "oblique_loading.png")
+    print(f"sticks below, slides beyond the critical angle; F_x within {worst:.0e} of mu P")

@@ -12,15 +12,13 @@ upwards or downwards in turn as :math:`\chi` grows. Thick: where the contact sti
 Barber (1979), ZAMP 30:468, equations (15), (17)-(19), (21)-(27), (36), (37).
 """
 
-from pathlib import Path
-
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.special import gamma, hyp2f1
 
 import carom
 from carom.plots.legends import legend_above
-from carom.plots.style import BLACK, DASHES, LINES, new_figure, save_figure, styled
+from carom.plots.style import BLACK, DASHES, LINES, new_figure, save_figure, style
 
 CHIS = (0.3, 0.5, 1.44, 4.0, 6.0)
 PSI = 0.3
@@ -53,9 +51,7 @@ def growth(chi):
     return gamma(0.6) * gamma(0.5) / (gamma(alpha) * gamma(beta))
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check F two ways, its growth, and the memory of impacts; draw F."""
+with style():
     b = np.linspace(0.02, 0.985, 200)
     x = b**5
     figure, ((axis,),) = new_figure(height=68)
@@ -90,9 +86,5 @@ def main(folder: str | Path = ".") -> str:
     axis.set(xlim=(0, 1), ylim=(-4.6, 4.6))
     axis.set(xlabel="$x = cb^5 = (b/b_{max})^5$", ylabel=r"$g/\psi_1 = F(\alpha, \beta; 3/5; x)$")
     legend_above(axis, 3)
-    save_figure(figure, Path(folder) / "stick_memory.png")
-    return f"F by series, by stepping (15) and from whole impacts, the last within {worst:.0e}"
-
-
-if __name__ == "__main__":
-    print(main())
+    save_figure(figure, "stick_memory.png")
+    print(f"F by series, by stepping (15) and from whole impacts, the last within {worst:.0e}")

@@ -10,23 +10,12 @@ contact, and not at all sideways, so that nothing slips. Circles: differences of
 Barber (1979), ZAMP 30:468, equations (7) to (10).
 """
 
-from pathlib import Path
-
 import numpy as np
 
 import carom
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    DOUBLE,
-    GREEN,
-    VERMILION,
-    new_figure,
-    save_figure,
-    styled,
-)
+from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, style
 
+BLUE, VERMILION, GREEN, _, BLACK = LINES
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 G, NU, R, MU = BALL.material.shear_modulus, BALL.material.poisson, BALL.radius, PAIR.friction
@@ -39,9 +28,7 @@ def rates(hit, time, points, step=1e-4):
     return change.traction_x.values, change.displacement_x.values, change.displacement_y.values
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check the rates (7), (8) and the velocity (9), (10) at three instants; draw them."""
+with style():
     hit = carom.impact(PAIR, speed="1 m/s", angle="8 deg")
     stick = hit.phases[0]
     assert stick.kind == "stick"
@@ -82,12 +69,8 @@ def main(folder: str | Path = ".") -> str:
     for axis in axes:
         axis.axhline(0, color="0.5", lw=0.5)
         axis.set(xlim=(0, None), xlabel="$r$ (µm)")
-    axes[0].set(ylabel=r"$\partial f_x/\partial t$ (MPa/µs)")
-    axes[1].set(ylabel=r"$\partial u_x/\partial t$ (m/s)")
+    axes[0].set(title="growth of the traction", ylabel=r"$\partial f_x/\partial t$ (MPa/µs)")
+    axes[1].set(title="velocity of the surface", ylabel=r"$\partial u_x/\partial t$ (m/s)")
     axes[1].legend(title="time since the first touch", loc="upper right", bbox_to_anchor=(1, 0.9))
-    save_figure(figure, Path(folder) / "stick_rates.png")
-    return f"(7) holds; du_x/dt = V_x all over the patch, (8) and (10), within {worst:.0e}"
-
-
-if __name__ == "__main__":
-    print(main())
+    save_figure(figure, "stick_rates.png")
+    print(f"(7) holds; du_x/dt = V_x all over the patch, (8) and (10), within {worst:.0e}")

@@ -1,7 +1,7 @@
-r"""The stress below the surface
-============================
+r"""Find the stress below the surface
+=================================
 
-The stress below a patch: in Hertz's contact, in a sliding one, and in the middle of an impact.
+`hit.stress` gives all stresses below the contact at an instant, `hit.peaks` the largest of all.
 
 Without friction the largest shear stress lies at a depth of :math:`0.48\,b`. Friction moves the
 largest stress up, from :math:`\mu = 0.3` or so to the surface, and stretches the surface behind the
@@ -11,27 +11,25 @@ has a cusp between them.
 Huber (1904) on the axis, Hamilton (1983) in sliding; Johnson (1985), sections 3.4 and 7.1.
 """
 
-from pathlib import Path
-
 import numpy as np
 from matplotlib.patheffects import withStroke
 
 import carom
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    DOUBLE,
-    MAP,
-    VERMILION,
-    new_figure,
-    save_figure,
-    styled,
-)
+from carom.plots.style import DASHES, DOUBLE, LINES, MAP, new_figure, save_figure, style
 
-BALL = carom.Sphere(radius="5 mm", material="steel")
+ball = carom.Sphere(radius="5 mm", material="steel")
+pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.4)
+hit = carom.impact(pair, normal_speed="1 m/s", tangential_speed="0.5 m/s")
+now = hit.stress(0.6 * hit.duration)
+print(f"now {now.max_von_mises / 1e9:.2f} GPa, {1e6 * now.max_von_mises_z:.0f} um deep", end=", ")
+print(f"in the whole impact {hit.peaks().sel(body='second').peak_von_mises / 1e9:.2f} GPa")
+
+# %%
+# The stress below a patch in Hertz's contact, in a sliding one, and in the middle of an impact.
+
+BLUE, VERMILION, _, _, BLACK = LINES
 LEVELS = np.linspace(0, 0.8, 17)
-NU = BALL.material.poisson
+NU = ball.material.poisson
 
 
 def on_axis(z):
@@ -57,7 +55,7 @@ def draw_map(axis, stress, peak):
 
 def struck(friction, velocity):
     """A ball that comes in at 1 m/s and with a velocity along the surface."""
-    pair = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction)
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction)
     return carom.impact(pair, normal_speed="1 m/s", tangential_speed=velocity)
 
 
@@ -69,9 +67,7 @@ def below(hit, time):
     )
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check the axis, the largest shear, and the tension behind sliding; draw three maps."""
+with style():
     rest, rubbed, gripped = struck(0.0, 0.0), struck(0.4, 10.0), struck(0.4, 0.5)
     half, b, peak = rest.duration / 2, rest.max_radius, rest.max_pressure
     z = np.linspace(0, 2, 101)
@@ -88,14 +84,14 @@ def main(folder: str | Path = ".") -> str:
     np.testing.assert_allclose(slides.max_tension_x, -b, rtol=1e-9, err_msg="behind the contact")
     slip = next(phase for phase in gripped.phases if phase.kind == "slip")
     turns = below(gripped, 0.5 * (slip.start + slip.end))
-    now = turns.contact_radius * 2 * BALL.material.shear_modulus / (np.pi * BALL.radius * (1 - NU))
+    now = turns.contact_radius * 2 * ball.material.shear_modulus / (np.pi * ball.radius * (1 - NU))
 
     figure, axes = new_figure(2, 2, width=DOUBLE, height=94)
     axes[0, 0].plot(-along, z, color=BLUE, label=r"$-\sigma_{xx}$")
     axes[0, 0].plot(-down, z, color=VERMILION, ls=DASHES[1], label=r"$-\sigma_{zz}$")
     axes[0, 0].plot(shear, z, color=BLACK, ls=DASHES[2], label=r"$\tau_{max}$")
     axes[0, 0].plot(0.31, 0.48, "+", color=BLACK, ms=7)
-    axes[0, 0].set(xlim=(0, 1.02), ylim=(2, 0), ylabel="$z/b$")
+    axes[0, 0].set(title="no friction, on the axis", xlim=(0, 1.02), ylim=(2, 0), ylabel="$z/b$")
     axes[0, 0].set_xlabel("stress at rest, over $p_0$")
     axes[0, 0].legend(loc="lower right")
     maps = {
@@ -107,9 +103,5 @@ def main(folder: str | Path = ".") -> str:
         shading = draw_map(axis, stress, p_0)
         axis.set_title(f"{title}: {float(stress.max_von_mises) / p_0:.2f} $p_0$ at +", pad=7)
     figure.colorbar(shading, ax=axes[:, 1], label=r"von Mises stress, $\sigma_{vM}/p_0$", aspect=40)
-    save_figure(figure, Path(folder) / "stress_below.png")
-    return f"axis within {error:.0e} of p_0; tension behind sliding {tension:.3f} p_0 exact"
-
-
-if __name__ == "__main__":
-    print(main())
+    save_figure(figure, "stress_below.png")
+    print(f"axis within {error:.0e} of p_0; tension behind sliding {tension:.3f} p_0 exact")

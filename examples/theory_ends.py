@@ -1,12 +1,12 @@
-r"""When the theory ends
-====================
+r"""Ask whether the theory holds for a ball
+=======================================
 
-When the theory ends: which assumption holds at which speed, for three balls.
+`hit.validity` says whether each assumption of the theory holds for an impact, fails or was not
+judged.
 
-Each row is an assumption of the elastic theory, as `hit.validity` judges it for impacts at 10
-degrees. Where all rows hold, the restitution is within 0.01 of that of the theory. For a ball of
-your own, give its material, its radius and, if it strikes a plate, the thickness:
-`python theory_ends.py alumina "2 mm" "10 mm"`.
+Each row of the picture is an assumption, judged for impacts at 10 degrees. Where all rows hold, the
+restitution is within 0.01 of that of the theory. For a ball of your own, give its material, its
+radius and, if it strikes a plate, the thickness: `python theory_ends.py alumina "2 mm" "10 mm"`.
 """
 
 import sys
@@ -18,6 +18,13 @@ from matplotlib.patches import Patch
 import carom
 from carom.plots.style import DOUBLE, VERMILION, new_figure, save_figure, styled
 
+ball = carom.Sphere(radius="5 mm", material="bearing-steel")
+pair = carom.Pair(ball, carom.HalfSpace("bearing-steel"), friction=0.15)
+hit = carom.impact(pair, speed="0.5 m/s", angle="10 deg")
+print(hit.validity)
+
+# %%
+# The figure: three balls at many speeds.
 SPEEDS = np.geomspace(1e-4, 100.0, 73)  # m/s
 ABSENT = "speed by weight/V_1"  # where it holds
 ROWS = {  # findings of validity by what one would call them
@@ -92,7 +99,7 @@ def main(folder: str | Path = ".") -> str:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 2:
+    if Path(sys.argv[0]).stem == "theory_ends" and len(sys.argv) > 2:
         rows = verdicts(*sys.argv[1:])
         save_figure(draw({", ".join(sys.argv[1:]): rows}), "theory_ends.png")
         print("the theory holds from {:.2g} to {:.2g} m/s".format(*holding(rows)))

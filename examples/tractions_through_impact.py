@@ -10,15 +10,13 @@ the middle, laid down long before, lasts to the end. Dashed: the limits :math:`\
 Barber (1979), ZAMP 30:468, equation (6) and section 7; here with the slip ring solved.
 """
 
-from pathlib import Path
-
 import numpy as np
 from matplotlib.patches import Patch
 from numpy.polynomial.chebyshev import chebval
 
 import carom
 from carom.plots.bands import BANDS, SIGNS, STICK, shade, slip_band
-from carom.plots.style import BLACK, BLUE, DASHES, DOUBLE, new_figure, save_figure, styled
+from carom.plots.style import BLACK, BLUE, DASHES, DOUBLE, new_figure, save_figure, style
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
@@ -62,9 +60,7 @@ def explain(figure, axis):
     figure.legend(handles=[*lines, *zones], loc="outside upper center", ncols=7)
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check (6), Coulomb's law, (11) and (12) at six instants; draw the tractions."""
+with style():
     hit = carom.impact(PAIR, speed="2 m/s", angle="25 deg")
     kinds = [phase.kind for phase in hit.phases]
     assert kinds == ["gross slip", "stick", "slip", "gross slip"], kinds
@@ -105,9 +101,5 @@ def main(folder: str | Path = ".") -> str:
         axis.set_ylabel(r"$f_x/\mu p_{max}$")
     assert worst < 1e-10, f"(6) by quadrature differs by {worst:.1e}"
     explain(figure, axes[0, 0])
-    save_figure(figure, Path(folder) / "tractions_through_impact.png")
-    return f"(6) by quadrature within {worst:.0e} of mu p_max; (11), (12) and Coulomb's law hold"
-
-
-if __name__ == "__main__":
-    print(main())
+    save_figure(figure, "tractions_through_impact.png")
+    print(f"(6) by quadrature within {worst:.0e} of mu p_max; (11), (12) and Coulomb's law hold")

@@ -1,27 +1,35 @@
-r"""Where wear is largest against the angle
-=======================================
+r"""Find where friction wears most
+==============================
 
-A steel ball on steel: what friction takes, where in the contact, and at which angle the most.
+`hit.wear` gives the work of friction over the contact, which Archard's law turns into a depth.
 
-Where the ball slides throughout, friction takes :math:`W = 2\mu m_n V_1 (V_x - \mu m_n V_1/m_t)`.
-This is largest where :math:`\tan 2\theta = -m_t/(\mu m_n)`, at 55 degrees from the normal for
-:math:`\mu = 0.1` and at 77 for 0.6. The work per area is then largest in the centre. Near the
-normal the middle of the contact sticks for a long time, and the largest work per area lies on a
-ring. By Archard's law the depth of wear is :math:`k/\mu` times the work per area.
+Where the ball slides throughout, friction dissipates
+:math:`W = 2\mu m_n V_1 (V_x - \mu m_n V_1/m_t)`. This is largest where
+:math:`\tan 2\theta = -m_t/(\mu m_n)`, at 55 degrees from the normal for :math:`\mu = 0.1` and at 77
+for 0.6. The work per area is then largest in the centre. Near the normal the middle of the contact
+sticks for a long time, and the largest work per area lies on a ring. By Archard's law the depth of
+wear is :math:`k/\mu` times the work per area.
 
 Archard (1953), J. Appl. Phys. 24:981; Maw, Barber & Fawcett (1976), Wear 38:101.
 """
-
-from pathlib import Path
 
 import numpy as np
 
 import carom
 from carom.impacts.curves import borders
-from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, styled
+from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, style
 
-BALL = carom.Sphere(radius="5 mm", material="steel")
-PLANE = carom.HalfSpace(material="steel")
+ball = carom.Sphere(radius="5 mm", material="steel")
+wall = carom.HalfSpace(material="steel")
+pair = carom.Pair(ball, wall, friction=0.3)
+wear = carom.impact(pair, speed="2 m/s", angle="50 deg").wear(coefficient="1e-13 m^2/N")
+print(f"friction dissipates {1e3 * wear.dissipated_energy:.3f} mJ", end=", ")
+print(f"wears {1e9 * wear.max_wear_depth:.3f} nm", end=", ")
+print(f"most at a radius of {1e6 * wear.max_wear_radius:.0f} um")
+
+# %%
+# A steel ball on steel: which angle wears most, and where in the contact.
+
 FRICTION = (0.1, 0.3, 0.6)
 SPEED = 2.0
 ANGLES = np.arange(1.0, 89.5, 1.0)
@@ -38,14 +46,12 @@ def radians():
     return np.radians(ANGLES)
 
 
-@styled
-def main(folder: str | Path = ".") -> str:
-    """Check the sum over the contact, sliding in closed form, and the worst angle; draw all."""
+with style():
     figure, (axes,) = new_figure(1, 3, width=DOUBLE, height=62)
     most, error = {}, 0.0
     for mu, color, dash in zip(FRICTION, LINES, DASHES, strict=False):
-        pair = carom.Pair(BALL, PLANE, friction=mu)
-        ratio, energy = pair.normal_mass / pair.tangential_mass, 0.5 * BALL.mass * SPEED**2
+        pair = carom.Pair(ball, wall, friction=mu)
+        ratio, energy = pair.normal_mass / pair.tangential_mass, 0.5 * ball.mass * SPEED**2
         result, theta = worn(pair), radians()
         share = result["dissipated_energy"] / energy
         error = max(error, result["work_error"].max())
@@ -68,22 +74,15 @@ def main(folder: str | Path = ".") -> str:
         for axis, values in ((axes[0], 100.0 * share), (axes[1], work)):
             axis.plot(ANGLES[values.argmax()], values.max(), "o", color=color)
     assert error < 1e-8, f"the work per area is off by {error:.0e} of the work"
-    labels = (
-        "work of friction, share of the energy (%)",
-        "largest work per area (kJ/m²)",
-        "where it lies, $r_w/a_{max}$",
-    )
-    for axis, label in zip(axes, labels, strict=True):
-        axis.set(xlabel=r"$\theta$ (deg)", ylabel=label, xlim=(0, 90))
+    titles = ("work of friction", "largest work per area", "where it lies")
+    labels = ("share of the energy (%)", "work per area (kJ/m²)", "$r_w/a_{max}$")
+    for axis, title, label in zip(axes, titles, labels, strict=True):
+        axis.set(title=title, xlabel=r"$\theta$ (deg)", ylabel=label, xlim=(0, 90))
         axis.set_ylim(bottom=0.0)
     axes[2].set_ylim(-0.02, 1.0)
     axes[0].legend(loc="upper left")
-    save_figure(figure, Path(folder) / "wear_against_angle.png")
+    save_figure(figure, "wear_against_angle.png")
     angles = ", ".join(f"{angle:.0f}" for angle in most.values())
-    return (
+    print(
         f"summed over the contact to {error:.0e}; most at {angles} degrees, where the ball slides"
     )
-
-
-if __name__ == "__main__":
-    print(main())

@@ -1,4 +1,4 @@
-"""Links that lead out of the manual, and the index of equations.
+"""Links that lead out of the manual, the index of equations, and the sections of the Cookbook.
 
 The pages are also read where the sources are kept, as they stand, so they hold no roles, only
 links. What the manual needs besides is added here while it is read.
@@ -10,13 +10,19 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
+COOKBOOK = "gallery/index"
+
 
 def complete(app: Sphinx, page: str, source: list[str]) -> None:
     """Let links lead to what the manual shows, and add the index of equations to its page."""
-    if page == "scripts":
-        index = app.srcdir.parent / "examples" / "README.md"
+    index = app.srcdir.parent / "examples" / "README.md"
+    if page in ("scripts", COOKBOOK):
         app.env.note_dependency(index)
+    if page == "scripts":
         source[0] += equations(index)
+    if page == COOKBOOK:  # its header alone, without the thumbnails below, which know no sections
+        header = source[0].partition("\n.. raw:: html")[0]
+        source[0] = header + cookbook(index.read_text(encoding="utf-8"))
     source[0] = led_to_gallery(source[0])
 
 
@@ -25,6 +31,34 @@ def equations(index: Path) -> str:
     part = index.read_text(encoding="utf-8").partition("equations to the scripts\n")[2]
     part = part.partition("\nData:")[0]
     return re.sub(r"\]\((?!http)", "](../examples/", part).replace("../examples/../docs/", "")
+
+
+def cookbook(index: str) -> str:
+    """Return the sections of the examples' index with their scripts, in reStructuredText.
+
+    >>> print(cookbook("# A\\n## B\\n| [c.py](c.py) | d |\\n| [e.py](e.py) | f |\\n## G\\nh"))
+    <BLANKLINE>
+    B
+    -
+    <BLANKLINE>
+    .. minigallery:: ../examples/c.py ../examples/e.py
+    <BLANKLINE>
+    .. toctree::
+       :hidden:
+    <BLANKLINE>
+       /gallery/c
+       /gallery/e
+    <BLANKLINE>
+    """
+    text, pages = "", []
+    for section in index.split("\n## ")[1:]:
+        title, _, rows = section.partition("\n")
+        scripts = re.findall(r"^\| \[(\w+)\.py\]", rows, re.MULTILINE)
+        pages += [f"   /gallery/{script}\n" for script in scripts]
+        if scripts:
+            paths = " ".join(f"../examples/{script}.py" for script in scripts)
+            text += f"\n{title}\n{'-' * len(title)}\n\n.. minigallery:: {paths}\n"
+    return f"{text}\n.. toctree::\n   :hidden:\n\n{''.join(pages)}"
 
 
 def led_to_gallery(text: str) -> str:

@@ -1,8 +1,7 @@
-"""What the gallery does beside running the examples: their pictures, and where they are."""
+"""What the Cookbook does beside running the examples: their pictures, and their order."""
 
-import builtins
 from pathlib import Path
-from shutil import move
+from shutil import move, rmtree
 from typing import Any
 
 from sphinx_gallery.scrapers import figure_rst
@@ -19,11 +18,15 @@ def take_picture(block: Any, variables: dict[str, Any], gallery: dict[str, Any])
     return figure_rst(taken, gallery["src_dir"])
 
 
-def give_file(gallery: dict[str, Any], script: str | None) -> None:
-    """Let a script know where it is: the gallery runs its text without `__file__`."""
-    vars(builtins)["__file__"] = str(EXAMPLES / (script or ""))
+def clear(gallery: dict[str, Any], script: str | None, when: str) -> None:
+    """Remove what else a script has left beside it: tables, reports, stores of its name."""
+    for path in EXAMPLES.glob(f"{Path(script).stem}.*") if script else ():
+        if path.is_dir():
+            rmtree(path)
+        elif path.name != Path(script).name:
+            path.unlink()
 
 
 def place_in_index(script: str) -> int:
     """Return where the index of the examples names a script: their order."""
-    return (EXAMPLES / "README.md").read_text(encoding="utf-8").find(f"[{script}]")
+    return (EXAMPLES / "README.md").read_text(encoding="utf-8").find(f"[{Path(script).name}]")

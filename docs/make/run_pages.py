@@ -37,7 +37,7 @@ from carom.cli import main as command
 
 DOCS = Path(__file__).parents[1]
 EXAMPLES = DOCS.parent / "examples"
-MAPS = {"contact_through_impact", "patch_in_microslip"}  # of tractions: they keep all colours
+MAPS = {"contact_through_impact", "full_contact", "patch_in_microslip"}  # they keep all colours
 sys.path.append(str(DOCS.parent / "studies"))
 
 from small_pictures import store_small  # noqa: E402
@@ -146,9 +146,11 @@ def pictures(page: Path) -> list[Path]:
 
 def draw_gallery() -> None:
     """Draw the figures of the index of the examples: its scripts' own."""
+    sys.argv[1:] = []
     for figure in sorted(DOCS.glob("figures/gallery/*.png")):
         with tempfile.TemporaryDirectory() as folder:
-            runpy.run_path(str(EXAMPLES / f"{figure.stem}.py"))["main"](folder)
+            with chdir(folder):
+                runpy.run_path(str(EXAMPLES / f"{figure.stem}.py"), run_name="__main__")
             store_small(Path(folder) / figure.name, figure, all_colors=figure.stem in MAPS)
 
 
@@ -156,7 +158,8 @@ def main() -> int:
     """Run the pages, store their pictures, and tell what differs."""
     matplotlib.use("agg")
     wrong = 0
-    for page in [Path(name).resolve() for name in sys.argv[1:]] or PAGES:
+    pages = [Path(name).resolve() for name in sys.argv[1:]] or PAGES
+    for page in pages:
         if page == EXAMPLES / "README.md":
             draw_gallery()
         with tempfile.TemporaryDirectory() as folder:

@@ -3,7 +3,6 @@
 import io
 import json
 import re
-import runpy
 from pathlib import Path
 
 import numpy as np
@@ -11,12 +10,11 @@ import openpyxl
 import pandas as pd
 import pytest
 from tests.checks import refused
+from tests.films import NAMES, PAIR, filmed, impacts, store
 
 import carom
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-EXAMPLE = runpy.run_path(str(EXAMPLES / "camera_track.py"))
-NAMES, PAIR, filmed = (EXAMPLE[name] for name in ("NAMES", "PAIR", "filmed"))
 HIT = carom.impact(
     PAIR, speed=1.5, angle="32 deg", spin=-50.0, losses=carom.KelvinVoigt(restitution=0.9)
 )
@@ -59,7 +57,7 @@ def test_errors_are_those_of_the_noise(film, asked):
 @pytest.mark.parametrize("name", FILES)
 def test_exports_give_the_impact_within_three_errors(name):
     """The files are those that the example writes: of the fifth of its impacts."""
-    hit = EXAMPLE["impacts"]()[4]
+    hit = impacts()[4]
     motions = carom.track(EXAMPLES / "data" / name, **FILES[name])
     names = [each for each in NAMES if each in motions]
     assert len(names) == (4 if "tracker" in name else 6)
@@ -124,8 +122,8 @@ def test_all_faults_of_all_tracks_are_told_with_their_cells(tmp_path):
         assert re.search(words, line), words
 
 
-def test_files_of_the_examples_are_what_their_script_writes(tmp_path):
-    EXAMPLE["store"](tmp_path)
+def test_files_of_the_examples_are_what_the_camera_saw(tmp_path):
+    store(tmp_path)
     for name in FILES:
         stored = (EXAMPLES / "data" / name).read_text(encoding="utf-8")
         assert (tmp_path / name).read_text(encoding="utf-8") == stored
@@ -184,7 +182,7 @@ def test_one_track_in_many_ways_is_one_motion(change, asked):
 
 def test_a_stored_table_goes_into_a_fit(tmp_path):
     """As .csv and as it is: one fit, in which the errors of the tracks count."""
-    tracks = [filmed(hit, seed) for seed, hit in enumerate(EXAMPLE["impacts"]())]
+    tracks = [filmed(hit, seed) for seed, hit in enumerate(impacts())]
     motions = carom.track(tracks, **SCALE)
     found = carom.fit(motions, pair=PAIR)
     again = carom.fit(carom.save(motions, tmp_path / "rebounds.csv"), pair=PAIR)
