@@ -67,21 +67,22 @@ def draw(data, curves, misfits):
     figure, axes = new_figure(1, 3, width=DOUBLE, height=68.0)
     left, middle, right = axes[0]
     degrees = np.degrees(data.angle.values)
-    left.errorbar(degrees, data.tangential_restitution, 0.02, fmt="o", ms=3, color=BLACK, lw=0.6)
-    middle.errorbar(degrees, -data.spin_out, 20.0, fmt="o", ms=3, color=BLACK, lw=0.6)
+    dots = {"ls": "none", "marker": "o", "ms": 3, "color": BLACK, "zorder": 3}
+    left.plot(degrees, data.tangential_restitution, label="measured", **dots)
+    middle.plot(degrees, -data.spin_out, **dots)
     for number, (name, (angle, tangential, color)) in enumerate(curves.items()):
         how = {"color": color, "ls": DASHES[number % len(DASHES)], "lw": 1.6 - 0.7 * (number > 0)}
         left.plot(np.degrees(angle), tangential, label=name, **how)
         middle.plot(np.degrees(angle), -spin(angle, tangential), **how)
-    left.set(xlim=(0.0, 65.0), ylim=(0.4, 1.0), xlabel=r"$\theta$ (deg)")
-    left.set_ylabel("$e_t$")
-    middle.set(xlim=(0.0, 65.0), ylim=(0.0, 800.0), xlabel=r"$\theta$ (deg)")
-    middle.set_ylabel(r"$|\omega'|$ (rad/s)")
+    left.set(ylim=(0.4, 1.0), title="Rebound of the centre", ylabel="tangential restitution $e_t$")
+    middle.set(ylim=(0.0, 800.0), title="Spin", ylabel=r"spin after the impact $|\omega'|$ (rad/s)")
+    for axis in (left, middle):
+        axis.set(xlim=(0.0, 65.0), xlabel=r"angle of incidence $\theta$ (deg)")
     places = np.arange(len(misfits))[::-1]
     right.barh(places, misfits.values(), color=[color for *_, color in curves.values()], height=0.6)
     right.set_yticks(places, misfits)
-    right.set(xlabel="rms distance in $e_t$", xlim=(0.0, None))
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=6)
+    right.set(xlabel="rms distance in $e_t$", xlim=(0.0, None), title="Distance from all points")
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=7)
     return figure
 
 

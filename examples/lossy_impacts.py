@@ -60,19 +60,25 @@ def draw(curves, marched, speeds, plastic, viscous, relaxing):
     figure, axes = new_figure(1, 2, width=DOUBLE, height=74.0)
     left, right = axes[0]
     for (e, color), dash in zip(WANTED.items(), DASHES, strict=False):
-        left.plot(PSI, curves[e], color=color, ls=dash, label=f"e = {e:g}")
-        left.plot(PSI, PSI - 2.0 * CHI * (1.0 + e), color=color, lw=0.4)
-        left.plot(CROSSES, marched[e], "x", color=color, ms=4)
+        left.plot(PSI, curves[e], color=color, ls=dash, label=f"$e$ = {e:g}")
+    for e, color in WANTED.items():
+        first = e == 1.0
+        left.plot(
+            CROSSES, marched[e], "x", color=color, ms=4, label="small steps" if first else None
+        )
+        sliding = r"$\psi_1 - 2\chi(1 + e)$" if first else None
+        left.plot(PSI, PSI - 2.0 * CHI * (1.0 + e), color=color, lw=0.4, label=sliding)
     left.set(xlim=(0.0, 8.0), ylim=(-2.0, 4.0), xlabel=r"$\psi_1$", ylabel=r"$\psi_2$")
-    legend_above(left, 4)
+    legend_above(left, 3)
     right.plot(speeds, plastic, color=BLACK, label="elastic-plastic, $V_y$ = 0.1 m/s")
     right.plot(speeds, viscous, color=BLUE, ls=DASHES[1], label=r"viscous, $\tau$ = 1 µs")
     linear = r"standard linear, $E_0/E$ = 2, $\tau$ = 7 µs"
     right.plot(speeds, relaxing, color=GREEN, ls=DASHES[2], label=linear)
     late = speeds[speeds > 1.0]
-    right.plot(late, plastic[-1] * (late / late[-1]) ** -0.25, color=VERMILION, lw=0.6)
-    right.text(3.0, 0.62, r"$V^{-1/4}$", color=VERMILION)
-    right.set(xscale="log", yscale="log", xlabel="$V_1$ (m/s)", ylabel="$e$")
+    slope = plastic[-1] * (late / late[-1]) ** -0.25
+    right.plot(late, slope, color=VERMILION, lw=0.6, label=r"$\propto V_1^{-1/4}$")
+    right.set(xscale="log", yscale="log", xlabel="normal speed $V_1$ (m/s)")
+    right.set_ylabel("coefficient of restitution $e$")
     ticks = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
     right.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     right.minorticks_off()

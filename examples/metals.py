@@ -83,7 +83,7 @@ def draw(metals, plastic):
         right.plot(RATIOS, mean, **style)
     for axis, values in zip((left, right), plastic, strict=True):
         axis.plot(RATIOS, values, color=VERMILION, ls=DASHES[2], label="ElasticPlastic")
-        axis.set(xscale="log", xlim=(1.0, 1000.0), xlabel="$V_1/V_y$")
+        axis.set(xscale="log", xlim=(1.0, 1000.0), xlabel="speed over yield velocity $V_1/V_y$")
     late = RATIOS[RATIOS > 60.0]
     johnson, scaled = (value * late**-0.25 for value in (fully_plastic(JOHNSON), SCALING))
     left.plot(late, johnson, color="0.5", lw=0.7, label="Johnson, fully plastic at 3 $Y$")
@@ -92,9 +92,10 @@ def draw(metals, plastic):
     left.plot(large, 0.62 * (large * max(STRAINS)) ** -0.5, color=GREEN, lw=0.9)
     early = np.geomspace(2.0, 60.0, 13)
     left.plot(early, jackson(early), ".", color=BLACK, ms=3, label="Jackson, Green & Marghitu")
-    left.set(ylim=(0.2, 1.02), ylabel="$e$")
+    left.set(ylim=(0.2, 1.02), ylabel="coefficient of restitution $e$")
     right.axhline(HARDNESS, color="0.4", lw=0.6)
-    right.set(ylim=(0.9, 3.0), ylabel="mean pressure/Y")
+    right.text(1.2, HARDNESS + 0.03, f"fully plastic, {HARDNESS:g}")
+    right.set(ylim=(0.9, 3.0), ylabel="mean pressure over yield strength $Y$")
     legend_above(left, 2)
     return figure
 
