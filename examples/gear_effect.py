@@ -44,8 +44,10 @@ def hook(hit):
 def draw(faces, frictions):
     """Draw sidespin over the place, for two faces and for four frictions."""
     figure, axes = new_figure(1, 2, width=DOUBLE, height=66.0)
-    for axis, curves in zip(axes[0], (faces, frictions), strict=True):
+    alike = r"$\mu$ = 0.4", "bulge 305 mm"
+    for axis, curves, words in zip(axes[0], (faces, frictions), alike, strict=True):
         zero_line(axis)
+        axis.text(0.97, 0.05, words, ha="right", transform=axis.transAxes)
         for color, dash, (name, spins) in zip(LINES, DASHES, curves.items(), strict=False):
             axis.plot(PLACES, spins, color=color, ls=dash, label=name)
         axis.set(xlim=PLACES[[0, -1]], xlabel="place on the face, toe positive (mm)")

@@ -67,7 +67,10 @@ def draw(dropped, moving):
     for axis in (left, right):
         axis.set(xlim=(0.0, 85.0), xlabel="angle between rod and normal (degrees)")
         legend_above(axis, 2)
+    left.text(1.5, 0.61, "dropped")
+    right.text(1.5, 1.36, r"also sliding along the wall, $\mu$ = 1")
     left.set(ylim=(0.6, 1.05), ylabel="restitution of the contact points $e$")
+    right.set_ylim(0.6, 1.4)
     return figure
 
 
