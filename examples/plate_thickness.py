@@ -121,7 +121,7 @@ def draw(wide, near, radii, thick):
             left.plot(radii, np.where(wave < 6.0, e, nan), color=LINES[i], lw=width, ls=":")
         left.plot([], [], color=LINES[i], label=f"{first} on {second}".replace("-", " "))
     left.set(xlim=(0.0, 6.0), ylim=(0.0, 1.0), ylabel="coefficient of restitution $e$")
-    left.text(5.8, 0.05, "thick lines 0.1 m/s, thin lines 1 m/s", ha="right")
+    left.text(5.8, 0.05, "thick lines 0.1 m/s, thin lines 1 m/s,\ndotted: an estimate", ha="right")
     for i, (speed, (e, wave, exact)) in enumerate(near.items()):
         right.plot(thick, 1.0 - e, color=LINES[i], lw=0.7, ls="--")
         label = f"all waves, {speed:g} m/s"
@@ -130,6 +130,7 @@ def draw(wide, near, radii, thick):
         loss = np.interp(border, thick, 1.0 - e)
         right.plot(border, loss, "o", color=LINES[i], mfc="white")
     right.plot([], [], color=BLACK, lw=0.7, ls="--", label="thin plate")
+    right.plot([], [], "o", color=BLACK, mfc="white", label="bending wave of 6 $h$")
     right.axhline(0.01, color="0.6", lw=0.6)
     right.text(1.1, 0.0094, "$e$ = 0.99", color="0.4", va="top")
     right.set(xscale="log", yscale="log", xlim=thick[[0, -1]], ylim=(5e-4, 0.3), ylabel="$1 - e$")

@@ -30,6 +30,11 @@ def write(axis: Axes, x: float, y: float, words: str, colour: str = PLAIN, **loo
     axis.text(x, y, words, color=colour, **{"ha": "center", "va": "center", **look})
 
 
+def title(axis: Axes, x: float, y: float, words: str) -> None:
+    """Write what a drawing shows above it."""
+    write(axis, x, y, words, fontweight="bold")
+
+
 def arrow(
     axis: Axes, start: Any, end: Any, colour: str, words: str = "", beside: Any = 0.0, **look: Any
 ) -> None:
@@ -74,13 +79,13 @@ def oblique(axis: Axes) -> None:
         axis.plot(*zip(place, touch, strict=True), color=colour, lw=0.7, ls=(0, (1.5, 1.5)))
         ball(axis, place, colour)
         arrow(axis, place, place + move, colour)
-    write(axis, first[0] + 0.3, first[1] + 0.12, "speed", BEFORE, ha="left", va="baseline")
+    write(axis, first[0] + 0.38, first[1] + 0.12, "speed", BEFORE, ha="left", va="baseline")
     write(axis, last[0] + 0.46, last[1] + 0.42, "rebound_speed", AFTER, ha="left")
     angles = 90.0 + np.degrees([ANGLE, -REBOUND])
     axis.add_patch(Arc(touch, 1.7, 1.7, theta1=90.0, theta2=angles[0], color=BEFORE, lw=0.9))
     axis.add_patch(Arc(touch, 2.1, 2.1, theta1=angles[1], theta2=90.0, color=AFTER, lw=0.9))
     write(axis, -0.42, 1.3, "angle", BEFORE, va="baseline")
-    write(axis, 0.05, 1.62, "rebound_angle\n> 0: flies on", AFTER, ha="left")
+    write(axis, 0.05, 1.6, "rebound_angle\n> 0: flies on", AFTER, ha="left", fontsize=6.5)
     turn(axis, first, 1.35 * RADIUS, 175.0, 270.0, BEFORE)
     write(axis, first[0] - 0.52, first[1] - 0.6, "spin > 0\n(backspin)", BEFORE)
     turn(axis, last, 1.35 * RADIUS, 100.0, 0.0, AFTER)
@@ -90,7 +95,8 @@ def oblique(axis: Axes) -> None:
     rim = touch + 0.7 * RADIUS * np.array([-1.0, 1.0])
     axis.plot(*zip(touch, rim, strict=True), color=PLAIN, lw=0.8, zorder=5)
     write(axis, -0.12, 0.53, "$R$", zorder=5)
-    sheet(axis, (-2.15, 2.35), (-0.22, 2.55))
+    title(axis, 0.1, 2.72, "Oblique impact")
+    sheet(axis, (-2.15, 2.35), (-0.22, 2.8))
 
 
 def drop(axis: Axes) -> None:
@@ -102,13 +108,14 @@ def drop(axis: Axes) -> None:
         axis.plot([x - 0.42, x + 0.42], [bottom, bottom], color=colour, lw=0.6)
         arrow(axis, (x - 0.36, 0.0), (x - 0.36, bottom), colour, arrowstyle="<|-|>")
         write(axis, x - 0.43, 0.5 * bottom, words, colour, rotation=90, ha="right")
-    sheet(axis, (-1.0, 1.6), (-0.22, 2.55))
+    title(axis, 0.3, 2.72, "Vertical drop")
+    sheet(axis, (-1.0, 1.6), (-0.22, 2.8))
 
 
 @style.styled
 def main() -> None:
     """Draw and store."""
-    figure, axes = style.new_figure(1, 2, width=style.DOUBLE, height=68.0, width_ratios=(4.5, 2.6))
+    figure, axes = style.new_figure(1, 2, width=style.DOUBLE, height=73.0, width_ratios=(4.5, 2.6))
     oblique(axes[0, 0])
     drop(axes[0, 1])
     figure.savefig(FIGURE, dpi=200)

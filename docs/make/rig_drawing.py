@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Polygon, Rectangle
-from measuring_drawing import AFTER, BEFORE, DASHED, PLAIN, arrow, sheet, turn, write
+from measuring_drawing import AFTER, BEFORE, DASHED, PLAIN, arrow, sheet, title, turn, write
 
 from carom.plots import style
 
@@ -59,7 +59,7 @@ def view(axis: Axes) -> None:
     axis.plot(*zip(touch, touch + 1.45 * NORMAL, strict=True), color=PLAIN, lw=0.7, ls=DASHED)
     degrees = 90.0 - np.degrees(TILT)
     axis.add_patch(Arc(tuple(touch), 1.7, 1.7, theta1=degrees, theta2=90.0, color=BEFORE, lw=0.9))
-    write(axis, touch[0] + 0.22, touch[1] + 0.99, "angle", BEFORE)
+    write(axis, touch[0] + 0.25, touch[1] + 1.12, "angle", BEFORE)
     arrow(axis, 0.9 * ALONG, 0.9 * ALONG - THICK * NORMAL, PLAIN, arrowstyle="<|-|>")
     write(axis, *(0.82 * ALONG - 0.5 * THICK * NORMAL), "thicker than\n6 radii", ha="right")
     low, high = ends[2], ends[3]
@@ -68,7 +68,8 @@ def view(axis: Axes) -> None:
     write(axis, high[0] + 0.08, low[1] + 0.15, "wedge: tilt = angle", ha="left")
     axis.plot([1.5, 2.5], [0.25, 0.25], color=PLAIN, lw=2.0)
     write(axis, 2.1, 0.1, "scale, in the plane of the motion")
-    sheet(axis, (-1.95, 3.4), (-1.85, 2.7))
+    title(axis, 0.7, 2.75, "What the camera sees")
+    sheet(axis, (-1.95, 3.4), (-1.85, 2.85))
 
 
 def side(axis: Axes) -> None:
@@ -83,13 +84,14 @@ def side(axis: Axes) -> None:
     axis.plot([-1.3, -1.3], [-0.2, 1.4], color=PLAIN, lw=2.0)
     write(axis, -1.3, 1.65, "bright screen")
     axis.plot([-1.6, 3.2], [-1.4, -1.4], color=PLAIN, lw=1.0)
-    sheet(axis, (-1.9, 3.4), (-1.85, 2.7))
+    title(axis, 0.7, 2.75, "From the side")
+    sheet(axis, (-1.9, 3.4), (-1.85, 2.85))
 
 
 @style.styled
 def main() -> None:
     """Draw and store."""
-    figure, axes = style.new_figure(1, 2, width=style.DOUBLE, height=88.0, width_ratios=(4.9, 4.0))
+    figure, axes = style.new_figure(1, 2, width=style.DOUBLE, height=90.0, width_ratios=(4.9, 4.0))
     view(axes[0, 0])
     side(axes[0, 1])
     figure.savefig(FIGURE, dpi=200)
