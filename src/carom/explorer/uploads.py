@@ -212,7 +212,7 @@ def _chart(dataset: xr.Dataset, name: str) -> dict[str, Any]:
     spinning = bool(dataset.attrs["spinning"])
     measured, residual, error = (scale * one[k].values for k in ("measured", "residual", "error"))
     return {
-        **_points(dataset, np.degrees(one["incidence"].values), measured, residual, error),
+        **_points(one, np.degrees(one["incidence"].values), measured, residual, error),
         **_lines(along, lines),
         "response": name.replace("_", " "),
         "meaning": plain_words(name),
@@ -250,8 +250,9 @@ def _points(
     with np.errstate(all="ignore"):
         scaled = residual / error
     points = {"x": x, "measured": measured, "error": error, "residual": residual, "scaled": scaled}
-    rows = dataset["row"].values.tolist()
-    return {"row": rows, **{name: _plain(values) for name, values in points.items()}}
+    outlier = (dataset["outlier"].values.reshape(len(x), -1) == 1).any(axis=1)
+    labels = {"row": dataset["row"].values.tolist(), "outlier": outlier.tolist()}
+    return {**labels, **{name: _plain(values) for name, values in points.items()}}
 
 
 def _lines(x: Array, lines: dict[str, Array]) -> dict[str, Any]:

@@ -16,16 +16,17 @@ Carom.fitCharts = (() => {
 
   // Measured values, each with the line of the file that it comes from.
   function points(chart, y, error, unit) {
-    const { x, row, along_unit: alongUnit } = chart;
+    const { x, row, outlier, along_unit: alongUnit } = chart;
+    const colors = outlier.map((out) => color(out ? "caution" : "after"));
     return {
       type: "scatter",
       mode: "markers",
       name: "measured",
       x,
       y,
-      customdata: row,
+      customdata: row.map((line, place) => `${line}${outlier[place] ? ", an outlier" : ""}`),
       error_y: { type: "data", array: error, color: color("after"), thickness: 1, width: 0 },
-      marker: { size: 7, color: color("panel"), line: { color: color("after"), width: 1.8 } },
+      marker: { size: 7, symbol: outlier.map((out) => (out ? "x" : "circle")), color: outlier.map((out, place) => (out ? colors[place] : color("panel"))), line: { color: colors, width: outlier.map((out) => (out ? 0 : 1.8)) } },
       hovertemplate: `line %{customdata}: %{y:.4g} ${unit} at %{x:.4g} ${alongUnit}<extra></extra>`,
     };
   }
@@ -51,11 +52,12 @@ Carom.fitCharts = (() => {
     return [Math.min(along[0], low), Math.max(along[along.length - 1], high)];
   }
 
-  function keys({ lines, band }) {
+  function keys({ lines, band, outlier }) {
     const laws = lines.map(({ law }, row) => ({ sample: Carom.keys.line(style(row)), text: law }));
     const measured = { sample: Carom.keys.marker({ color: color("after"), fill: color("panel") }), text: "measured" };
     const shade = band.length ? [{ sample: '<span class="carom-area carom-interval" aria-hidden="true"></span>', text: "interval of the exact curve" }] : [];
-    return [measured, ...laws, ...shade];
+    const out = { sample: Carom.keys.marker({ color: color("caution") }), text: "outlier" };
+    return [measured, ...(outlier.includes(true) ? [out] : []), ...laws, ...shade];
   }
 
   const within = (unit) => (unit ? ` (${unit})` : "");
