@@ -50,7 +50,6 @@ NOT_RUN = {  # beginnings of commands: what they need that is not here, and wher
     "carom verify lammps --law carom": "the plugin: tests/lammps/test_bench.py",
     "carom verify score bench/wall": "results of the reader's code",
     "python -m pytest": "minutes",
-    "python studies/bulk_": "hours",
 }
 BLOCK = re.compile(  # a fenced block, a file if it begins with a name
     r"^```(?P<language>\w+)\n(?P<text>"

@@ -30,8 +30,9 @@ class Mean(NamedTuple):
         return Mean(factor * self.value, factor * self.bar)
 
     def text(self, digits: int) -> str:
-        """Return it with its bar."""
-        return f"{self.value:.{digits}f} ± {self.bar:.{digits}f}"
+        """Return it with its bar in units of the last digit, as 0.340(11), or whole, 17.1(1.5)."""
+        bar = f"{self.bar:.{digits}f}" if self.bar >= 1.0 else f"{self.bar * 10**digits:.0f}"
+        return f"{self.value:.{digits}f}({bar})"
 
 
 class Cell(NamedTuple):

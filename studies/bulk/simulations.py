@@ -19,7 +19,7 @@ neigh_modify every 1 delay 0 check yes
 """
 TABLE = Path(__file__).parents[1] / "bulk.csv"
 HEAD = """\
-# simulations of packings, flows, drums and gases by six contact laws; docs/bulk.md
+# simulations of packings, flows, drums and gases by six contact laws; docs/bulk_study.md
 # made by studies/bulk_study.py; units: mass and diameter of a sphere and Young's modulus are 1
 # at: strain amplitude, inertial number, Froude number; size: spheres, of a drum its diameter;
 # step: time step over that of the study; where: time in durations of an impact, else as `at`

@@ -12,7 +12,7 @@ from carom.adapters.lammps import EXAMPLES
 
 pytestmark = pytest.mark.engine
 STEEL = carom.Material(young=210e9, poisson=0.3, density=7850.0)
-BULK_RATIO, BULK_SLOPE = 0.403, 29.8  # friction 0.5, I = 0.1; friction 0.5: docs/bulk.md
+BULK_RATIO, BULK_SLOPE = 0.403, 29.8  # friction 0.5, I = 0.1; friction 0.5: docs/bulk_study.md
 
 
 def printed(lammps, name, pattern, **small):
