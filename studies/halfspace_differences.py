@@ -101,21 +101,10 @@ def difference(case: Case) -> Known:
     return extrapolated(differences(case))
 
 
-REGIMES = ("up to 1", r"1 to $2 \chi$", r"$2 \chi$ to $4 \chi - 1$", r"from $4 \chi - 1$")
-
-
-def regime(impact: Impact) -> str:
-    """Return how an impact starts and ends."""
-    psi, chi = impact.psi_1, impact.chi
-    limits = zip((1.0, 2.0 * chi, 4.0 * chi - 1.001), REGIMES[:3], strict=True)
-    return next((name for limit, name in limits if psi <= limit), REGIMES[3])
-
-
 class Judged(NamedTuple):
     """A difference and its bound."""
 
     case: Case
-    regime: str
     size: float  # with its error, less the tolerance of the solvers
     bound: float
 
@@ -128,7 +117,7 @@ def judged(label: str) -> tuple[Judged, ...]:
         impact, (value, error) = finest(case)[0], difference(case)
         if impact.kappa != 1.0 or impact.beta or impact.spin:
             size = max(abs(value) + float(np.nan_to_num(error)) - TOLERANCE, 0.0)
-            found.append(Judged(case, regime(impact), size, bound(impact)))
+            found.append(Judged(case, size, bound(impact)))
     return tuple(found)
 
 

@@ -10,21 +10,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
-from halfspace_differences import (
-    REGIMES,
-    Estimated,
-    Known,
-    cases,
-    difference,
-    estimates,
-    finest,
-    judged,
-)
-from halfspace_plan import JUDGED, PAIRS, RATIOS, Impact
+from halfspace_differences import Estimated, cases, difference, estimates, finest, judged
+from halfspace_plan import JUDGED, PAIRS, RATIOS
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from small_pictures import store_small
 
 import carom
+from carom.plots import style
 
 FIGURES = Path(__file__).parents[1] / "docs" / "figures"
 SERIES = {
@@ -37,28 +29,26 @@ SERIES = {
     "spin again": "like materials, spin, again",
     "spin again unlike": "unlike materials, spin, again",
 }
-APART = {"apart like": "like materials", "apart unlike": "unlike materials"}
-APART_SPIN = {"apart spin": "like materials, spin", "apart spin unlike": "unlike materials, spin"}
-COLORS = ("#0072B2", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#E69F00", "#56B4E9", "#E69F00")
-MARKERS = "os^DvPvP"
+APART = {"apart like": "kept apart, like", "apart unlike": "kept apart, unlike"}
+APART_SPIN = {
+    "apart spin": "kept apart, like, spin",
+    "apart spin unlike": "kept apart, unlike, spin",
+}
+GROUPS = {  # of the figure, by what bodies are: colour and mark
+    "like materials": (style.BLUE, "o"),
+    "unlike materials": (style.VERMILION, "s"),
+    "like materials, spin": (style.GREEN, "^"),
+    "unlike materials, spin": (style.PURPLE, "D"),
+}
+MARKERS = "os^Dv"
 
 
-def shown(known: Known, unit: float = 1e-3) -> str:
-    """Return a difference with its error in this unit."""
-    value, error = known.value / unit, known.error / unit
-    digits = 2 if abs(value) < 9.995 else 1
-    text = f"{value:+.{digits}f}"
-    return text if np.isnan(error) else f"{text} ± {error:.{digits}f}"
-
-
-def table(label: str, names: list[str]) -> Iterator[str]:
-    """Yield the differences of some series in 1e-3; incidences differ with chi."""
-    heads = (rf"{formula(name)}: $\psi_1$ | $10^3 \, \Delta\psi_2$" for name in names)
-    yield f"| {' | '.join(heads)} |"
-    yield "|" + "---|" * 2 * len(names)
-    for row in zip(*(cases(label, name) for name in names), strict=True):
-        parts = [part for case in row for part in (f"{case[2]:.2f}", shown(difference(case)))]
-        yield "| " + " | ".join(parts) + " |"
+def extreme(label: str, name: str, of: Callable[..., float]) -> str:
+    """Return the least or the largest difference of a series in 1e-3, with its error and place."""
+    value, error, psi = of((*difference(case), case[2]) for case in cases(label, name))
+    digits = 2 if abs(value) < 9.995e-3 else 1
+    text = f"{1e3 * value:+.{digits}f} ± {1e3 * error:.{digits}f}"
+    return f"{text} at {psi:.2f}" if abs(value) > 1e-6 else "0"
 
 
 def formula(name: str) -> str:
@@ -66,18 +56,31 @@ def formula(name: str) -> str:
     return f"$\\nu = {name[3:]}$" if name.startswith("nu ") else name
 
 
-def normal_table() -> Iterator[str]:
-    """Yield what coupling does to the normal motion."""
-    yield r"| pair | $\kappa$ | $\beta$ | $\mu$ | $e$ | duration/Hertz | mean angle of slip |"
-    yield "|---|---|---|---|---|---|---|"
+def like_table() -> Iterator[str]:
+    """Yield the largest differences of solid spheres of like materials."""
+    yield r"| solid spheres | largest $10^3 \, \Delta\psi_2$, at $\psi_1$ |"
+    yield "|---|---|"
+    for nu in RATIOS[1:]:
+        yield f"| {formula(f'nu {nu:g}')} | {extreme('solid', f'nu {nu:g}', max)} |"
+
+
+def pair_table() -> Iterator[str]:
+    """Yield what coupling does: to psi_2 in 1e-3, to the normal motion, to the way of slip."""
+    heads = (
+        r"| pair | $\kappa$ | $\beta$ | $\mu$ | least $10^3 \, \Delta\psi_2$, at $\psi_1$ | largest"
+    )
+    yield heads + " | least $e$ | duration/Hertz | mean angle of slip |"
+    yield "|---|---|---|---|---|---|---|---|---|"
     for name in PAIRS:
         rows = [finest(case) for case in cases("pair", name)]
         one = rows[0][0]
         low = min(row.restitution for _, row in rows)
         times, angles = [r.duration for _, r in rows], [r.angle for _, r in rows]
+        ends = f"{extreme('pair', name, min)} | {extreme('pair', name, max)}"
+        slips = f"{max(angles):.0f}° to {min(angles):.1f}°"
         yield (
-            f"| {name} | {one.kappa:.3f} | {one.beta:+.4f} | {one.friction:g} | {low:.4f} to 1 | "
-            f"{min(times):.4f} to {max(times):.4f} | {max(angles):.0f}° to {min(angles):.1f}° |"
+            f"| {name} | {one.kappa:.3f} | {one.beta:+.4f} | {one.friction:g} | {ends} | "
+            f"{low:.4f} | {min(times):.4f} to {max(times):.4f} | {slips} |"
         )
 
 
@@ -86,7 +89,7 @@ def slip_table() -> Iterator[str]:
     yield r"| $\nu$ | $\psi_1$ | mean (theory) | largest (theory) | across/along | work across |"
     yield "|---|---|---|---|---|---|"
     for nu in RATIOS[1:]:
-        for case in cases("solid", f"nu {nu:g}")[1:10:2]:
+        for case in cases("solid", f"nu {nu:g}")[1:2]:
             impact, row = finest(case)
             phases = carom.solve(impact.psi_1, impact.chi).slip_angles(nu / (2.0 - nu))
             ring = np.degrees(next(angle for angle in phases if angle.largest > 0.0))
@@ -97,30 +100,13 @@ def slip_table() -> Iterator[str]:
             )
 
 
-def told(impact: Impact) -> str:
-    """Return an impact in a few numbers."""
-    nu = 2.0 * (1.0 - impact.kappa) / (2.0 - impact.kappa)
-    numbers = {r"\nu": f"{nu:.2f}"}
-    if impact.beta:
-        numbers = {r"\beta": f"{impact.beta:.2g}", r"\mu": f"{impact.friction:.2g}"}
-    numbers |= {r"\chi": f"{impact.chi:.2f}", r"\psi_1": f"{impact.psi_1:.2f}"}
-    if impact.spin:
-        numbers[r"\tau_1"] = f"{impact.spin:.2g}"
-    return ", ".join(f"${symbol} = {number}$" for symbol, number in numbers.items())
-
-
 def bound_table(series: dict[str, str]) -> Iterator[str]:
-    """Yield the shares of the bound by series and regime."""
-    yield r"| series | $\psi_1$ | impacts | median share | largest share | largest for |"
-    yield "|---|---|---|---|---|---|"
+    """Yield the shares of the bound by series."""
+    yield "| series | impacts | median share | largest share |"
+    yield "|---|---|---|---|"
     for label, words in series.items():
-        for where in ("all",) if "spin" in label else REGIMES:
-            there = [one for one in judged(label) if where in (one.regime, "all")]
-            shares = [one.size / one.bound for one in there]
-            worst = there[int(np.argmax(shares))]
-            half, most = np.median(shares), max(shares)
-            place = told(finest(worst.case)[0])
-            yield f"| {words} | {where} | {len(there)} | {half:.2f} | {most:.2f} | {place} |"
+        shares = [one.size / one.bound for one in judged(label)]
+        yield f"| {words} | {len(shares)} | {np.median(shares):.2f} | {max(shares):.2f} |"
 
 
 def error_table() -> Iterator[str]:
@@ -144,63 +130,70 @@ def error_line(kind: str, elements: int, found: list[Estimated]) -> str:
     return f"| {formula(kind)} | {counts} | {half:.1e} | {most:.1e} | {holds:.0f} % | {ratio:.0f} |"
 
 
-def draw_series(axis: Axes, label: str, names: list[str]) -> None:
+def draw_series(axis: Axes, label: str, names: list[str], unit: float) -> None:
     """Draw differences against incidence, with their errors."""
-    axis.axhline(0.0, color="0.6", linewidth=0.6)
-    for name, color, marker in zip(names, COLORS, MARKERS, strict=False):
+    style.zero_line(axis)
+    lines = zip(names, style.LINES, style.DASHES, MARKERS, strict=False)
+    for name, color, dash, marker in lines:
         known = [(case[2], *difference(case)) for case in cases(label, name)]
         psi, value, error = np.array(known).T
         text = name.replace("nu", r"$\nu$ =") if label == "solid" else name
         axis.errorbar(
-            psi, value, np.nan_to_num(error), None, marker + "-", color=color, ms=4, lw=1.0,
-            mfc="white", capsize=2, label=text,
+            psi, value / unit, np.nan_to_num(error) / unit, None, marker, ls=dash, color=color,
+            lw=0.9, mfc="white", capsize=1.5, label=text,
         )  # fmt: skip
-    axis.set_xlabel(r"$\psi_1$ before the impact")
-    axis.set_ylabel(r"$\psi_2$, three-dimensional $-$ theory")
-    axis.legend(frameon=False, fontsize=9)
+    axis.set_xlabel(r"$\psi_1$")
+    axis.set_ylabel(r"$\psi_2$, full contact $-$ theory" + (r" ($10^{-3}$)" if unit < 1.0 else ""))
+    axis.legend()
 
 
 def draw_bound(axis: Axes, series: dict[str, str]) -> None:
-    """Draw differences against the bound."""
-    for (label, words), color, marker in zip(series.items(), COLORS, MARKERS, strict=False):
-        bounds, sizes = [one.bound for one in judged(label)], [one.size for one in judged(label)]
-        name = words if "again" not in words else None
-        axis.loglog(bounds, sizes, marker, color=color, ms=3.5, mfc="none", label=name)
+    """Draw differences against the bound; kinds of bodies share a mark."""
+    for words, (color, marker) in GROUPS.items():
+        there = [one for label in series for one in judged(label) if words == kind(label)]
+        sizes = [one.size for one in there]
+        axis.loglog(
+            [one.bound for one in there], sizes, marker, color=color, ms=2.0, mew=0.5, mfc="none",
+            label=f"{words} ({len(there)})",
+        )  # fmt: skip
     line = np.array([1e-6, 10.0])
-    axis.loglog(line, line, color="0.3", linewidth=1.0)
-    axis.set_xlim(1e-6, 10.0)
-    axis.set_ylim(1e-7, 10.0)
-    axis.set_xlabel(r"bound on the difference of $\psi_2$")
-    axis.set_ylabel(r"|difference|, with its error")
-    axis.legend(frameon=False, fontsize=9, loc="upper left")
+    axis.loglog(line, line, color=style.BLACK, lw=0.8, label="the bound")
+    axis.set(xlim=(1e-6, 10.0), ylim=(1e-7, 10.0), xlabel=r"bound on the difference of $\psi_2$")
+    axis.set_ylabel("|difference| and its error")
+    axis.legend(loc="upper left", markerscale=1.8)
+
+
+def kind(label: str) -> str:
+    """Return which of GROUPS a series belongs to."""
+    unlike = "unlike" in label or label == "pair"
+    spin = ", spin" if "spin" in label else ""
+    return f"{'unlike' if unlike else 'like'} materials{spin}"
 
 
 def draw_errors(axis: Axes, elements: int) -> None:
     """Draw the errors of grids against their estimates."""
-    for kind, color, marker in zip(JUDGED, COLORS, MARKERS, strict=False):
-        found = np.array(estimates(kind, elements))
-        if found.size:
-            words = {"nu 0": r"$\nu$ = 0"}.get(kind, kind)
-            axis.loglog(*found.T[::-1], marker, color=color, ms=4, mfc="none", label=words)
+    words = {"nu 0": r"$\nu$ = 0", "like": "like materials", "unlike": "unlike materials"}
+    for name, color, marker in zip(JUDGED, style.LINES, MARKERS, strict=False):
+        found = np.array(estimates(name, elements))
+        axis.loglog(*found.T[::-1], marker, color=color, ms=3, mfc="none", label=words[name])
     line = np.array([1e-8, 1.0])
-    axis.loglog(line, line, color="0.3", linewidth=1.0)
-    axis.set_xlim(1e-7, 0.1)
-    axis.set_ylim(1e-9, 0.1)
-    axis.set_xlabel(r"what psi_out_error says")
+    axis.loglog(line, line, color=style.BLACK, lw=0.8, label="error = estimate")
+    axis.set(xlim=(1e-7, 0.1), ylim=(1e-9, 0.1), xlabel="estimate psi_out_error")
     axis.set_ylabel(r"error of $\psi_2$")
-    axis.set_title(f"{elements} elements across", fontsize=10)
-    axis.legend(frameon=False, fontsize=9)
+    axis.legend(loc="upper left")
 
 
-def draw(name: str, *drawings: Callable[[Axes], None]) -> None:
-    """Draw and store pictures, two in a row."""
+def draw(name: str, drawings: dict[str, Callable[[Axes], None]]) -> None:
+    """Draw and store pictures with their titles, two in a row."""
     rows = len(drawings) // 2
-    figure = Figure(figsize=(10.0, 4.2 * rows), layout="constrained")
-    axes = np.ravel(figure.subplots(rows, 2))
-    for axis, drawing, letter in zip(axes, drawings, "abcd", strict=False):
-        drawing(axis)
-        axis.set_title(f"({letter})", loc="left")
-    figure.savefig(FIGURES / name, dpi=150)
+    with style.style():
+        figure, axes = style.new_figure(rows, 2, width=style.DOUBLE, height=70.0 * rows)
+        for axis, letter, (title, drawing) in zip(
+            axes.flat, "abcd", drawings.items(), strict=False
+        ):
+            drawing(axis)
+            axis.set_title(f"({letter}) {title}", loc="left")
+        store_small(figure, FIGURES / name)
     print(f"wrote {name}")
 
 
@@ -209,26 +202,21 @@ def main() -> None:
     like = [f"nu {nu:g}" for nu in RATIOS[1:]]
     for title, lines in (
         ("Errors of grids", error_table()),
-        ("Bound", bound_table(SERIES)),
-        ("Kept apart", bound_table(APART | APART_SPIN)),
-        ("Like materials", table("solid", like)),
-        ("Unlike pairs", table("pair", list(PAIRS))),
-        ("Normal motion", normal_table()),
+        ("Bound", bound_table(SERIES | APART | APART_SPIN)),
+        ("Like materials", like_table()),
+        ("Unlike pairs", pair_table()),
         ("Slip", slip_table()),
     ):
         print(f"\n{title}\n", *lines, sep="\n")
-    draw(
-        "halfspace_study.png",
-        lambda axis: draw_series(axis, "solid", like),
-        lambda axis: draw_series(axis, "pair", list(PAIRS)),
-        lambda axis: draw_bound(axis, SERIES),
-        lambda axis: draw_bound(axis, APART | APART_SPIN),
-    )
-    draw(
-        "halfspace_errors.png",
-        lambda axis: draw_errors(axis, 32),
-        lambda axis: draw_errors(axis, 64),
-    )
+    pictures = {
+        "solid spheres, like materials": lambda axis: draw_series(axis, "solid", like, 1e-3),
+        "real pairs of unlike materials": lambda axis: draw_series(axis, "pair", list(PAIRS), 1.0),
+        "impacts that the bounds were fitted to": lambda axis: draw_bound(axis, SERIES),
+        "impacts kept apart": lambda axis: draw_bound(axis, APART | APART_SPIN),
+    }
+    draw("halfspace_study.png", pictures)
+    grids = {f"{n} elements across": lambda axis, n=n: draw_errors(axis, n) for n in (32, 64)}
+    draw("halfspace_errors.png", grids)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from accuracy import impacts
 from page_blocks import as_maths, page_with, table
+from small_pictures import store_small
 
 import carom
 from carom.dimensionless.lossy.layout import PSI_OUT
@@ -29,11 +30,11 @@ TABLE, DOCS = Path(__file__).with_name("speed.csv"), Path(__file__).parents[1] /
 FIGURE, PAGE = DOCS / "figures" / "speed.png", DOCS / "accuracy.md"
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
-COLORS = {
-    "exact": style.BLUE,
-    "tables": style.GREEN,
-    "numerical": style.PURPLE,
-    "contact law": style.VERMILION,
+MARKS = {
+    "exact": ("o", style.BLUE),
+    "tables": ("s", style.GREEN),
+    "numerical": ("^", style.PURPLE),
+    "contact law": ("D", style.VERMILION),
 }
 BESIDE = {  # where a label goes that would cover another, in points, and how it is aligned
     "ReboundLaw": (4, -8, "left"),
@@ -252,18 +253,20 @@ def draw(rows: list[Row]) -> None:
     with style.style():
         figure, axes = style.new_figure(width=style.DOUBLE, height=90)
         axis = axes[0, 0]
-        for kind, color in COLORS.items():
+        for kind, (marker, color) in MARKS.items():
             of = [row for row in rows if row.kind == kind]
             points = [row.ratio for row in of], [row.error for row in of]
-            axis.loglog(*points, "o", color=color, label=kind)
+            axis.loglog(*points, marker, color=color, label=kind)
         for row in rows:
             x, y, side = BESIDE.get(row.method, (4, 2, "left"))
             at, how = (row.ratio, row.error), {"ha": side, "fontsize": 6.5}
-            axis.annotate(row.method, at, (x, y), textcoords="offset points", **how)
-        axis.set(xlabel="CPU time of an impact over that of rebound", xlim=(4e-4, 1e6))
+            axis.annotate(
+                style.with_formulas(row.method), at, (x, y), textcoords="offset points", **how
+            )
+        axis.set(xlabel="CPU time of an impact, relative to carom.rebound", xlim=(4e-4, 1e6))
         axis.set_ylabel(r"largest error of $\psi_2$")
         axis.legend(loc="lower right")
-        style.save_figure(figure, FIGURE)
+        store_small(figure, FIGURE)
 
 
 def main() -> None:
