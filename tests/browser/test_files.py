@@ -117,6 +117,7 @@ def test_laws_laid_over(visit):
     assert {(label, "lines") for label in laws} <= set(seen.laid_over(*laws, chart="forces"))
 
 
+@pytest.mark.slow
 def test_laws_that_take_long_follow_the_answer(visit):
     """However fast the bodies change, in the end all laws are there, for the bodies at last."""
     query = {"given": "numbers", "psi": 1.1, "law": LAWS}
@@ -217,6 +218,7 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
     seen.trouble[:] = [line for line in seen.trouble if "400" not in line]  # of what is refused
 
 
+@pytest.mark.slow
 def test_the_last_of_file_and_data_set_counts(visit):
     seen, name = opened(visit(), "fit-panel"), carom.datasets.names()[0]
     head = ".carom-fit-head h3"
