@@ -297,6 +297,7 @@ def refused_by_the_page():
         page.kernels()
 
 
+@pytest.mark.slow
 @needs_library
 def test_kernels_for_browsers_are_those_of_these_sources(for_browsers):
     contents = json.loads((for_browsers / BROWSER_CONTENTS).read_text())

@@ -42,6 +42,7 @@ def folder(tmp_path, monkeypatch):
     assert not list(tmp_path.iterdir())  # nothing of the user's is left
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", carom.datasets.names())
 def test_a_fit_is_the_librarys(name):
     reply, result = answer({"data": name}), fitted(name)
@@ -65,6 +66,7 @@ def test_a_fit_is_the_librarys(name):
         assert chart["lines"][0]["law"] == "exact"
 
 
+@pytest.mark.slow
 def test_a_plate_in_a_file_is_fitted(tmp_path):
     case = {"first": {"radius": 0.005, "material": "steel"}, "second": {"thickness": 0.005}}
     rows = "0.2,0.59,52\n0.5,0.535,45\n1,0.49,40\n2,0.43,35\n"
@@ -118,6 +120,7 @@ def test_bodies_of_the_file_are_not_those_of_the_page():
     assert reply["words"] == str(fitted("kharaz2001"))
 
 
+@pytest.mark.slow
 def test_columns_say_what_they_were_taken_for():
     columns = asked(measured(0.123), "given=bodies")["columns"]
     assert [row["kind"] for row in columns] == ["before the impact", "after the impact", "not used"]
@@ -180,6 +183,7 @@ def test_what_did_not_arrive_whole_is_refused(contents):
     refused("^file: it did not arrive whole", answer, upload)
 
 
+@pytest.mark.slow
 def test_the_process_that_fits():
     worker = Worker()
     try:
