@@ -267,7 +267,7 @@ HERTZ = (
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="permissions are others there")
-@pytest.mark.parametrize("way", ["library", "numba"])
+@pytest.mark.parametrize("way", ["library", pytest.param("numba", marks=pytest.mark.slow)])
 def test_a_read_only_installation(read_only, way):
     """Numbers as ever and no word, by the library and by numba, which then keeps nothing."""
     assert "Error: [Errno" in read_only(WRITES).stderr
