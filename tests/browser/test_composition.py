@@ -16,7 +16,7 @@ STATES = {
     "a story": "preset=superball",
 }
 PANELS = ("Measurements", "Files", "Python")
-SOON = ((400, "three laws"), (1920, "as it opens"), (1920, "losses, beside"))
+SOON = ((400, "three laws"), (1920, "as it opens"))
 SOON += ((400, "Measurements"), (1920, "Files"))  # the others are slow together
 EMPTIEST = 1 / 3  # of a card
 ABOUT = 28  # pixels around what a card holds that are not empty

@@ -86,6 +86,7 @@ def test_the_lines_of_python_give_the_same_rebound(visit, folder, capsys):
     assert {"history.csv", "history.png", "patch.png"} <= {each.name for each in folder.iterdir()}
 
 
+@pytest.mark.slow
 def test_the_files_of_numbers(visit, folder, capsys):
     seen = opened(visit("?given=numbers&psi=2.2&chi=1.3"), "files")
     solved = carom.solve(2.2, 1.3)
