@@ -47,6 +47,18 @@ def pytest_xdist_make_scheduler(config, log):
     return ByFile(config, log)
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Of many cases of a test, the first is tried at once and the others are slow."""
+    seen = set()
+    for item in items:
+        if item.get_closest_marker("first_case") and not item.get_closest_marker("slow"):
+            test = item.nodeid.partition("[")[0]
+            if test in seen:
+                item.add_marker(pytest.mark.slow)
+            seen.add(test)
+
+
 def pytest_collection_finish():
     """Leave the modules of so many libraries, a tenth of the time, to no collection of garbage."""
     gc.collect()

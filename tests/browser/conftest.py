@@ -22,6 +22,7 @@ COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore"]
 PATIENCE = 30.0  # s, on a machine that does other things too
 PREPARED = 300.0  # s; without its library Carom compiles first
 FULL = "level=full"
+REDUCED = "reduce"  # motion
 READY = "document.querySelector('#results table') && window.Carom && Carom.page.answers()[0]"
 BETWEEN = "?angle=1.5&friction=0.05"  # no test begins here
 CHARTED = "Carom.tabs.chosen() === 'Charts' && Carom.level.isFull()"
@@ -42,13 +43,22 @@ TRAVEL = f"""query => {{
 class Visit:
     """A page of the explorer in a tab of a browser."""
 
-    def __init__(self, browser, address, motion):
+    def __init__(self, browser, address):
         self.address = address
         self.trouble = []
-        self.page = browser.new_context(reduced_motion=motion).new_page()
+        self.page = browser.new_context(reduced_motion=REDUCED).new_page()
         self.page.on("console", self._heard)
         self.page.on("pageerror", lambda error: self.trouble.append(f"page error: {error}"))
         self.page.on("request", self._asked)
+        self._moving = False
+
+    def moves(self, welcome):
+        """Let the browser say whether motion is welcome; where it is not, the film stands."""
+        if self._moving and not welcome:
+            self.page.evaluate("Carom.clock.pause()")
+        if self._moving != welcome:
+            self.page.emulate_media(reduced_motion="no-preference" if welcome else REDUCED)
+        self._moving = welcome
 
     def load(self, query, ready):
         """Load the page."""
@@ -210,8 +220,8 @@ def page(visit, tabs):
 def visit(address, chromium, tabs):
     """Open a link: in the page that is there, loading it, or fresh in a browser never here.
 
-    The film does not run by itself, as for those who prefer that, unless it is not `still`. All of
-    the page is shown, unless another level is asked for.
+    The film does not run by itself, as for those who prefer that, unless it is not `still`, which
+    loads the page. All of the page is shown, unless another level is asked for.
     """
     own = []
 
@@ -220,12 +230,11 @@ def visit(address, chromium, tabs):
     ):
         if level == "full":
             query = f"{query or '?'}&{FULL}" if query.strip("?") else f"?{FULL}"
-        fresh |= not still
-        loading |= fresh or not tabs
+        loading |= fresh or not tabs or not still
         if fresh or not tabs:
-            motion = "reduce" if still else "no-preference"
-            (own if fresh else tabs).append(Visit(chromium, address, motion))
+            (own if fresh else tabs).append(Visit(chromium, address))
         seen = (own if fresh else tabs)[-1]
+        seen.moves(not still)
         seen.page.set_viewport_size({"width": width, "height": 900})
         if loading:
             seen.load(query, ready)
@@ -234,6 +243,8 @@ def visit(address, chromium, tabs):
         return seen
 
     yield open_page
+    for each in tabs:
+        each.moves(False)
     trouble = [line for each in (*own, *tabs) for line in each.trouble]
     while own or (trouble and tabs):
         (own or tabs).pop().page.context.close()

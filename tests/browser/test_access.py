@@ -1,6 +1,7 @@
 """The page for everyone: by keys alone, heard, on a small screen, in the dark, from one host."""
 
 import pytest
+from tests.browser.conftest import PREPARED
 from tests.browser.scripts import script
 
 pytestmark = pytest.mark.browser
@@ -19,6 +20,7 @@ FOCUSED = script("focused")
 CONTRASTS = script("contrasts")
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("panel", PANELS)
 def test_every_control_is_reached_by_tab_and_seen(visit, panel):
     seen, reached = visit(f"?tab={panel}&law=linear+spring,+k_t/k_n+=+kappa"), {}
@@ -50,10 +52,11 @@ def test_every_control_has_a_name(visit, query):
     assert nameless == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_words_stand_out(visit, theme):
     seen = visit(f"?theme={theme}&data=kharaz2001&tab=Measurements&law=mindlin")
-    seen.until(lambda: "friction" in seen.page.inner_text("#fit"))
+    seen.until(lambda: "friction" in seen.page.inner_text("#fit"), PREPARED)
     seen.page.fill("#angle", "95")
     seen.until(lambda: seen.notice())
     answer = seen.page.evaluate(CONTRASTS)

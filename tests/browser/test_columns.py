@@ -52,6 +52,7 @@ def notice(seen):
     return seen.until(lambda: seen.page.inner_text("#fit-notice"))
 
 
+@pytest.mark.slow
 def test_a_german_export_is_read_by_lists_and_stored(visit, tmp_path, monkeypatch, capsys):
     """By keys alone; nothing that is suggested is used before it is wanted."""
     monkeypatch.chdir(tmp_path)

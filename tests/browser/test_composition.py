@@ -6,7 +6,7 @@ import pytest
 from tests.browser.scripts import script
 
 pytestmark = pytest.mark.browser
-WIDTHS = [400, *(pytest.param(wide, marks=pytest.mark.slow) for wide in (1024, 1440)), 1920]
+WIDTHS = [400, 1024, 1440, 1920]
 CHARTS = ("rebounds", "forces", "energies")
 STATES = {
     "as it opens": "",
@@ -15,6 +15,9 @@ STATES = {
     "losses, beside": "restitution=0.7&angle=12&beside=angle%3D60",
     "a story": "preset=superball",
 }
+PANELS = ("Measurements", "Files", "Python")
+SOON = ((400, "three laws"), (1920, "as it opens"))
+SOON += ((400, "Measurements"), (1920, "Files"))  # the others are slow together
 EMPTIEST = 1 / 3  # of a card
 ABOUT = 28  # pixels around what a card holds that are not empty
 STAGES = script("stages")
@@ -89,8 +92,15 @@ def check_sliders(seen):
             assert box["y"] >= film["y"] + film["height"]
 
 
-@pytest.mark.parametrize("state", STATES)
-@pytest.mark.parametrize("width", WIDTHS)
+def at_widths(states):
+    """Every width with every state, most of them slow."""
+    return [
+        pytest.param(*each, marks=[pytest.mark.slow] * (each not in SOON))
+        for each in itertools.product(WIDTHS, states)
+    ]
+
+
+@pytest.mark.parametrize(("width", "state"), at_widths(STATES))
 def test_the_page_is_composed(visit, width, state):
     seen = visit(f"?{STATES[state]}", width=width)
     seen.until(lambda: seen.traces("energies"))
@@ -103,8 +113,7 @@ def test_the_page_is_composed(visit, width, state):
     check_sliders(seen)
 
 
-@pytest.mark.parametrize("panel", ["Measurements", "Files", "Python"])
-@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize(("width", "panel"), at_widths(PANELS))
 def test_panels_are_composed(visit, width, panel):
     seen = visit(f"?tab={panel}&data=kharaz2001", width=width)
     place = {"Measurements": "#fit .main-svg", "Files": "#files a", "Python": "#code"}[panel]

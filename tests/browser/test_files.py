@@ -86,6 +86,7 @@ def test_the_lines_of_python_give_the_same_rebound(visit, folder, capsys):
     assert {"history.csv", "history.png", "patch.png"} <= {each.name for each in folder.iterdir()}
 
 
+@pytest.mark.slow
 def test_the_files_of_numbers(visit, folder, capsys):
     seen = opened(visit("?given=numbers&psi=2.2&chi=1.3"), "files")
     solved = carom.solve(2.2, 1.3)
@@ -117,6 +118,7 @@ def test_laws_laid_over(visit):
     assert {(label, "lines") for label in laws} <= set(seen.laid_over(*laws, chart="forces"))
 
 
+@pytest.mark.slow
 def test_laws_that_take_long_follow_the_answer(visit):
     """However fast the bodies change, in the end all laws are there, for the bodies at last."""
     query = {"given": "numbers", "psi": 1.1, "law": LAWS}
@@ -217,6 +219,7 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
     seen.trouble[:] = [line for line in seen.trouble if "400" not in line]  # of what is refused
 
 
+@pytest.mark.slow
 def test_the_last_of_file_and_data_set_counts(visit):
     seen, name = opened(visit(), "fit-panel"), carom.datasets.names()[0]
     head = ".carom-fit-head h3"

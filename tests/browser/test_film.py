@@ -39,7 +39,10 @@ def test_play_and_pause_by_keys(visit):
     assert float(dict(parse_qsl(linked))["time"]) == pytest.approx(stopped, abs=0.0011)
 
 
-@pytest.mark.parametrize("touch", ["click", "key", "wheel", "Pause"])
+SLOW_TOUCHES = [pytest.param(touch, marks=pytest.mark.slow) for touch in ("key", "wheel", "Pause")]
+
+
+@pytest.mark.parametrize("touch", ["click", *SLOW_TOUCHES])
 def test_the_film_runs_by_itself_until_somebody_touches_the_page(visit, touch):
     seen = visit(still=False)
     seen.until(lambda: seen.page.inner_text("#play") == "Pause")
@@ -68,7 +71,7 @@ def test_the_film_runs_by_itself_until_somebody_touches_the_page(visit, touch):
 
 @pytest.mark.parametrize(("query", "still"), [("?time=0.1", False), ("", True)])
 def test_a_link_to_an_instant_and_who_prefers_less_motion_see_it_stand(visit, query, still):
-    seen = visit(query, still=still, fresh=True)
+    seen = visit(query, still=still, loading=True)
     at = share(seen)
     seen.page.wait_for_timeout(300)
     assert share(seen) == at == (0.5 if still else 0.1)

@@ -4,6 +4,8 @@ import math
 
 import pytest
 
+from carom.explorer.page import stories
+
 pytestmark = pytest.mark.browser
 PLACES = """() => {
   const element = document.getElementById("stage");
@@ -13,6 +15,7 @@ PLACES = """() => {
   const arrow = seen.arrows.find(({ when, first }) => when === "before" && first);
   return { tail: on(arrow.from), ball: on([ball.x, ball.y]), radius: ball.radius * seen.unit };
 }"""
+STORIES = [[story["id"], len(story["steps"])] for story in stories()]
 WHOLE_STORIES = "Carom.config.stories.map(({ id, steps }) => [id, steps.length])"
 
 
@@ -124,22 +127,29 @@ def test_links_that_need_the_full_level_open_it(visit, query):
     assert seen.page.evaluate("Carom.level.isFull()")
 
 
-def test_every_step_of_every_story_is_told_shown_and_left(visit):
+@pytest.mark.parametrize(
+    ("name", "steps"),
+    [
+        pytest.param(*story, id=story[0], marks=[pytest.mark.slow] * (row > 0))
+        for row, story in enumerate(STORIES)
+    ],
+)
+def test_every_step_of_a_story_is_told_shown_and_left(visit, name, steps):
     """As one who presses "Show me" and "Next" to the end."""
-    page = visit(level="first").page
-    for name, steps in page.evaluate(WHOLE_STORIES):
-        seen = visit(f"?story={name}.1", level="first")
-        for step in range(1, steps + 1):
-            seen.linked(f"story={name}.{step}")
-            assert f"{step} of {steps}" in page.inner_text("#stories")
-            assert not page.is_visible(".carom-answer")
-            assert page.locator(".carom-field:visible").count() == 1
-            page.get_by_role("button", name="Show me").click()
-            page.wait_for_selector(".carom-answer:visible")
-            assert not seen.notice()
-            page.locator(".carom-next").click()
-        seen.linked("!story")
-        assert page.locator(".carom-story").count() == 6
+    seen = visit(f"?story={name}.1", level="first")
+    page = seen.page
+    assert page.evaluate(WHOLE_STORIES) == STORIES
+    for step in range(1, steps + 1):
+        seen.linked(f"story={name}.{step}")
+        assert f"{step} of {steps}" in page.inner_text("#stories")
+        assert not page.is_visible(".carom-answer")
+        assert page.locator(".carom-field:visible").count() == 1
+        page.get_by_role("button", name="Show me").click()
+        page.wait_for_selector(".carom-answer:visible")
+        assert not seen.notice()
+        page.locator(".carom-next").click()
+    seen.linked("!story")
+    assert page.locator(".carom-story").count() == len(STORIES) == 6
 
 
 def test_doing_it_shows_the_answer(visit):

@@ -31,6 +31,7 @@ def checked(seen):
     return seen.page.evaluate(words)
 
 
+@pytest.mark.slow
 def test_a_link_restores_everything_in_a_fresh_browser(visit):
     words = [*BODIES.items(), *(("law", law) for law in LAWS), ("data", DATA)]
     query = urlencode([*words, ("time", "0.25"), ("pace", "10"), ("theme", "dark")])

@@ -62,6 +62,7 @@ def test_most_is_lost_as_the_contact_jumps_in():
     assert won / (won + kept) == pytest.approx(0.905, abs=5e-4)
 
 
+@pytest.mark.slow
 def test_the_table_of_the_theory_holds():
     page = Path(__file__).parents[2] / "docs/theory/adhesion.md"
     text = page.read_text(encoding="utf-8").replace("\u2212", "-")
@@ -97,6 +98,7 @@ def test_the_sticking_speed_is_that_of_thornton_and_ning():
         assert hit.max_penetration > 0.0
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", [0.3, 0.5, 1.0, 1.44, 2.0, 4.0, 6.0])
 def test_without_adhesion_the_contact_is_that_of_large_friction(chi):
     """2 E(0)^2 - 1 of the theory's (7.4), to which carom.rebound tends for small psi_1."""
@@ -186,6 +188,7 @@ def followed(pair, speed, sliding):
     return ending.y[3, -1], ending.t[-1], -ending.y[1, -1], freed
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("pair", "share"), [(PAIR, 4.0), (PAIR, 1.2), (BEADS, 2.0)])
 def test_newtons_laws_in_si_units_give_the_same(pair, share):
     still = adhesive_impact(pair, normal_speed=1.0, work_of_adhesion=GAMMA)
@@ -247,6 +250,7 @@ def test_the_surface_energy_of_the_materials_is_taken():
     assert given.work_of_adhesion == 0.05
 
 
+@pytest.mark.slow
 def test_what_maugis_contact_loses_is_tabulated():
     """Nothing for stiff small bodies, nearly all of JKR's for soft large ones."""
     for number, share in zip(adhesive.TABOR, adhesive.LOST, strict=True):

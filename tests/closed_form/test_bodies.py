@@ -49,6 +49,7 @@ def sphere(share):
     return carom.Sphere(radius=RADIUS, material=stuff, gyration_radius=gyration)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("share", [0.4, 0.1, 0.65])
 @pytest.mark.parametrize("sliding", [-2.0, -0.3, 0.0, 0.05, 0.4, 1.1, 3.0])
 def test_a_sphere_in_space_is_a_sphere(share, sliding):
@@ -163,6 +164,7 @@ def test_no_friction_in_space():
     assert hit.contact_velocity_out == pytest.approx((before + b @ push)[:2], rel=1e-12)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("angle", "sliding"), [(40, 0.0), (40, 0.5), (15, -1.0), (70, 0.2)])
 def test_full_stick(angle, sliding):
     """Of a rod whose friction grows: e and V_t' are parabolas of 1/mu that end where it sticks."""

@@ -29,6 +29,7 @@ def coordinates(data):
     return np.array([*np.log([found.friction.value, found.kappa.value]), found.restitution.value])
 
 
+@pytest.mark.slow
 def test_shares_are_those_of_fits_to_shifted_values(table):
     """Half a standard deviation up and down in each value: the change is that of one, and adds."""
     squares = []

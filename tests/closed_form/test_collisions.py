@@ -76,6 +76,7 @@ def test_exact_law_is_newton_euler_with_the_rebound(name):
     assert largest_error(pair, None, exact_rebound(pair), 1.0, collisions, 150) <= 1e-9
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", PAIRS)
 @pytest.mark.parametrize("restitution", [1.0, 0.6, 0.0])
 def test_rigid_laws_are_newton_euler_to_rounding(name, restitution):

@@ -203,6 +203,7 @@ class ByRecipe(Lammps):
         return files | {INPUT: script}
 
 
+@pytest.mark.first_case
 @pytest.mark.engine
 @pytest.mark.skipif(Lammps().executable() is None, reason="no LAMMPS is installed")
 @pytest.mark.parametrize("e", [1.0, 0.8])

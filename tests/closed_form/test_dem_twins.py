@@ -69,6 +69,7 @@ CASES = [
 ]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("law", "code", "psi"), CASES, ids=[str(case[0]) for case in CASES])
 def test_law_is_what_the_code_defines(law, code, psi):
     twin = [codes.rebound(code, each) for each in psi]
@@ -127,6 +128,7 @@ SOFTENING = [
 ]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("law", "twin", "ratio", "psi"), SOFTENING, ids=[f"{each[0]}-{each[2]}" for each in SOFTENING]
 )

@@ -71,6 +71,7 @@ def test_heights_give_the_restitution():
     assert 0.5 * (wide.high - wide.low) == pytest.approx(expected, rel=0.25)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("law", "truth"), TRUTHS.items(), ids=TRUTHS)
 def test_the_law_of_losses_is_found_with_its_parameter(law, truth):
     """Scatter of 0.005 in e over a factor of 22 in speed; intervals of 95 %, in 7 of 8 sets."""
@@ -105,6 +106,7 @@ def test_a_ball_on_a_ball_tells_nothing_by_heights():
         carom.fit(dropped(0.8), pair=both)
 
 
+@pytest.mark.slow
 def test_one_outlier_does_not_change_the_law():
     noisy = restitutions(TRUTHS["KelvinVoigt"][0])
     noisy += np.random.default_rng(SEED).normal(0.0, 0.005, noisy.size)
@@ -194,6 +196,7 @@ def test_drag_is_not_used_beyond_its_range():
     checks.refused("bounce_interval: drag takes more than 10 %", carom.fit, times, pair=light)
 
 
+@pytest.mark.slow
 def test_drops_are_stored_drawn_and_told(tmp_path):
     result = carom.fit(dropped(restitutions(TRUTHS["KelvinVoigt"][0])), pair=PAIR)
     carom.save(result.to_dataset(), tmp_path / "drops.nc")

@@ -132,6 +132,7 @@ def test_the_integration_agrees_with_plain_quadrature_outside():
     assert load.integrals(x, y)[1:] == pytest.approx([along, across], rel=1e-11)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", MOMENTS)
 def test_fields_against_the_point_force_solution(name):
     """Tractions to 1e-12 of their largest value, displacements to 1e-12 of mu d/kappa and d."""
@@ -164,6 +165,7 @@ def compare(hit, time):
         assert abs(traction - expected) <= 1e-12 * MU * pressure * edges[-1]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("psi", "chi", "index"), [(0.5, 1.44, 1), (0.3, 1.75, 1), (0.9525, 4.3, 3)]
 )

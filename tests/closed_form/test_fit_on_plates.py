@@ -92,6 +92,7 @@ def test_a_thick_plate_by_hand():
     assert result.low < truth < result.high
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("thickness", [1.5e-3, 2e-3, 3e-3, 8e-3])
 @pytest.mark.parametrize("name", ["normal_restitution", "normal_speed_out", "duration"])
 def test_a_thickness_is_found_by_any_normal_response(name, thickness):
@@ -118,6 +119,7 @@ def test_where_a_fit_starts_does_not_matter():
         assert other.high == pytest.approx(values[0].high, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_friction_and_stiffness_on_a_plate_of_known_thickness():
     """No restitution is asked for; what was measured of it is compared with that of the plate."""
     names = ("normal_restitution", "rebound_angle", "spin_out")
@@ -133,6 +135,7 @@ def test_friction_and_stiffness_on_a_plate_of_known_thickness():
         assert result.restitution.value == pytest.approx(median, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_many_plates_in_one_table():
     """Each row has its own thickness, whatever that of the pair, and an error of it counts."""
     thickness = np.linspace(2e-3, 8e-3, 12)
@@ -150,6 +153,7 @@ def test_many_plates_in_one_table():
     assert width[1] > 1.5 * width[0]
 
 
+@pytest.mark.slow
 def test_intervals_of_thickness_hold_it_as_often_as_they_say():
     """40 sets, errors from the scatter: misses within what is likely for 95 %, 1 in 2000."""
     results = [carom.fit(drops(0.01, seed), pair=START).thickness for seed in range(SETS)]
@@ -161,6 +165,7 @@ def test_intervals_of_thickness_hold_it_as_often_as_they_say():
     assert abs(values.mean() - H) < 4.0 * values.std() / np.sqrt(SETS)
 
 
+@pytest.mark.slow
 def test_thickness_friction_and_stiffness_at_once():
     """5 sets of 12 oblique impacts: misses of 15 intervals within what is likely."""
     names = {"normal_restitution": 0.01, "rebound_angle": 0.005, "spin_out": 1.0}
@@ -192,6 +197,7 @@ def test_regimes_are_those_of_the_impacts():
         assert (regime == 3) == (len(phases) == 1), angle
 
 
+@pytest.mark.slow
 def test_a_plate_too_thick_to_be_told_has_an_open_interval():
     result = carom.fit(drops(0.02, thickness=30e-3), pair=START)
     assert result.thickness.high == np.inf
@@ -215,6 +221,7 @@ def test_sliding_alone_gives_friction_and_thickness_together_at_one_speed():
     assert held.friction.value == pytest.approx(MU, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_the_speed_tells_a_plate_from_other_losses():
     """lambda grows as V^(1/5), and e falls faster than that of a viscous ball."""
     losses = carom.fit(drops(0.003), pair=START).losses
@@ -239,6 +246,7 @@ def test_where_the_theory_of_plates_ends_is_noted():
     assert any("the rim answers" in note for note in narrow.notes)
 
 
+@pytest.mark.slow
 def test_all_that_a_fit_offers(tmp_path):
     result = carom.fit(drops(0.01), pair=START)
     json.dumps(result.to_dict(), allow_nan=False)

@@ -75,6 +75,7 @@ def test_interval_ends_where_chi_squared_has_risen_by_its_quantile(data, result,
     assert estimate.high == pytest.approx(high, abs=5e-3 * width)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("chi", "e"), [(1.44, 0.6), (3.2, 0.99), (3.8, 0.95), (0.45, 0.9)])
 def test_fits_with_losses_are_those_of_scipy_on_the_solver(chi, e):
     """Also where single psi_2 of the table are off by 2e-3: few are, and in both directions."""
@@ -115,6 +116,7 @@ def test_a_start_far_away_ends_in_the_same_minimum(data, result):
         assert other.friction.value == pytest.approx(result.friction.value, rel=1e-6)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("chis", "error"),
     [((0.248, 1.75), 1e-5), ((1.75, 2.2), 5e-5), ((2.2, 3.0), 5e-4), ((3.0, 4.09), 2e-3)],

@@ -62,6 +62,7 @@ def test_traction_of_unloading():
     assert steps[1].state.traction[0][radii < 0.5].min() > 0.0
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("force", [0.5, 0.9])
 def test_energy_lost_in_a_loop(force):
     """W = (18/5)(mu P)^2/(a G*) (1 - y)^3 (1 + 3 y + y^2)/6, y^3 = 1 - F/(mu P) (Johnson 7.4).
@@ -87,6 +88,7 @@ def test_energy_lost_in_a_loop(force):
     assert slips == pytest.approx([exact, exact], rel=6e-3)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("share_of_critical", [0.4, 0.97])
 def test_steep_loads_stick(share_of_critical):
     """Motion of constant direction from first touch, kappa U/d below 1: q = (U/d) p, no slip.

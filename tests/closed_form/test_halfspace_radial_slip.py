@@ -26,6 +26,7 @@ def pull(drift):
     return float(np.sum(0.5 * weights * 3.0 * s**2 * (x / np.hypot(x, y)).mean(axis=1)))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("beta", "drift"), [(1e-2, 0.1), (-1e-2, 0.3), (1e-2, 0.6), (-1e-2, 2.0)])
 def test_force_under_radial_slip(beta, drift):
     friction = abs(beta) / RATIO

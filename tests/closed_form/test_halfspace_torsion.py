@@ -150,6 +150,7 @@ def test_little_and_far(nu):
     assert np.abs(polar(patch, step.state.traction)[1]).max() <= 2e-4
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("nu", NUS)
 @pytest.mark.parametrize("c", [0.7, 0.3])
 def test_unloading_doubles_loading(nu, c):
@@ -172,6 +173,7 @@ def test_unloading_doubles_loading(nu, c):
     assert sum(work) * (1.0 - nu) == pytest.approx(area, rel=8e-3)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("nu", NUS)
 @pytest.mark.parametrize("rate", [0.5, 0.95])
 def test_turned_while_pressed(nu, rate):

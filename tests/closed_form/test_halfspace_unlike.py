@@ -64,6 +64,7 @@ def test_punch_that_sticks(beta, kappa):
     assert abs(2.0 * errors[2] - errors[1]) <= 0.01 * (stiffening(beta) - 1.0)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("beta", [0.3, -0.3])
 def test_sphere_that_sticks(beta):
     """At a given depth P is (artanh(beta)/beta)/sqrt(d/a^2) of Hertz's: 1.0179 at 0.3."""
@@ -75,6 +76,7 @@ def test_sphere_that_sticks(beta):
     assert np.all(held(step) == step.touching)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [3.0, 1.0])
 def test_stick_radius(ratio):
     """With beta and friction of 1 % or so the traction leaves the pressure as it is: Goodman 1962.

@@ -43,6 +43,7 @@ def stacked(*sets):
     return {name: np.concatenate([each[name] for each in sets]) for name in sets[0]}
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("robust", [False, True])
 def test_sets_that_share_everything_are_one_table(robust):
     """Equal bodies, errors stated, all shared: values, intervals, correlations are those of it."""
@@ -63,6 +64,7 @@ def test_sets_that_share_everything_are_one_table(robust):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["friction", "kappa"])
 def test_a_shared_parameter_has_the_sum_of_the_profiles(name):
     """Balls of two sizes and restitutions: where losses of fits alone with it held add up to."""
@@ -183,6 +185,7 @@ def test_errors_that_sets_have_in_common_do_not_count_in_a_difference():
     assert joint["a"].friction.high - joint["a"].friction.low > 2.0 * expected
 
 
+@pytest.mark.slow
 def test_sets_that_contradict_each_other_are_told():
     sets = {"a": measured(7), "b": measured(8, friction=0.25)}
     joint = joint_fit(sets, share="friction", pair=pair_of())
@@ -271,6 +274,7 @@ def test_what_is_not_told_has_no_difference():
     assert together["set 1"].kappa.determined  # by the other set
 
 
+@pytest.mark.slow
 def test_the_result_is_stored_drawn_and_reported(tmp_path):
     joint = joint_fit({"a": measured(11), "b": measured(12)}, share="friction", pair=pair_of())
     dataset = joint.to_dataset()

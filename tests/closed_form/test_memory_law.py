@@ -36,6 +36,7 @@ def test_rebounds_are_as_near_as_promised(springs, steps, e, bound):
     assert 0.2 * bound < worst(springs, steps, e) <= bound
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("springs", [16, 32, 64])
 @pytest.mark.parametrize(("chis", "promised"), [((0.3, 2.5), 0.4), ((2.5, 10.0), 4.0)])
 def test_errors_are_within_the_range_of_chi_that_is_stated(springs, chis, promised):
@@ -48,6 +49,7 @@ def test_errors_are_within_the_range_of_chi_that_is_stated(springs, chis, promis
     assert 0.25 * promised < largest * springs**2 <= promised
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("e", [1.0, 0.7])
 def test_the_order_is_the_second_in_steps_and_springs(e):
     by_steps = [worst(512, steps, e) for steps in (25, 200)]
@@ -138,6 +140,7 @@ def test_numbers_of_springs_that_cannot_be_are_refused(springs):
     assert "\n" not in str(error.value)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", [0.7, 1.4412, 3.0])
 @pytest.mark.parametrize("e", [1.0, 0.9, 0.5, 0.1, 0.01])
 def test_steps_that_are_too_long_are_not_solved(e, chi):
@@ -175,6 +178,7 @@ def lost_in_a_cycle(springs, part, depth, steps=200):
     return lost / (8.0 * exact * depth**2.5)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("springs", [16, 64, 256])
 def test_small_cycles_lose_energy_as_far_as_springs_resolve_them(springs):
     """Of mu P: at 1.5/N a contact may lose nothing; most is lost from 8/N on, all from 12/N on."""

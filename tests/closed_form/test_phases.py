@@ -55,6 +55,7 @@ def test_continuous_across_the_borders(chi, shift):
         assert abs(step) <= 50.0 * abs(shift) + 1e-11
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     "border", [lambda c: 1.0 + 0.0 * c, lambda c: 2.0 * c, lambda c: 4.0 * c - 1.0]
 )

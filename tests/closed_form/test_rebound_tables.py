@@ -76,6 +76,7 @@ def test_collisions_take_a_law_over_a_range(law):
             refused()
 
 
+@pytest.mark.slow
 def test_a_range_of_chi_with_losses():
     """To 1e-6 of `rebound`; what lies outside of the range is solved with the same losses."""
     losses = carom.KelvinVoigt(restitution=0.8)

@@ -146,6 +146,7 @@ def test_what_cannot_be_is_refused_by_row(words, data):
     refused(words, carom.fit, data, pair=PAIR)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("data", NORMAL.values(), ids=NORMAL)
 def test_normal_impacts_give_one_law_of_losses(data):
     """The restitution against the speed, in whatever the two were measured."""

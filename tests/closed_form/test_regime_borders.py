@@ -73,6 +73,7 @@ BORDERS = {
 }
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", BORDERS)
 def test_borders_are_those_in_closed_form(regimes, name):
     """Between the ends of curves, where several borders meet, to the tolerance, and all along."""
@@ -102,6 +103,7 @@ def test_the_rebound_sticks_on_both_sides_of_chi_one_half(regimes):
     assert np.abs(inner(regimes, line)[:, 1] - 0.5).max() <= float(regimes.border_tolerance)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("which", ["regimes", "coarse"])
 def test_sequences_beside_borders_are_those_of_single_impacts(which, request):
     """A step of at most two tolerances, along psi_1 or chi, leads from one side to the other."""
@@ -147,6 +149,7 @@ def test_regimes_between_points_are_found(coarse):
     assert values <= met
 
 
+@pytest.mark.slow
 def test_what_is_too_narrow_for_an_outline_is_met():
     """At chi = 4 the last slip reverses in less than a thousandth of psi_1 beyond 0.4."""
     regimes = carom.regime_map(np.linspace(0.05, 18.0, 80), np.linspace(3.0, 5.0, 41))
@@ -171,6 +174,7 @@ def test_a_map_without_cells_has_no_borders():
     assert [region.name for region in regions(row)]
 
 
+@pytest.mark.slow
 def test_borders_are_stored_and_read(regimes, tmp_path):
     stored = carom.read(carom.save(regimes, tmp_path / "map.nc"))
     for name in (name for name in regimes.variables if name.startswith("border_")):

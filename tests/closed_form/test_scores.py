@@ -240,6 +240,7 @@ def test_all_ways_of_giving_results_are_one(tmp_path):
     assert score(path, case=pair).points.rows.tolist() == list(range(4, 16)), "lines of the file"
 
 
+@pytest.mark.slow
 def test_figures_are_drawn_from_what_is_stored(tmp_path):
     """A stored score is drawn as it is: errors, tolerance, forces."""
     pair = carom.Pair(BALL, BODIES["plate"], friction=0.2)

@@ -136,6 +136,7 @@ def test_its_curvatures_are_those_of_its_surface_there(name):
     assert np.allclose([along(1, 0), along(0, 1), both], [xx, yy, xy], rtol=3e-6, atol=3e-6)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", sorted(set(SHAPES) - OVERLAPPING))
 def test_its_mass_and_inertia_are_those_of_the_set(name):
     """By quasi Monte Carlo in the frame of the wall, which finds signs and axes."""
@@ -244,6 +245,7 @@ def test_a_sphere_is_the_limit_of_each(name):
     assert LONE[name].mass == pytest.approx(ball.mass, rel=1e-14)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", SHAPES)
 def test_the_wall_pushes_at_the_contact(name):
     """About the contact the angular momentum stays; along the wall friction alone acts."""

@@ -151,6 +151,7 @@ def oblique(law="elastic", mirror=1.0, friction=0.2, **motion):
     return carom.impact(pair, **inputs, **LAWS[law])
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", LAWS)
 def test_at_zero_stand_the_impulses(law):
     """Of both forces, m_n V_1 (1 + e) and what changes V_x; of the moment what changes the spin."""
@@ -185,6 +186,7 @@ def dense(law):
     return oblique(law).history(40_001)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", LAWS)
 def test_dense_sums_of_the_history_agree(law):
     """The rule of the trapezium on 40,001 times, and nothing of panels or phases."""
@@ -200,6 +202,7 @@ def test_dense_sums_of_the_history_agree(law):
         np.testing.assert_allclose(data[f"{name}_spectrum"], np.abs(expected), atol=atol)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", ["elastic", "viscous", "yielding"])
 def test_parseval(law):
     """Frequencies k/(2 t_c) are a Fourier series over twice the contact: sums of squares agree."""
@@ -213,6 +216,7 @@ def test_parseval(law):
         assert step * (2.0 * power.sum() - power[0]) == pytest.approx(expected, rel=3e-6)
 
 
+@pytest.mark.slow
 def test_the_inverse_transform_is_the_force():
     """As a user comes back to time: `irfft` of the parts; what is cut off falls like f^(-3/2)."""
     hit = oblique()
@@ -245,6 +249,7 @@ def test_frequencies_scale_with_the_duration():
     np.testing.assert_allclose(*items, rtol=1e-6, atol=1e-11)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", LAWS)
 def test_a_mirrored_impact_has_the_mirrored_spectrum(law):
     one, other = (oblique(law, mirror).spectrum(n=31) for mirror in (1.0, -1.0))

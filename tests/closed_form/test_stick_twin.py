@@ -16,6 +16,7 @@ SLIDES = [
 ]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("psi", "chi"), TOUCH + SLIDES)
 def test_stick_phase(psi, chi):
     """Its start and end, and psi, Q and U within it, to 1e-10."""

@@ -73,6 +73,7 @@ def test_invariants_of_the_tensor():
     assert ds.max_shear.values == pytest.approx(0.5 * (s[0] - s[2]), abs=1e-13)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("psi", "chi"), [(0.5, 1.44), (1.5, 1.44), (0.2, 40.0)])
 @pytest.mark.parametrize("friction", [0.1, 0.5])
 def test_nothing_is_larger_than_the_largest(psi, chi, friction):

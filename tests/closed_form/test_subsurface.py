@@ -183,6 +183,7 @@ def test_partial_slip_is_a_difference_of_slidings():
     assert np.abs(pulled(at, CATTANEO) - expected).max() < 1e-12
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("depth", [1e-12, 1e-9, 1e-6, 1e-3, 0.1, 1e3])
 def test_near_the_edges(depth, monkeypatch):
     """The same integral over panels that halve towards s = r, where it is nearly singular."""

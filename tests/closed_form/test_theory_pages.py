@@ -163,6 +163,7 @@ def test_3_chords_give_a_punch_inside_and_outside(r):
     assert u_y == pytest.approx(lateral * w_2 * np.sin(2 * theta), abs=1e-12)
 
 
+@pytest.mark.slow
 def test_3_memory_and_traction_determine_each_other():
     memory = carom.solve(0.8, 1.4412).memory(1.2)
     profile, b = memory.profile(), sqrt(memory.penetration)

@@ -43,6 +43,7 @@ CONDITIONS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("film", "asked"), CONDITIONS.values(), ids=CONDITIONS)
 def test_errors_are_those_of_the_noise(film, asked):
     """Over 400 seeds: what is off has the standard deviation that is told, to 10 %, and no bias."""

@@ -58,6 +58,7 @@ def test_linear_spring_against_an_own_scan():
     assert actual.before == pytest.approx(as_given, abs=1e-3)
 
 
+@pytest.mark.first_case
 def test_neighbours_are_worse(tuned):
     """2 % to either side, 0.02 for beta_0, and as it was given: none comes closer."""
     measure, tuning = tuned
@@ -73,6 +74,7 @@ def test_neighbours_are_worse(tuned):
         assert cost(error_of(values)) > least
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("measure", MEASURE)
 @pytest.mark.parametrize("law", [ONE_EACH[0], ONE_EACH[1], ONE_EACH[5], ONE_EACH[6]], ids=str)
 def test_minima_are_those_of_the_whole_range(law, measure):
@@ -194,6 +196,7 @@ def test_refused(options, message):
         tune(**inputs)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", [0.4, 6.0])
 def test_tuning_never_makes_a_law_worse(chi):
     """At any chi: k_t/k_n is sought around that of the bodies, 4 chi/7."""

@@ -54,6 +54,7 @@ def test_gross_slip_throughout(chi):
     assert not actual[:, 1].any()
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("psi", "chi"), [(0.5, 1.44), (1.5, 1.44)])
 def test_single_radii_against_the_states(psi, chi):
     """Also next to where fronts begin, and where one series of the solution takes over."""
@@ -70,6 +71,7 @@ def test_pressure_over_the_time():
     np.testing.assert_allclose(carom.solve(0.5, 1.44).pressed(radii), expected, rtol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", ["10 deg", "-20 deg"])
 def test_fields_through_the_impact_add_up_to_the_map(angle):
     hit = carom.impact(PAIR, speed=2.0, angle=angle, spin="20 rad/s")
@@ -91,6 +93,7 @@ def test_fields_of_viscous_bodies_add_up_to_the_map():
     assert float(worn.work_error) < 1e-5
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("friction", "losses"), [(0.0, None), (0.1, LOSSES), (0.6, None)])
 def test_profile_and_volume(friction, losses):
     """The mean depth over the contact is the volume, k/mu times the work; at mu = 0 k V_x J_n."""
@@ -115,6 +118,7 @@ def test_profile_and_volume(friction, losses):
     assert float(worn.max_wear_depth) >= deepest * (1.0 - 1e-9)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("angle", [0.3, 3.0, 35.0])
 @pytest.mark.parametrize("friction", [0.2, 0.6])
 def test_the_largest_wear_is_that_of_a_dense_map(angle, friction):
@@ -127,6 +131,7 @@ def test_the_largest_wear_is_that_of_a_dense_map(angle, friction):
     assert float(worn.max_friction_work) == pytest.approx(max(along.max(), across.max()), rel=2e-5)
 
 
+@pytest.mark.slow
 def test_a_viscous_ball_near_the_normal_does_not_wear_less_than_nothing():
     """There the energies tell rounding alone; volumes are those of the work per area."""
     pair = carom.Pair(STEEL, PLANE, friction=0.3)

@@ -66,6 +66,7 @@ def slopes(law):
     return np.concatenate([psi, -psi])
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", CHIS)
 def test_is_the_law_and_the_exact_rebound(run, chi):
     """To 1e-14 of ReboundLaw and 1e-9 of `carom.rebound`; odd to the bit; IEEE values pass."""

@@ -163,6 +163,7 @@ def test_python_runs_the_commands_too():
     assert done.stdout.decode().strip() == carom.__version__
 
 
+@pytest.mark.slow
 def test_start_up_loads_nothing_that_is_not_needed():
     """Of what takes long: nothing until something is computed, and little for an impact."""
     steps = ["import carom", "from carom.cli import main; main(['--help'])"]

@@ -100,6 +100,7 @@ AT_MODULES = [("SIGTERM", "unicodedata"), ("SIGTERM", "h5py")]
 AT_MODULES += [("SIGINT", module) for module in MODULES]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("number", "module"), AT_MODULES)
 def test_a_signal_at_an_import_ends_in_one_line(number, module, there, command):
     program = AT_IMPORT.format(module=module, number=number, late=LATE.get(module, ()))
@@ -115,6 +116,7 @@ def test_a_signal_at_an_import_ends_in_one_line(number, module, there, command):
     assert left(there) == ["sweep.toml"]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("number", "arguments"),
     [
@@ -154,6 +156,7 @@ sys.addaudithook(hook)
     assert left(there) == ["sweep.toml"]
 
 
+@pytest.mark.slow
 def test_ctrl_c_in_sampling_is_told_in_one_line(there, command):
     """The sampler would print what was interrupted, with a traceback, among the results."""
     program = """
@@ -238,6 +241,7 @@ PRINTING = {
 }
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("what", PRINTING)
 def test_output_that_cannot_be_written_is_told_in_one_line(what, there, command):
     """A full disk; a reader that has gone, of which nothing is said."""
@@ -255,6 +259,7 @@ UNSTORED = (
 )
 
 
+@pytest.mark.slow
 def test_streams_that_are_closed_take_no_place_of_a_file(there):
     """What is told goes nowhere; the file that takes the number of stderr is not written into."""
     line = f"{sys.executable} -c '{RUN}' curve --chi 1 --output curve.csv 2>&- >/dev/null <&-"
@@ -289,6 +294,7 @@ SLOW = ("hit.gif", "page")
 FILES = [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in LIMITED]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", FILES)
 def test_a_file_that_may_not_grow_leaves_nothing_behind(name, there, command):
     """One line, no temporary file, an older file as it was; HDF5 would take the process down."""
@@ -305,6 +311,7 @@ def test_a_file_that_may_not_grow_leaves_nothing_behind(name, there, command):
     assert name not in before or (there / name).read_text() == "older"
 
 
+@pytest.mark.slow
 def test_a_store_that_may_not_grow_stays_whole(there, command):
     """Its first chunks are too large for the limit; nothing of them is left."""
     (there / "sweep.toml").write_text(SWEEP.replace("400", "2000"))

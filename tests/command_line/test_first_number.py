@@ -43,6 +43,7 @@ def python(program, **environment):
     return subprocess.run(command, env=more, capture_output=True, text=True, check=True)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 def test_with_the_library_no_compiler_is_loaded():
     """One thing after another in a process, and who loads a compiler is named."""
@@ -61,6 +62,7 @@ def test_an_elastic_impact_waits_neither_for_scipy_nor_for_pint_in_common_units(
     python(f"{program}assert not {{'scipy', 'pint'}} & set(sys.modules)")
 
 
+@pytest.mark.slow
 def test_who_waits_for_compilers_is_told_once_and_why(tmp_path):
     """Also where nobody watches; and whether one will have to wait again."""
     script = (

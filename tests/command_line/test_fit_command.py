@@ -71,12 +71,14 @@ def test_json_and_advice(run):
     assert len(record["advice"]["places"]) == 3
 
 
+@pytest.mark.slow
 def test_shipped_data(run):
     code, out, _ = run("fit", "--dataset", "kharaz2001", "--fix", "restitution=0.98")
     assert code == 0
     assert "24 values" in out
 
 
+@pytest.mark.slow
 def test_files_are_stored(run, tmp_path):
     files = ("--plot", "fit.png", "--output", "fit.nc", "--posterior", "samples.nc")
     values = (*GIVEN, "--fix", "restitution=1", "--steps", "100")
@@ -125,6 +127,7 @@ def test_bad_input_is_one_line_and_code_2(refusal, arguments, words):
     assert words in refusal("fit", *arguments)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "arguments",
     [("--thickness", "5 mm"), ("--case", "plate.toml", "--vary", "thickness")],
@@ -139,6 +142,7 @@ def test_the_thickness_of_a_plate(run, arguments):
     assert next(iter(record["losses"])) == "ZenerPlate"
 
 
+@pytest.mark.slow
 def test_a_known_thickness_in_place_of_that_of_the_case(run):
     """Then nothing is left to fit of normal impacts, unless a thickness is fixed."""
     code, out, _ = run("fit", "drops.csv", "--case", "plate.toml", "--thickness", "2 mm")
@@ -161,6 +165,7 @@ def test_the_template_is_a_table_once_it_is_filled_in(run, refusal, tmp_path):
     assert "8 values of normal_restitution, rebound_angle, spin_out in 3 rows" in out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("separator", [",", ";"])
 def test_the_template_survives_a_spreadsheet(run, tmp_path, separator):
     """Which cuts each line into cells, fills up the rows, and puts in quotes what needs them."""
@@ -185,6 +190,7 @@ def test_a_report_tells_its_command(run, tmp_path):
     assert "<title>Rebounds of data.csv</title>" in page
 
 
+@pytest.mark.slow
 def test_a_report_into_a_stream_is_html(run, tmp_path):
     with (tmp_path / "stream").open("wb") as stream:
         where = f"/dev/fd/{stream.fileno()}"
@@ -202,6 +208,7 @@ def test_the_template_wants_no_data(refusal):
     assert "prints an empty table" in refusal("fit", "data.csv", "--template")
 
 
+@pytest.mark.slow
 def test_two_files_are_compared(run, tmp_path, table):
     """One case for both; without an own restitution, and with a friction that both share."""
     (tmp_path / "other.csv").write_text(table)

@@ -77,6 +77,7 @@ def test_json_is_the_impact_of_the_library(run):
     assert record["phases"][0]["slip_angle_mean"] == hit.slip_angles[0].mean
 
 
+@pytest.mark.slow
 def test_the_table_tells_the_error_and_files_are_stored(run, tmp_path):
     files = ["--plot", "hit.png", "--output", "hit.nc"]
     code, out, err = run(*GLASS_BALL, *SPEED, *COARSE, *files)
@@ -88,12 +89,14 @@ def test_the_table_tells_the_error_and_files_are_stored(run, tmp_path):
     assert err.splitlines() == ["Carom has stored hit.nc.", "Carom has stored hit.png."]
 
 
+@pytest.mark.slow
 def test_unlike_materials_show_what_the_normal_motion_loses(run):
     code, out, _ = run(*GLASS_BALL, *SPEED, *COARSE, "--second-material", "steel")
     assert code == 0
     assert "energy lost in the normal motion" in out
 
 
+@pytest.mark.slow
 def test_spin_about_the_normal(run):
     """It slows down, and the table says to what."""
     code, out, _ = run(*GLASS_BALL, *SPEED, *COARSE, "--normal-spin", "3000 rpm", "--json")

@@ -88,6 +88,7 @@ def test_a_flag_takes_the_place_of_what_the_case_file_has(run):
         assert json.loads(out)["inputs"]["losses"] == law
 
 
+@pytest.mark.slow
 def test_files_of_an_impact_with_losses_are_what_it_is_and_can_be_drawn(run, pair):
     code, _, err = run("impact", "case.toml", "--output", "hit.nc", "--plot", "hit.svg")
     assert (code, err.count("stored")) == (0, 2)
@@ -158,6 +159,7 @@ def test_every_key_of_a_case_is_tried():
     assert set(VALUES) == {"friction", *MOTION, *LOSSES, RATIO}
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("path", "key"),
     [pytest.param(*one, id=" ".join((*one[0], one[1]))) for one in keys_with_flags()],

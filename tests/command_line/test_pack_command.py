@@ -184,6 +184,7 @@ def test_collecting_elsewhere_is_refused(copy):
     refused("its set is not whole", collect, copy / "wall" / "lammps")
 
 
+@pytest.mark.slow
 @pytest.mark.engine
 def test_from_a_pack_to_a_verdict_on_lammps(copy):
     """Its law mindlin on `wall`: as our own law has it to 1e-3, hence off the exact one by 0.58."""

@@ -120,6 +120,7 @@ def stored(tmp_path):
     return store
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", FITS)
 def test_rebounds_are_read_by_what_refusals_suggest(name, run, stored):
     """And the fit finds what the impacts were made with, so that nothing was misread."""
@@ -130,6 +131,7 @@ def test_rebounds_are_read_by_what_refusals_suggest(name, run, stored):
         assert float(found[1]) == pytest.approx(value, rel=0.02), out
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", DROPS)
 def test_drops_are_read_by_what_refusals_suggest(name, run, stored):
     _, refusals = applied(run, "fit", *stored(DROPS[name]))
@@ -137,6 +139,7 @@ def test_drops_are_read_by_what_refusals_suggest(name, run, stored):
     assert "fixed=" not in refusals[0]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", FILES)
 def test_exports_are_read_by_what_refusals_suggest(name, run, stored):
     out, refusals = applied(run, "fit", *stored(FILES[name]()), "--fix", "restitution=1")

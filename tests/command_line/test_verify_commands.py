@@ -64,6 +64,7 @@ def test_laws_of_a_shell(verify):
     assert record["laws"] != rank(chi=1.0294, psi_1=(0.5, 2.0)).to_dict()["laws"]
 
 
+@pytest.mark.slow
 def test_one_law_with_all_that_can_be_stored(verify):
     files = ("--output", "laws.nc", "--plot", "laws.svg", "--map", "map.png")
     code, out, err = verify("laws", *ONE, *files, "--json")
@@ -85,6 +86,7 @@ def test_map_as_a_table(verify):
     assert Path("laws.csv").read_text().splitlines()[1].startswith("rigid Coulomb,")
 
 
+@pytest.mark.slow
 def test_tune_without_bodies(verify, few_laws):
     code, out, err = verify("tune", "--chi", "1.4412", "--from", "0.5", "--to", "4", "--json")
     expected = few_laws(chi=1.4412, psi_1=np.linspace(0.5, 4.0, 61)).to_dict()
@@ -182,6 +184,7 @@ def test_laws_of_a_case_are_those_of_its_numbers(verify, losses):
     assert law["spin_out"] == pytest.approx(spin, rel=1e-9)
 
 
+@pytest.mark.first_case
 @pytest.mark.usefixtures("few_laws")
 @pytest.mark.parametrize("e", [1.0, 0.5])
 def test_tune_names_the_exact_law(verify, e):
@@ -204,6 +207,7 @@ def test_tune_a_case_without_motion(verify):
     assert out.count("linear spring") == 1
 
 
+@pytest.mark.slow
 @engine
 @installed
 def test_lammps_as_json(verify):

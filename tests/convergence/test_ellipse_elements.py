@@ -101,6 +101,7 @@ def test_hertz(aspect):
     assert np.abs(pressure - exact)[squared < 0.5].max() <= 2e-3 * peak
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("turned", [False, True], ids=["along", "across"])
 @pytest.mark.parametrize("nu", [0.0, 0.3])
 @pytest.mark.parametrize(
@@ -122,6 +123,7 @@ def test_held_everywhere(aspect, grids, nu, turned):
     assert np.mean(ratios) == pytest.approx(bodies.kappa[0], rel=2e-4 if nu else 1e-7)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("turned", [False, True], ids=["along", "across"])
 @pytest.mark.parametrize(("nu", "off"), [(0.0, 5e-4), (0.3, 1e-3)])
 @pytest.mark.parametrize(("aspect", "elements"), [(1.5, 24), (3.1, 24), (8.3, 16)])
@@ -156,6 +158,7 @@ def test_partial_slip(aspect):
     assert np.abs(traction[1]).max() <= 1e-6 * peak
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("nu", "off"), [(0.0, 6e-4), (0.3, 1.5e-3)])
 def test_at_45_degrees(nu, off):
     """Springs of both stiffnesses follow the elements off the axes, while the force turns.

@@ -50,6 +50,7 @@ def test_order(errors):
     assert np.log2(means[0] / means[2]) / 2.0 >= 1.7, means
 
 
+@pytest.mark.slow
 def test_order_in_time():
     """On one grid, against 240 steps: between 1 and 2, for few elements come to touch in a step."""
     several = []

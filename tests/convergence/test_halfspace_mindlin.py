@@ -103,6 +103,7 @@ def test_nothing_turns(runs):
             assert np.abs(step.moved[1]).max() <= 1e-14
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("nu", "excess", "across"), [(0.3, 5.3e-4, 0.0445), (0.5, 1.95e-3, 0.0855)]
 )

@@ -22,6 +22,7 @@ def solved(psi, inertia):
     return status, numbers, error
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("inertia", JAMS)
 @pytest.mark.parametrize("psi", [0.0, 1.0, 5.0])
 def test_the_oracle_agrees(psi, inertia):
@@ -35,6 +36,7 @@ def test_the_oracle_agrees(psi, inertia):
     assert out == pytest.approx((4.0 * fine - coarse)[:2] / 3.0, abs=3e-5 * max(1.0, psi))
 
 
+@pytest.mark.slow
 def test_sliding_ends_in_stick_and_lifts_the_body():
     """e exceeds 1, what slides sticks before the deepest place, and the force outgrows Hertz's."""
     body = carom.Body(

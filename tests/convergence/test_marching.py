@@ -75,6 +75,7 @@ def test_two_grids_give_1e_6_and_bound_the_error() -> None:
     assert np.max(wrong * np.maximum(1.0, np.abs(psi)) / answer) < 2.0
 
 
+@pytest.mark.slow
 def test_viscous_solids_are_those_of_the_exact_solution() -> None:
     """Kelvin & Voigt's: another algorithm, without springs, gives e, psi_2 and what shear loses."""
     psi, chi = random_impacts(1987, 60)

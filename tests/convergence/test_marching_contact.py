@@ -20,6 +20,7 @@ def wandering(seed, n):
     return t, depth, 0.4 * moved
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("impact", [(0.4, 1.44, 0.1), (1.5, 1.44, 0.2), (4.0, 2.0, 0.4)])
 def test_driven_as_an_impact_moves_it_gives_its_forces(impact):
     """To first order in the steps, in the mean: the load sets in like the root of time."""

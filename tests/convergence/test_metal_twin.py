@@ -29,6 +29,7 @@ def solved(psi: float, chi: float, ratio: float, strain: float) -> LossyRebounds
     return rebounds
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("ratio", "strain"), [(2.3, 0.002), (3.0, 0.002), (10.0, 0.004), (50.0, 0.008), (1000.0, 0.002)]
 )
@@ -64,6 +65,7 @@ def _squares(y: float, strain: float) -> tuple[Array, Array]:
     return loading(y, strain, depths)[1], depths
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("psi", "chi", "ratio", "strain", "close"),
     [
@@ -83,6 +85,7 @@ def test_rings_of_traction(
         assert abs(actual - wanted) > 0.04
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("psi", "chi", "ratio", "close"),
     [
@@ -97,6 +100,7 @@ def test_springs_marched_plainly(psi: float, chi: float, ratio: float, close: fl
     assert solved(psi, chi, ratio, 0.004).psi_out[0] == pytest.approx(wanted, abs=close)
 
 
+@pytest.mark.slow
 def test_error_is_of_second_order_and_what_is_promised() -> None:
     """chi in [0.3, 8], V_1 up to 100 V_y, up to gross slip: 3e-5 max(1, psi_1)."""
     rng = np.random.default_rng(7)

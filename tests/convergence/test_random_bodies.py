@@ -54,6 +54,7 @@ def check(rows, hits):
     assert all(hit.solution.psi_error < 1e-3 * max(1.0, np.max(np.abs(hit.psi_in))) for hit in hits)
 
 
+@pytest.mark.slow
 def test_twenty_random_bodies():
     check(*compared(1, 20))
 
@@ -89,6 +90,7 @@ def check_errors(rows):
     assert np.max(of_e) < 1e-3
 
 
+@pytest.mark.slow
 def test_errors_of_twelve_are_as_told():
     check_errors(errors(5, 12))
 

@@ -68,6 +68,7 @@ def away(actual, expected, depths):
     return (np.hypot(*(actual - expected).T) / (2 / 3 * depths.max() ** 1.5)).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "path",
     [
@@ -128,6 +129,7 @@ def test_steps_are_straight_however_they_are_cut():
     np.testing.assert_allclose(whole[:, turning.WORK], parts[:, turning.WORK], atol=2e-3)
 
 
+@pytest.mark.slow
 def test_the_axes_do_not_matter():
     """A path turned or mirrored has its force turned or mirrored."""
     depths, moved = spiral(4)
@@ -136,6 +138,7 @@ def test_the_axes_do_not_matter():
         assert away(pull(follow(depths, moved @ matrix)), plain @ matrix, depths) < 1e-8
 
 
+@pytest.mark.slow
 def test_forces_lead_back_to_their_displacements():
     """The forces of a path by displacements, wanted, move the bodies as before."""
     depths, moved = circle(0.5, 12)

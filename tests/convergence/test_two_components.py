@@ -46,6 +46,7 @@ def rebound(psi: float, body: Inertia, solid: Solid = ELASTIC) -> Array:
     return numbers[OUT]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("solid", SOLIDS.values(), ids=SOLIDS)
 @pytest.mark.parametrize("psi", [-0.3, 0.8, 2.0, 9.0])
 def test_an_impact_that_does_not_turn_is_that_of_one_component(psi: float, solid: Solid) -> None:
@@ -54,6 +55,7 @@ def test_an_impact_that_does_not_turn_is_that_of_one_component(psi: float, solid
     assert both[2] == 0.0
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("solid", SOLIDS.values(), ids=SOLIDS)
 def test_the_rebound_turns_with_the_body(solid: Solid) -> None:
     """Without tangential velocity before, what comes after lies in the rod's plane."""
@@ -63,6 +65,7 @@ def test_the_rebound_turns_with_the_body(solid: Solid) -> None:
         assert rebound(0.0, rod_at(angle), solid) == pytest.approx(turned, abs=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("psi", "angle"), [(0.5, 1.0), (1.5, 2.0), (4.0, 1.0), (-2.5, 0.4)])
 def test_the_oracle_agrees(psi: float, angle: float) -> None:
     body = rod_at(angle)
@@ -70,6 +73,7 @@ def test_the_oracle_agrees(psi: float, angle: float) -> None:
     assert rebound(psi, body) == pytest.approx([-speed, along, across], abs=5e-7)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("psi", "body", "alpha"),
     [(0.8, ROD, 0.1), (0.5, rod_at(1.0), 0.3), (1.5, rod_at(2.0), 0.05), (4.0, rod_at(1.0), 0.9)],
@@ -81,6 +85,7 @@ def test_the_oracle_of_viscous_solids_agrees(psi: float, body: Inertia, alpha: f
     assert rebound(psi, body, solid) == pytest.approx([-speed, along, across], abs=4e-6)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("solid", SOLIDS.values(), ids=SOLIDS)
 def test_the_error_is_of_second_order(solid: Solid) -> None:
     counts, wrong = (60, 120, 240), []
@@ -100,6 +105,7 @@ def test_what_relaxes_at_once_or_never_is_elastic(relaxation: float) -> None:
         assert rebound(psi, body, solid) == pytest.approx(rebound(psi, body), abs=1e-5)
 
 
+@pytest.mark.slow
 def test_no_impact_gains_energy() -> None:
     rng = np.random.default_rng(1904)
     for psi, angle in zip(rng.uniform(-5.0, 5.0, 12), rng.uniform(0.0, 6.0, 12), strict=True):

@@ -38,6 +38,7 @@ def test_impacts_with_all_losses():
         assert actual == pytest.approx(extrapolated(*values), abs=1e-6), values
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("psi", "chi", "e"), [(6.93, 4.14, 0.95), (2.0, 1.44, 0.8), (5.0, 0.9, 0.55)]
 )
@@ -62,6 +63,7 @@ def test_march_is_of_second_order():
     assert 3.0 < errors[1] / errors[2] < 5.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "e", [0.7, *(pytest.param(e, marks=pytest.mark.slow) for e in (0.9, 0.5, 0.3))]
 )

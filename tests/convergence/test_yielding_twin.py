@@ -75,6 +75,7 @@ def test_springs_bear_the_transform_of_the_pressure() -> None:
         assert borne(np.array([w]), y)[0] == pytest.approx(whole, rel=1e-7)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("psi", "chi", "ratio", "count", "close"),
     [

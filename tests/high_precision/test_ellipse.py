@@ -59,6 +59,7 @@ def test_shape_and_stiffness(slender):
         assert relative(one.across, truths[1]) <= BOUND
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("slender", SLENDER)
 def test_share_and_punch(slender):
     """Of cos^2 in 1/w; 2 sqrt(R_e d) is the stiffness of a flat punch, 2 pi a b over int 1/w."""
@@ -72,6 +73,7 @@ def test_share_and_punch(slender):
     assert relative(2.0 * math.sqrt(found.radius * float(depth)), punch) <= BOUND
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("slender", [0.8, 0.3, 1e-2])
 def test_stiffness_ratios(slender):
     """Of two bodies: their int ((1 - nu) + nu cos^2)/w over 2 G add up, as int (1 - nu)/w do."""

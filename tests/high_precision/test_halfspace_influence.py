@@ -22,6 +22,7 @@ def closed_form(point):
     return {name: float(value) for name, value in values.items()}
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("point", INSIDE)
 @pytest.mark.parametrize("name", KERNELS)
 def test_inside(name, point):

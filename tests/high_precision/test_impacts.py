@@ -51,6 +51,7 @@ def test_phases(row):
         assert phase.end == pytest.approx(float(end), abs=3e-11)
 
 
+@pytest.mark.slow
 def test_the_generator_confirms_its_table():
     """With other precision and order, for the first line; `--check` alone does all, in minutes."""
     program = [sys.executable, "-m", "tests.oracles.generate_impacts", "--check", "--first", "1"]

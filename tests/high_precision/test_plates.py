@@ -33,12 +33,14 @@ def solution(psi: float, chi: float, give: float) -> Solution:
     return solved
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("give", [1e-4, 0.1, 0.4, 1.0, 1.5, 2.0])
 def test_normal_motion_is_that_of_many_digits(give: float) -> None:
     actual = normal_motion(give, STEP_TOLERANCE, new_work())[:2]
     assert actual == pytest.approx(oracle.restitution_and_duration(give), abs=1e-10)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", [0.3, 0.9, 1.44, 3.0])
 @pytest.mark.parametrize("give", [0.01, 0.5, 1.9])
 def test_sliding_throughout(chi: float, give: float) -> None:
@@ -86,6 +88,7 @@ def test_a_thick_wall_is_the_limit() -> None:
     assert np.abs(nearer).max() < 1e-6
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("psi", "chi", "give"), IMPACTS)
 def test_states_are_those_of_springs(psi: float, chi: float, give: float) -> None:
     plate = solution(psi, chi, give)

@@ -30,6 +30,7 @@ def fake_ffmpeg(folder, monkeypatch, script):
     monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
 
 
+@pytest.mark.slow
 def test_gif_has_a_picture_for_every_instant(history, frames, tmp_path):
     calls = []
     path = animate(history, iter(frames), tmp_path / "hit.gif", progress=lambda: calls.append(1))

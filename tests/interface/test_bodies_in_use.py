@@ -62,6 +62,7 @@ def rows(content: dict[str, object], path: Path) -> list[str]:
     return [str(path)]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("kind", FIRST)
 def test_a_case_file_is_what_its_maker_gives(kind: str, tmp_path: Path) -> None:
     options = {key: value for key, value in FIRST[kind].items() if key != "kind"}
@@ -125,6 +126,7 @@ def test_energies_of_the_history_add_up(kind: str) -> None:
     assert np.diff(energies[-1]).min() > -1e-5 * energies[:, 0].sum()
 
 
+@pytest.mark.slow
 def test_figures_and_films(tmp_path: Path) -> None:
     hit = hit_of(case())
     assert len(hit.plot().axes) == 4

@@ -137,6 +137,7 @@ def test_an_error_in_other_words_is_asked_with_the_unit_of_its_column(stored):
 MISSING = ["", "-", "NaN", "nan", "NA", "n/a", "N/A", " ", "#N/A", "\N{EN DASH}"]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("cell", MISSING)
 def test_what_is_missing_is_counted_or_refused_by_its_cell(cell, stored):
     text = f"angle [deg];speed;spin_out [rpm]\n10;1;-200\n20;1;{cell}\n30;1;-500\n;;\n40;1;-600\n"

@@ -102,6 +102,7 @@ def test_it_has_no_hash():
         hash(collided())
 
 
+@pytest.mark.slow
 def test_it_passes_through_jax():
     """A tree of arrays: jit, vmap and grad give it back, and what is traced can be printed."""
     printed = []

@@ -100,6 +100,7 @@ def worst(program, kind, steps, e=1.0, chis=CHI):
     return float(np.abs(actual - exact[:, :, np.newaxis]).max())
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("kind", "bounds"),
     [
@@ -114,6 +115,7 @@ def test_impacts_are_as_near_as_promised(program, kind, bounds):
         assert 0.1 * bound < worst(program, kind, steps) <= bound
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("e", [0.9, 0.7])
 def test_impacts_with_losses_are_those_of_one_viscoelastic_solid(program, e):
     assert worst(program, "16 viscous", 100, e) <= 1.5e-3
@@ -123,6 +125,7 @@ def test_impacts_with_losses_are_those_of_one_viscoelastic_solid(program, e):
     assert worst(program, "32 viscous", 400, e) <= 3e-4
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("kind", "e"), [("1024 double", 1.0), ("1024 viscous", 0.7)])
 def test_many_springs_converge_with_the_second_order(program, kind, e):
     """From 25 to 200 steps by 2^(3 order); the limit is the exact impact, not something near it."""
@@ -167,6 +170,7 @@ class Stepped:
         return load
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("alpha", [0.0, 0.2])
 def test_single_precision_differs_by_its_rounding(functions, alpha):
     """The same steps in half the memory: forces within 2e-5 of the largest, and not the same."""
@@ -181,6 +185,7 @@ def test_single_precision_differs_by_its_rounding(functions, alpha):
     assert 1e-9 < max(off) < 2e-5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compiler", ["g++", "clang++"])
 def test_compilers_have_nothing_to_say(compiler):
     """In vectors, and without them, also of what tests and examples make of the templates; what
@@ -195,6 +200,7 @@ def test_compilers_have_nothing_to_say(compiler):
         subprocess.run([str(word) for word in words], check=True, capture_output=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [ELASTIC, VISCOUS, VISCOUS | LEDGER])
 def test_springs_one_by_one_are_those_in_registers(functions, plain, kind):
     alpha = 0.2 if kind & VISCOUS else 0.0
@@ -204,6 +210,7 @@ def test_springs_one_by_one_are_those_in_registers(functions, plain, kind):
         np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-13)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("springs", "alpha", "shear_alpha"),
     [(16, 0.0, 0.0), (32, 0.0, 0.0), (64, 0.0, 0.0), (32, 0.2, 0.2), (32, 0.2, 0.0)],
@@ -405,6 +412,7 @@ def test_many_contacts_at_once_are_those_one_by_one(functions, parts):
 WORDS = "min max near far small dot cross one two zero half root size count step Real Type PI pi"
 
 
+@pytest.mark.slow
 def test_macros_of_a_program_do_not_matter(folder):
     """Each letter and common words as macros: the headers compile, and the macros are kept."""
     names = [*string.ascii_letters, *WORDS.split()]
@@ -510,6 +518,7 @@ def test_the_program_of_the_page_prints_what_it_shows(folder):
     assert float(shown.split()[0]) == pytest.approx(np.degrees(hit.rebound_angle), abs=0.005)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("e", [0.9, 1.0])
 def test_the_example_of_two_impacts_is_what_the_page_promises(folder, e):
     """A glass ball strikes a steel ball and a steel wall: psi_2, and energies that close."""
@@ -548,6 +557,7 @@ def test_levers_end_where_hertz_puts_the_contact(folder):
         assert (plain, other_plain) == pytest.approx((r1 - d / 2, r2 - d / 2 if r2 else 0.0))
 
 
+@pytest.mark.slow
 def test_sanitizers_are_silent(folder):
     checked = ("-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
     try:
@@ -559,6 +569,7 @@ def test_sanitizers_are_silent(folder):
         assert np.all(np.isfinite(run(program, kind, rows)))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("precision", [0, SINGLE], ids=["double", "single"])
 @pytest.mark.parametrize("decades", ["many", "all"])
 def test_no_motion_whatever_leaves_the_law(functions, precision, decades):

@@ -47,6 +47,7 @@ def program(tmp_path_factory):
     return built(tmp_path_factory.mktemp("space"), "in_space")
 
 
+@pytest.mark.slow
 def test_contacts_at_once_are_those_one_by_one(tmp_path):
     """21 contacts, one refused in every second step: memories and actions equal to the bit."""
     ran = subprocess.run([built(tmp_path, "together")], capture_output=True, text=True, check=True)

@@ -248,6 +248,7 @@ class Spoilt(Lammps):
         return {name: text.replace(self.old, self.new) for name, text in files.items()}
 
 
+@pytest.mark.first_case
 @pytest.mark.engine
 @pytest.mark.skipif(Lammps().executable() is None, reason="LAMMPS is not installed")
 @pytest.mark.parametrize(

@@ -82,6 +82,7 @@ def test_an_outcome_of_numbers_is_the_solution(view):
     assert outcome.kappa == pytest.approx(4.0 / 7.0 * view.chi, rel=1e-15)  # a solid ball
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     "view", [*(BODIES[i] for i in (0, 2, 7, 10)), NUMBERED[0], *NUMBERED[3:]], ids=str
 )
@@ -161,6 +162,7 @@ SCRIPTED = [
 ]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("view", SCRIPTED, ids=str)
 def test_lines_of_python_give_the_same(view, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)

@@ -54,6 +54,7 @@ def test_a_file_of_ones_own_beside_the_parts_is_kept(tmp_path):
     assert (tmp_path / "assets" / "logo.png").read_text() == "mine"
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("moves", range(6))
 def test_an_older_copy_is_put_back_if_the_new_one_cannot_take_its_place(
     tmp_path, monkeypatch, moves

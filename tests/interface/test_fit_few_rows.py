@@ -34,6 +34,7 @@ def whole(result):
     return result
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("vary", "fixed"),
     [
@@ -53,6 +54,7 @@ def test_all_parameters_but_one_may_be_fixed(vary, fixed):
     assert np.isfinite([law.criterion for law in actual.comparison]).all()
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("name", "angle"),
     [

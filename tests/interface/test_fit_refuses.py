@@ -169,6 +169,7 @@ FALLING = {"angle [deg]": [0.0] * 5, "normal_restitution": [0.8, 0.79, 0.81, 0.8
 BARE = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.0)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     "vary", ["friction", "kappa", ("friction", "kappa"), ["chi"], ["friction", "chi"]]
 )

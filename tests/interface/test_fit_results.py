@@ -50,6 +50,7 @@ def test_posterior_agrees_with_the_profile(data):
     assert samples.attrs["converged"] == 1
 
 
+@pytest.mark.slow
 def test_posterior_of_a_robust_fit_agrees_with_the_profile():
     """One parameter, many values, three of them wild: its likelihood has the scale of the loss."""
     random = np.random.default_rng(12)

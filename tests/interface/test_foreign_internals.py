@@ -79,6 +79,7 @@ def private_names(tree):
             )
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", FILES)
 def test_only_named_internals_are_read(name):
     names = set(private_names(ast.parse((PACKAGE / name).read_text(encoding="utf-8"))))

@@ -253,6 +253,7 @@ def test_a_data_frame_is_read_with_what_else_it_holds():
     assert is_the_table(in_units(read_table(frame().convert_dtypes()), NAMES, ("spin_out",)))
 
 
+@pytest.mark.slow
 def test_the_empty_table_may_be_stored_as_a_workbook(tmp_path):
     """Filled in there it gives the fit of the same numbers as CSV, with its units and bodies."""
     lines = TEMPLATE.splitlines()
@@ -271,6 +272,7 @@ def test_the_empty_table_may_be_stored_as_a_workbook(tmp_path):
     assert table.rows[0] == len(lines) + 1
 
 
+@pytest.mark.slow
 def test_commands_read_files_in_one_way_and_store_it(tmp_path, capsys, monkeypatch):
     """Columns, sheet and decimal sign by options, by what they stored, and by a case file."""
     monkeypatch.chdir(tmp_path)

@@ -142,6 +142,7 @@ def test_a_word_that_is_no_way_is_refused():
 )
 def test_no_library_is_built_without_a_compiler(compiler, words, tmp_path, monkeypatch, capsys):
     """In one line, and nothing is left behind."""
+    monkeypatch.setattr(building, "_build_for_browsers", lambda *_: None)  # these need none
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setenv("CC", compiler)
     assert building.main([str(tmp_path / "lib")]) == 1
@@ -180,8 +181,9 @@ def test_a_failed_build_is_told_at_the_first_call(
     version, line, compiler, reason, hook, tmp_path, monkeypatch, capfd
 ):
     """Whatever fails: the installation goes on, and the library says why it is not there."""
-    with (tmp_path / "src/carom/native/__init__.py").open("a") as file:
-        file.write(f"\n{line}\n")
+    if line:  # else kernels for browsers that were built from the same sources serve
+        with (tmp_path / "src/carom/native/__init__.py").open("a") as file:
+            file.write(f"\n{line}\n")
     monkeypatch.setenv("CC", compiler)
     data = {"force_include": {}}
     hook.initialize(version, data)
@@ -265,7 +267,7 @@ HERTZ = (
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="permissions are others there")
-@pytest.mark.parametrize("way", ["library", "numba"])
+@pytest.mark.parametrize("way", ["library", pytest.param("numba", marks=pytest.mark.slow)])
 def test_a_read_only_installation(read_only, way):
     """Numbers as ever and no word, by the library and by numba, which then keeps nothing."""
     assert "Error: [Errno" in read_only(WRITES).stderr
@@ -295,6 +297,7 @@ def refused_by_the_page():
         page.kernels()
 
 
+@pytest.mark.slow
 @needs_library
 def test_kernels_for_browsers_are_those_of_these_sources(for_browsers):
     contents = json.loads((for_browsers / BROWSER_CONTENTS).read_text())

@@ -232,6 +232,7 @@ def test_validity_says_what_is_assumed_of_losses() -> None:
     assert "e" not in {f.name for f in hit(None).validity.findings}
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("chi", "e"), [(0.6, 0.99), (1.44, 0.7), (2.5, 0.99), (3.0, 0.95)])
 def test_other_solids_of_one_restitution_are_as_near_as_validity_says(chi: float, e: float) -> None:
     """Yielding spheres, which are farthest off, against Kelvin & Voigt's at the same e."""
@@ -266,6 +267,7 @@ def texts(figure: Any) -> list[str]:
     return [text for text in values if text not in NOT_TITLES]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", LOSSES.values(), ids=LOSSES.keys())
 def test_titles_call_bodies_elastic_only_if_they_are(law: LossLaw | None) -> None:
     """All datasets of an impact, those in a sweep and in curves, and all figures of them."""

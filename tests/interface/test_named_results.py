@@ -81,6 +81,7 @@ def test_the_legend_names_code_law_and_error():
     assert labels(score(LAWS["mindlin"], chi=CHI))[1].startswith("mindlin ")
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", NAMES)
 def test_any_name_can_be_drawn(name, tmp_path):
     result = score(one(), chi=CHI, code=name, law=name)

@@ -47,6 +47,7 @@ def picture(html):
     return np.asarray(Image.open(BytesIO(b64decode(data))).convert("L"))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     "how",
     [{}, {"method": TINY}, {"losses": carom.KelvinVoigt(restitution=0.9)}],
@@ -68,6 +69,7 @@ def test_impacts_are_a_table_and_a_picture(pair, how):
     assert len(html) < 300_000
 
 
+@pytest.mark.slow
 def test_fits_are_a_table_and_a_picture():
     fit = carom.fit(carom.datasets.load("kharaz2001"))
     answer = Balanced(fit._repr_html_())
@@ -214,6 +216,7 @@ def test_what_was_used_is_cited(pair):
 LOADED = [(carom.datasets.load, name) for name in carom.datasets.names()]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("get", "name"), [*LOADED, (carom.datasets.path, "foerster1994")])
 def test_the_data_of_a_fit_are_cited(name, get):
     """As file and as dataset; the entry has the DOI that the data tell."""

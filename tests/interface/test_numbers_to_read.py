@@ -70,6 +70,7 @@ def halves_of_the_last_digit(value, digits=DIGITS):
     return 0.5 * 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1) + 1e-12 * abs(value)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("unit", UNITS)
 @given(exponent=st.floats(-25.0, 25.0), sign=st.sampled_from((-1.0, 1.0)), digits=st.integers(2, 8))
 @settings(max_examples=40, derandomize=True, deadline=None)
@@ -95,6 +96,7 @@ def test_numbers_are_1_to_1000_where_there_are_prefixes(unit, exponent):
     assert prefixed([value, -0.5 * value], unit)[1] == text(value, unit).partition(" ")[2]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("unit", UNITS)
 @given(st.lists(st.floats(-1e6, 1e6), min_size=1, max_size=5))
 @settings(max_examples=50, derandomize=True, deadline=None)

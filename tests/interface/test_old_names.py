@@ -27,6 +27,7 @@ verify.step_error verify.stiffnesses verify.tune verify.write_pack
 """
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", PUBLIC.split())
 def test_every_public_name_of_0_2_is_there(name):
     home, _, last = f"carom.{name}".rpartition(".")

@@ -58,6 +58,7 @@ def left(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("ending", "there"), [*product(WRITERS, [True]), *product((".nc", ".csv", ".h"), [False])]
 )
@@ -96,6 +97,7 @@ def test_what_a_link_points_to_survives_a_failed_write(tmp_path):
     assert left(tmp_path) == ["kept", "x.csv"]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("ending", WRITERS)
 def test_a_pipe_is_written_into(ending, tmp_path):
     """The reader of a FIFO gets the file; the FIFO is still one."""
@@ -113,6 +115,7 @@ def test_a_pipe_is_written_into(ending, tmp_path):
         assert carom.read(tmp_path / "again.nc").identical(CURVE)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("ending", ["", *WRITERS])
 def test_a_device_stays_one(ending, tmp_path):
     """By its own name, which has no ending, and by a link's."""
@@ -140,6 +143,7 @@ def into_a_file(folder, mode):
     yield (folder / "all.txt").read_text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "mode"),
     [("/dev/stdout", None), ("/dev/stdout", "w"), ("/dev/fd/1", "a"), ("link.csv", "w")],
@@ -160,6 +164,7 @@ def test_what_goes_to_stdout_is_there_once_and_whole(name, mode, tmp_path, comma
     assert text.removeprefix(wanted.read_text(encoding="utf-8")).startswith("chi = 1.44\n")
 
 
+@pytest.mark.slow
 def test_a_substituted_process_is_written_into(tmp_path):
     """`--plot >(cat > x.png)`: bash names a pipe /dev/fd/63. No screen is needed for a figure,
     whatever backend of matplotlib is set, be there one or not."""
@@ -244,6 +249,7 @@ def test_what_can_be_no_name_is_refused(what, kind, tmp_path, monkeypatch):
     assert left(tmp_path) == []
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("kind", NONE)
 @pytest.mark.parametrize("what", FILES)
 def test_what_can_be_no_name_is_refused_by_commands(what, kind, tmp_path, refusal):
@@ -287,6 +293,7 @@ def lonely(tmp_path, monkeypatch):
 READ = [name for name in FILES if name not in ("pack", "store", "laws")]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("what", [*READ, "table of a sweep"])
 def test_a_pipe_without_another_end_is_refused(what, lonely, capsys):
     """Nobody writes into it, or reads: no command waits for ever."""
@@ -302,6 +309,7 @@ def test_a_pipe_without_another_end_is_refused(what, lonely, capsys):
     assert threading.active_count() == threads
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("what", ["impact", "sweep", "fit", "score", "table of a sweep", "tune"])
 def test_a_pipe_is_read_like_a_file(what, tmp_path, monkeypatch, capsys):
     """Once: what a pipe gives is not there a second time."""

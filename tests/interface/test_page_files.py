@@ -37,6 +37,7 @@ def some_slow(cases, slow):
     return [pytest.param(x, id=str(x), marks=[pytest.mark.slow] * (x in slow)) for x in cases]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", some_slow(STATES, ("losses", "numbers with losses", "plate")))
 def test_every_picture_is_written_in_both_modes(name, tmp_path):
     for picture in PICTURES:
@@ -52,6 +53,7 @@ def test_a_picture_is_written_as_pdf(tmp_path):
 ODD = [View(given=NUMBERS, psi=0.0), View(friction=0.0), View(angle=0.0), View(angle=89.9)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", some_slow(ODD, ODD[2:]))
 def test_pictures_of_odd_states(view, tmp_path):
     for picture, time in (*((picture, 0.0) for picture in PICTURES), ("contact", 1.0)):
@@ -105,6 +107,7 @@ def test_axes_of_numbers_tell_units_of_the_theory():
     assert labels[3] == "share of tangential energy"
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", STATES)
 def test_histories_are_those_of_the_library(name, tmp_path):
     view = STATES[name]

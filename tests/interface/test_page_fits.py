@@ -42,6 +42,7 @@ def folder(tmp_path, monkeypatch):
     assert not list(tmp_path.iterdir())  # nothing of the user's is left
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", carom.datasets.names())
 def test_a_fit_is_the_librarys(name):
     reply, result = answer({"data": name}), fitted(name)
@@ -63,6 +64,23 @@ def test_a_fit_is_the_librarys(name):
         np.testing.assert_allclose(chart["x"], angles, rtol=1e-5, atol=1e-9)
         assert [line["law"] for line in chart["lines"]] == list(dataset["law"].values)
         assert chart["lines"][0]["law"] == "exact"
+
+
+@pytest.mark.slow
+def test_an_outlier_is_marked_and_named():
+    """One of fourteen values with a wrong first digit: its point, its line and no other."""
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace("steel"), friction=0.14)
+    angles, rng = np.linspace(8.0, 60.0, 14), np.random.default_rng(1)
+    hits = [carom.impact(pair, speed=0.3, angle=f"{angle} deg") for angle in angles]
+    values = np.array([hit.contact_restitution for hit in hits]) + rng.normal(0.0, 0.01, 14)
+    values[6] += 0.5
+    lines = [f"{angle},{value}\n" for angle, value in zip(angles, values, strict=True)]
+    bodies = "radius=5 mm&material=steel&friction=0.2"
+    reply = asked("angle [deg],contact_restitution\n" + "".join(lines), bodies)
+    (chart,) = reply["charts"]
+    assert np.flatnonzero(chart["outlier"]).tolist() == [6]
+    assert f"outliers: line {chart['row'][6]}" in reply["notes"]
 
 
 def test_a_plate_in_a_file_is_fitted(tmp_path):
@@ -118,6 +136,7 @@ def test_bodies_of_the_file_are_not_those_of_the_page():
     assert reply["words"] == str(fitted("kharaz2001"))
 
 
+@pytest.mark.slow
 def test_columns_say_what_they_were_taken_for():
     columns = asked(measured(0.123), "given=bodies")["columns"]
     assert [row["kind"] for row in columns] == ["before the impact", "after the impact", "not used"]
@@ -180,6 +199,7 @@ def test_what_did_not_arrive_whole_is_refused(contents):
     refused("^file: it did not arrive whole", answer, upload)
 
 
+@pytest.mark.slow
 def test_the_process_that_fits():
     worker = Worker()
     try:

@@ -20,7 +20,7 @@ import carom  # noqa: E402
 ACCURACY = ROOT / "docs" / "accuracy.md"
 SLOW = (
     *("fitting", "halfspace", "normal_spin", "glass", "dem-codes", "contact-mechanics"),
-    "drop-test",
+    *("drop-test", "validity", "measuring", "simulations", "collisions", "erosion", "peening"),
 )
 
 

@@ -119,6 +119,7 @@ def test_references_agree_with_those_that_results_cite():
             assert shipped[key][field] == here[key][field], (key, field)
 
 
+@pytest.mark.slow
 def test_figures_are_there_and_drawn_by_the_script_that_is_named(tmp_path):
     (name,) = re.findall(r"\]\(([^)]+\.png)\)", BODY)
     assert re.findall(r"\\label\{(fig:\w+)\}", BODY) == ["fig:contact"]

@@ -72,6 +72,7 @@ def test_prefix_makes_the_largest_number_1_to_1000(largest, unit, expected):
     assert (scale, name) == (pytest.approx(expected[0], rel=1e-14), expected[1])
 
 
+@pytest.mark.slow
 def test_labels_are_those_of_the_glossary(figures):
     """Every axis names a quantity of the glossary by its symbol and its unit."""
     for name, figure in figures.items():
@@ -93,6 +94,7 @@ def _fits(quantity, text):
     return has_unit and quantity.symbol in symbols.split(", ")
 
 
+@pytest.mark.slow
 def test_all_text_is_legible(figures):
     assert all(map(is_legible, figures.values()))
 
@@ -238,6 +240,7 @@ def test_regime_bands_end_at_1_2_chi_and_4_chi_minus_1(figures):
     np.testing.assert_allclose(ends, [1.0, 2.88, 4.76, 6.0], rtol=1e-14)
 
 
+@pytest.mark.slow
 def test_drawing_needs_no_solver(history, tmp_path):
     """A stored history is read and drawn in a process that never loads the solution."""
     stored, picture = save(history, tmp_path / "hit.nc"), tmp_path / "hit.svg"

@@ -51,6 +51,7 @@ def texts(figure):
     return [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
 
 
+@pytest.mark.slow
 def test_every_figure_has_the_width_and_the_font_that_were_asked_for(drawers, usual):
     """The larger font is that of labels; no text keeps the size of the usual one."""
     for name, values in drawers.items():
@@ -200,6 +201,7 @@ def test_a_figure_is_a_picture_in_a_notebook(hit):
 SEVERAL = {"plot_impact", "plot_wear", "plot_contact", "plot_laws", "plot_score", "plot_strength"}
 
 
+@pytest.mark.slow
 def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers, usual):
     """As it is without; the rest of the figure, its size and a user's settings stay."""
     fields = drawers["plot_profiles"].fields("21 us")
@@ -225,6 +227,7 @@ def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers, usual):
 OTHER_SIZE = {("plot_regime_map", "lines"), ("plot_regime_map", "texts")}  # labels find other room
 
 
+@pytest.mark.slow
 def test_nothing_is_cut_in_a_plain_figure_of_a_user(drawers):
     """Legends have room above, in the last row below what stands there, names of borders aside."""
     for name, given in drawers.items():

@@ -161,6 +161,7 @@ def test_other_grids_and_limits_are_refused(errors):
         refused(r"limit.*must be positive", plot_error_map, errors, limit=limit)
 
 
+@pytest.mark.slow
 def test_page_says_what_the_laws_do(monkeypatch, tmp_path):
     """The ranking and the best law as the pages of laws have them; a changed number is noticed."""
     import law_ranking as script

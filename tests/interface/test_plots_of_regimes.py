@@ -51,6 +51,7 @@ def drawn(maps):
 NAMES = ("many", "few", "half", "mirrored", "row", "points")  # "old" has the regions of "many"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [178.0, pytest.param(120.0, marks=pytest.mark.slow), 86.0])
 @pytest.mark.parametrize("name", NAMES)
 def test_every_sequence_is_named_and_all_text_is_legible(drawn, regions_of, name, width):
@@ -74,6 +75,7 @@ def test_every_sequence_is_named_and_all_text_is_legible(drawn, regions_of, name
         assert len(ends_in) == 1, "a leader line ends at its label"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_leader_lines_run_clear_of_labels_and_begin_in_their_region(maps, regions_of, name):
     """Labels without a line lie in their region; to a tenth of a millimetre."""
@@ -144,6 +146,7 @@ def test_the_borders_part_the_regimes(maps):
             assert regime_of(region.name) == [*REGIMES][np.sum(psi > ends)], region.name
 
 
+@pytest.mark.slow
 def test_edges_are_curves_and_not_pixels(maps, drawn, regions_of, tmp_path):
     """There is no picture in a vector file; and steps only where a dataset has no borders.
 

@@ -58,6 +58,7 @@ CASES = [(kind, change) for kind in DRAWN for change in CHANGES]
 CASES.remove(("fields", "huge"))  # at which matplotlib does not end
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("kind", "change"), CASES)
 def test_odd_numbers_are_drawn_or_refused_in_silence(
     kind, change, datasets, tmp_path, capfd, caplog
@@ -78,6 +79,7 @@ def test_odd_numbers_are_drawn_or_refused_in_silence(
     assert caplog.records == []
 
 
+@pytest.mark.slow
 def test_words_that_no_font_has_are_drawn_in_silence(tmp_path, capfd, caplog):
     laws = [carom.dem.LinearSpring(), carom.dem.HardSphere()]
     laws = carom.verify.rank(laws, psi_1=[0.5, 1.0]).to_dataset()
@@ -107,6 +109,7 @@ def test_a_user_hears_matplotlib_again_afterwards(datasets):
     assert warnings.filters == filters
 
 
+@pytest.mark.slow
 def test_commands_say_nothing_of_folders_that_matplotlib_lacks(tmp_path):
     path = str(tmp_path / "x.png")
     words = ["curve", "--chi", "1", "--points", "5", "--plot", path]
@@ -116,6 +119,7 @@ def test_commands_say_nothing_of_folders_that_matplotlib_lacks(tmp_path):
     assert (done.returncode, done.stderr) == (0, f"Carom has stored {path}.\n")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "code", "begins"),
     [

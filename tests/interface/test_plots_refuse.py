@@ -38,6 +38,7 @@ def test_what_cannot_be_drawn_is_refused_in_one_line(hit, draw, said):
     refused(said, draw, hit)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("make", "drawn"), KINDS.values(), ids=KINDS)
 def test_datasets_of_another_kind_are_refused_in_one_line(hit, make, drawn):
     """The line tells what the function draws and what makes such a dataset; no KeyError."""

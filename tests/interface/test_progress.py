@@ -97,6 +97,7 @@ def screen(text, columns=100):
     return [line.rstrip() for line in lines], cursor
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("count", "columns"), [("30", 100), ("None", 100), ("30", 40)], ids=["", "unknown", "narrow"]
 )
@@ -189,6 +190,7 @@ def test_a_pipe_gets_nothing_unless_asked():
     assert "30/30" in wanted
 
 
+@pytest.mark.slow
 def test_a_command_shows_how_far_it_is():
     """`carom verify laws` prints its table to a file, and its bar on the terminal."""
     code = "import carom.io.progress as p, sys\np.SECONDS_BEFORE_BAR = 0.0\n"

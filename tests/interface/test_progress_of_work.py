@@ -57,6 +57,7 @@ def _at_once(monkeypatch):
     monkeypatch.setattr("carom.io.progress.SECONDS_BEFORE_BAR", 0.0)
 
 
+@pytest.mark.first_case
 @pytest.mark.usefixtures("_at_once")
 @pytest.mark.parametrize(("work", "name", "total"), LONG)
 def test_a_bar_is_shown_on_request_only(work, name, total, tmp_path, capsys):
@@ -69,6 +70,7 @@ def test_a_bar_is_shown_on_request_only(work, name, total, tmp_path, capsys):
     assert shown.out == ""
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("work", "name", "total"), LONG[:6])
 def test_a_callable_is_told_what_is_done_and_of_how_many(work, name, total, tmp_path):
     entries = []
@@ -79,6 +81,7 @@ def test_a_callable_is_told_what_is_done_and_of_how_many(work, name, total, tmp_
     assert {whole for _, whole in entries} == {total}
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("work", "name", "total"), LONG[6:])
 def test_a_callable_is_called_for_every_frame(work, name, total, tmp_path):
     entries = []

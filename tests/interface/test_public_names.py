@@ -111,6 +111,7 @@ def test_what_users_get_is_found():
     assert names >= {"Impact", "Validity", "Contact", "UserTable", "Memory", "Standing", "LossFit"}
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("cls", CLASSES, ids=lambda cls: f"{cls.__module__}.{cls.__name__}")
 def test_what_dir_shows_of_a_class_is_documented(cls):
     """By a docstring of its own, by the class's, or as a quantity of the glossary."""
@@ -148,6 +149,7 @@ for line in sys.argv[1:]:
 """
 
 
+@pytest.mark.slow
 def test_names_are_where_users_import_them():
     """Each in a process of its own: what was imported of Carom before must not matter."""
     subprocess.run([sys.executable, "-c", FORKS, *LINES], check=True)

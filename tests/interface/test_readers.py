@@ -207,6 +207,7 @@ def _vectors(values):
     return pd.DataFrame(dict.fromkeys("xyz", values))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("labelled", LABELLED.values(), ids=LABELLED)
 @pytest.mark.parametrize("name", ALONG)
 @pytest.mark.filterwarnings("ignore:.*left alone")  # vectors that are no normals

@@ -77,6 +77,7 @@ def page(outlying, tmp_path_factory):
     return path.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_all_sections_are_there(page):
     assert Tags(page).headings == SECTIONS
 
@@ -157,6 +158,7 @@ def pages(monkeypatch):
     return kept
 
 
+@pytest.mark.slow
 def test_pages_have_room_for_all_texts_and_the_figure_below_its_heading(outlying, tmp_path, pages):
     path = outlying.report(tmp_path / "report.pdf", "Title $x \ud800", "carom fit $" + 300 * "x")
     content = path.read_bytes()
@@ -174,6 +176,7 @@ def test_pages_have_room_for_all_texts_and_the_figure_below_its_heading(outlying
             assert not any(box.overlaps(other) for other in boxes[:place])
 
 
+@pytest.mark.slow
 def test_tables_stand_whole_on_a_page_with_their_heading(outlying, tmp_path, pages):
     outlying.report(tmp_path / "report.pdf")
     laws = ["Laws of rebound", "exact", "Walton", "rigid Coulomb"]

@@ -137,6 +137,7 @@ ODD_CELLS = [  # in a column of spins of .xlsx and .ods, and what is said of it
 ]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("excel", "other", "words"), ODD_CELLS)
 def test_cells_without_a_value_are_never_silently_missing(excel, other, words, stored):
     """An error, a formula that no program has calculated: told by its cell; #N/A is counted."""
@@ -162,6 +163,7 @@ def test_errors_at_the_edges_of_a_sheet_are_found(stored):
     assert [column.cells[0] for column in table.cells.values()] == [1.0, "#DIV/0!", "#DIV/0!"]
 
 
+@pytest.mark.slow
 def test_what_is_hidden_is_read_and_said(stored):
     """Rows, as a filter or a hand hides them, and columns; blank ones are not counted."""
     rows = [HEADS, *([10.0 * i, 1.0, -200.0 * i] for i in (1, 2, 3, 4)), [None] * 3]

@@ -31,6 +31,7 @@ def test_variables_tell_unit_and_meaning(hit):
     assert_allclose(spectrum.moment_spectrum, radius * spectrum.tangential_spectrum)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", [1e-3, 0.01, 0.3, 0.46, 0.48, 0.9, 1.0, "yields", "no friction"])
 def test_corners_are_numbers_or_say_why_not(hit, law):
     """A spectrum without a minimum has no notch, and its figure no line for it."""

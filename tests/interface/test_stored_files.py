@@ -118,6 +118,7 @@ PLAIN = {
 }
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("kind", PLAIN)
 def test_a_dataset_comes_back_to_the_last_bit(kind, tmp_path):
     """Values, types, order of dimensions, coordinates, attributes; what was given is left alone."""
@@ -174,6 +175,7 @@ REFUSED = {
 }
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("kind", REFUSED)
 def test_what_would_come_back_changed_is_refused(kind, tmp_path):
     words = r"it keeps numbers|cannot be used; (it needs|must)"
@@ -181,6 +183,7 @@ def test_what_would_come_back_changed_is_refused(kind, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("seed", range(40))
 def test_random_datasets_come_back_or_are_refused(seed, tmp_path):
     rng = np.random.default_rng(seed)
@@ -338,6 +341,7 @@ for path in sys.argv[1:]:
 """
 
 
+@pytest.mark.slow
 def test_what_is_not_of_carom_is_refused_without_noise(tmp_path):
     """With all warnings shown, in a process of its own: nothing of HDF5, h5netcdf or xarray."""
     files = foreign(tmp_path)

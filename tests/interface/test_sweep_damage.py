@@ -77,6 +77,7 @@ def damage(file, how):
         file.write_bytes(content)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("how", DAMAGE)
 @pytest.mark.parametrize("name", ["status", "psi_out"])
 def test_damaged_chunk_is_found_and_computed_again(name, how, whole, copy):
@@ -113,6 +114,7 @@ def test_block_without_status_counts_as_not_run(whole, copy):
     assert dataset.where(again, drop=False).identical(whole[1].where(again, drop=False))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("how", DAMAGE)
 @pytest.mark.parametrize("resume", [False, True], ids=["read", "resumed"])
 def test_everything_else_that_is_damaged_is_refused(how, resume, copy):
@@ -187,6 +189,7 @@ MISPLACED = {
 }
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("how", MISPLACED)
 @pytest.mark.parametrize("name", ["status", "psi_out", "chi"])
 def test_chunk_of_another_place_is_found(name, how, whole, copy, tmp_path):

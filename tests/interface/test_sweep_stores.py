@@ -41,6 +41,7 @@ def files(folder: Path) -> dict[Path, bytes]:
     return {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("name", DESIGNS)
 def test_store_and_memory_hold_the_same_dataset(path, name):
     kept = sweep(CASE, DESIGNS[name])
@@ -173,6 +174,7 @@ def test_store_is_refused_without_resume(path):
     refused(words, sweep, CASE, GRID, store=path)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("case", "design", "outputs", "words"),
     [
@@ -255,6 +257,7 @@ for number, samples in enumerate((20_000, 300_000)):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="tells peak memory on Linux")
 def test_memory_does_not_grow_with_the_points(tmp_path):
     """The results of the larger sweep take 41 MB, fifteen times those of the smaller."""

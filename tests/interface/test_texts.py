@@ -158,6 +158,7 @@ def test_what_is_a_quantity_is_read(text, name, value):
     assert number(name, tomllib.loads(f"x = {json.dumps(text)}")["x"]) == actual
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("text", "name", "words"), REFUSED)
 def test_all_else_is_refused_in_one_line(text, name, words):
     for what, read in ((text, number), ([text], partial(numbers, allowed=""))):
@@ -184,6 +185,7 @@ def kinds_of(text):
             yield unit
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("written", "is_read", "right"), [*spellings()])
 def test_spellings_are_as_the_manual_says(written, is_read, right):
     """What is read is what the right spelling is, in every unit; what is refused names that one."""
@@ -215,6 +217,7 @@ PLAIN = st.from_regex(
 BLANK = st.sampled_from(["", " ", "\t", "\u00a0", "  "])
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(PLAIN, st.sampled_from(sorted(UNITS)), BLANK, BLANK)
 def test_a_number_and_a_unit_are_their_product(text, unit, between, around):

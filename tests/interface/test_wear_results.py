@@ -57,6 +57,7 @@ def test_bad_input_is_refused_in_one_line(hit, inputs, said):
     assert said in refused("", hit.wear, **inputs)
 
 
+@pytest.mark.slow
 def test_yielding_spheres_wear_on_a_spot_as_one_impact_does(pair):
     law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
     one = carom.impact(pair, speed=2.0, angle="20 deg", losses=law).wear()

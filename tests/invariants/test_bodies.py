@@ -89,6 +89,7 @@ def work_of_springs(hit, count):
     )
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("case", FLAT[:8])
 def test_friction_takes_what_is_missing(case):
     hit = random_bodies.strike(*case)
@@ -121,6 +122,7 @@ def turned_about_normal(case, angle):
     return pair, *(turn @ each for each in motion), turn
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("angle", [0.4, 2.0, -1.2])
 @pytest.mark.parametrize("case", SOLID[:4])
 def test_all_turns_with_the_bodies(case, angle):
@@ -177,6 +179,7 @@ def upside_down(body):
     )
 
 
+@pytest.mark.slow
 def test_either_body_may_be_the_first():
     seen = 0
     for pair, velocity, spin, spin2 in random_bodies.impacts(7, 40):
@@ -195,6 +198,7 @@ def test_either_body_may_be_the_first():
     assert seen > 3
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("case", FLAT[:8])
 def test_a_plane_of_symmetry_is_part_of_space(case):
     pair, velocity, spin, spin2 = case
@@ -245,6 +249,7 @@ ROUND = carom.Body(**BODY, contact=(0.003, -0.004), curvature_radius=0.005)
 PLATE = carom.HalfSpace(material="steel", thickness="3 mm")
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("kind", [*LOSSES, "plate"])
 @pytest.mark.parametrize("sliding", [-0.6, 0.0, 0.3])
 def test_what_loses_rebounds_less(kind, sliding):

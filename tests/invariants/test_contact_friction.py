@@ -60,6 +60,7 @@ def steady(kind, rows):
     return normal, 2.0 * 0.8 * 5e5 * radius * slide * (count * step + late), mu * normal
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("kind", KINDS)
 def test_friction_opposes_the_slide_at_any_rate_of_approach(loads, kind):
     """Pressed to DEPTH, at rates from none to those that change it: F = 2 G* a (U + tau U')."""
@@ -108,6 +109,7 @@ def test_a_first_touch_has_coulombs_friction_however_shallow(loads, kind):
     assert np.all(np.abs(across) <= 1e-6 * along)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("kind", KINDS[2:])
 def test_short_steps_move_springs_in_single_precision(loads, kind):
     """After a time t of sliding, springs are at 1 - exp(-t/tau) of the limit, and stay there."""
@@ -132,6 +134,7 @@ def test_the_header_finds_the_loss_of_any_restitution(folder):
     np.testing.assert_allclose(actual, [viscous_loss(e) for e in values], rtol=1e-4)
 
 
+@pytest.mark.slow
 def test_no_ball_on_a_level_floor_gains_energy(folder):
     """Thrown, sliding, rolling, spinning, at rest: 3,000 histories. Without losses velocity Verlet
     is off by the square of its step; with them nothing is gained but by rounding."""

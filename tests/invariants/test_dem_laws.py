@@ -47,6 +47,7 @@ def sample(n, seed):
     return 4.6 * chi * rng.uniform(0.005, 1.0, n) ** 1.5, chi
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("steps", [None, 50])
 @pytest.mark.parametrize("law", LAWS, ids=str)
 def test_mirrored_impacts_are_mirrored(law, steps):
@@ -56,6 +57,7 @@ def test_mirrored_impacts_are_mirrored(law, steps):
     assert np.all(np.isfinite(out))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", [*PASSIVE, dem.HardSphere(0.4, 0.9), dem.HardSphere()], ids=str)
 def test_no_energy_is_gained(law):
     psi, chi = sample(100, 2)
@@ -138,6 +140,7 @@ def test_solid_spheres_unless_kappa_is_given(law):
         assert not np.allclose(law.rebound(psi, chi), law.rebound(psi, chi, kappa=1.3 * chi))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("steps", [None, 40])
 @pytest.mark.parametrize("law", LAWS, ids=str)
 def test_what_is_out_of_range_is_nan_and_nothing_else(law, steps):

@@ -78,6 +78,7 @@ def lag(hit, time, points):
     return np.stack([rigid(hit, time) - fields.displacement_x, -fields.displacement_y], axis=-1)
 
 
+@pytest.mark.slow
 @examples
 @given(psi=PSI, chi=CHI, place=PLACE)
 def test_forces_and_elastic_energies_by_quadrature(psi, chi, place):
@@ -186,6 +187,7 @@ def in_every_phase(hit, place):
             yield phase, time, radii[radii <= 0.998 * b]
 
 
+@pytest.mark.slow
 @examples
 @given(psi=PSI, chi=CHI, place=PLACE)
 def test_slip_velocity_is_the_rate_of_slip(psi, chi, place):
@@ -201,6 +203,7 @@ def test_slip_velocity_is_the_rate_of_slip(psi, chi, place):
         assert np.all(np.abs(slip_velocities(hit, time, points) - rate) <= near)
 
 
+@pytest.mark.slow
 @examples
 @given(psi=PSI, chi=CHI, place=PLACE)
 def test_slip_velocity_and_power_in_closed_form(psi, chi, place):

@@ -42,6 +42,7 @@ def plain():
     return exact()
 
 
+@pytest.mark.slow
 def test_intervals_hold_the_truth_as_often_as_they_say():
     """24 sets, errors from the scatter: misses within what is likely for 95 %, 1 in 2000.
 

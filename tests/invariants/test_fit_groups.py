@@ -34,6 +34,7 @@ def repeated(seed, bad=False, times=TIMES):
     return table
 
 
+@pytest.mark.slow
 def test_intervals_hold_where_trials_share_an_angle():
     """At most as many misses as chance has once in 100 for 8 %; studies/fit_repeats.csv has 5 %."""
     fits = [carom.fit(repeated(seed, bad=seed % 2 == 1), pair=PAIR) for seed in range(40)]

@@ -49,6 +49,7 @@ def test_scatter_within_groups_is_that_of_pandas(exact, name):
     assert told == pytest.approx(pooled, rel=0.05)  # two digits
 
 
+@pytest.mark.slow
 def test_groups_that_scatter_among_each_other_are_told(exact):
     """Once in 1000 by chance; one-way analysis of what a fit leaves agrees."""
     assert "group to group" not in about(repeated(exact, 2), "tangential_restitution")

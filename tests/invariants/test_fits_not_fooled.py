@@ -96,6 +96,7 @@ def test_intervals_hold_where_speeds_scatter_by_a_share():
     hold_the_truth(tables)
 
 
+@pytest.mark.slow
 def test_correlations_are_those_of_the_fit_by_lmfit(truth):
     """From derivatives of its own, which leastsq takes."""
     result = fit(noisy(truth, np.random.default_rng(13)), pair=bodies())
@@ -152,6 +153,7 @@ def test_one_bad_value_does_not_drive_friction_away(few):
             assert all(value / 1.3 < each[name].value < 1.3 * value for each in fits)
 
 
+@pytest.mark.slow
 def test_a_minimum_that_bodies_cannot_have_gives_way_to_one_that_they_can(few):
     """Where it is not clearly better. An interval that is cut says where, and why."""
     cut = told = 0
@@ -204,6 +206,7 @@ def first_law(table):
     return min(fit(table, pair=bodies()).comparison, key=lambda each: each.excess).law
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("seed", range(3))
 def test_one_spin_mistyped_does_not_change_which_law_comes_first(truth, seed):
     random = np.random.default_rng([4, seed])
@@ -215,6 +218,7 @@ def test_one_spin_mistyped_does_not_change_which_law_comes_first(truth, seed):
     assert first_law({**table, "spin_out": spins}) == "exact"
 
 
+@pytest.mark.slow
 def test_an_outlier_is_left_out_for_all_laws_and_the_errors_are_those_of_the_best(truth):
     """With one bad spin the laws stand as without that value, to the scatter of one value."""
     table = noisy(truth, np.random.default_rng(5))
@@ -280,6 +284,7 @@ MISTAKES = {
 }
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("words", MISTAKES)
 def test_usual_mistakes_are_named(truth, words):
     change, radius = MISTAKES[words]
@@ -304,6 +309,7 @@ def test_spins_of_the_other_sign_are_named_where_they_are_not_refused(truth):
     assert any("spins of the other sign" in note for note in result.notes)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("seed", range(6))
 def test_clean_data_are_not_called_mistaken(truth, seed):
     result = fit(noisy(truth, np.random.default_rng([11, seed])), pair=bodies())
@@ -336,6 +342,7 @@ def about_angles(result):
     return [note for note in result.notes if note.startswith("these data fit as angles")]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("seed", range(21, 24))
 def test_angles_from_the_surface_are_noticed_where_the_fit_is_good_and_wrong(seed):
     """Angles to a degree, spins to a tenth: a friction of 0.22 to 0.25 for 0.14, a good fit."""
@@ -371,6 +378,7 @@ def test_angles_from_the_other_side_are_mostly_noticed_and_right_ones_never_doub
     assert noticed >= 80
 
 
+@pytest.mark.slow
 def test_advice_halves_the_interval():
     """As many further impacts as `advice` says, where it says: the median of 5 within 10 %.
 

@@ -34,6 +34,7 @@ def lost(solution):
     return 0.5 * (before - after) * (before + after) - solution.shear_lost
 
 
+@pytest.mark.slow
 def test_elastic_impacts_to_1e_8():
     """psi_2 of tiny psi_1 is not known well enough to tell what they lose, the ledger does."""
     kinds = set()
@@ -47,6 +48,7 @@ def test_elastic_impacts_to_1e_8():
     assert len(kinds) > 8
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("psi", "chi"), [(2.0, 100.0), (0.03, 300.0), (5.0, 1000.0)])
 def test_many_reversals_of_slip(psi, chi):
     solution = carom.solve(psi, chi)
@@ -74,6 +76,7 @@ def test_tiny_impacts_are_proportional():
     np.testing.assert_allclose(one, other, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_viscoelastic_impacts():
     """To 1e-4 of the work, or 1e-6 of the energy of the contact point where little is lost."""
     rng = np.random.default_rng(SEED)

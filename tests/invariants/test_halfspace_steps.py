@@ -48,6 +48,7 @@ def case(request):
     return hit(*CASES[request.param])
 
 
+@pytest.mark.first_case
 def test_coulombs_law(case):
     """|q| <= p; what is below sticks; q is along slip at the end of the step: at each element.
 
@@ -174,6 +175,7 @@ def test_energy(case):
     assert losses.sum() > 0.1 * (kinetic[0] - 8.0 / 15.0)
 
 
+@pytest.mark.slow
 def test_energy_of_finer_steps():
     """Errors of energy fall with the square of the steps."""
     worst = []

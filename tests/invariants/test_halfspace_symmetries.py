@@ -26,6 +26,7 @@ def rebound(*args):
     return impact(*args)[-1].velocity[:2]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("materials", "elements", "steps"), [(LIKE, 16, 40), (UNLIKE, 8, 12)])
 def test_odd_in_psi(materials, elements, steps):
     """Motion reversed is reversed throughout; for unlike materials as well."""
@@ -46,6 +47,7 @@ def test_bodies_swapped():
     assert abs(one.approach - none.approach) > 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("psi", [0.5, 1.5])
 def test_no_direction_is_special(psi):
     """Motion at 45, 20 or 90 degrees to the grid: the same psi_2 within 5e-5, and none across."""
@@ -61,6 +63,7 @@ def test_no_direction_is_special(psi):
             assert psi_out[0] == pytest.approx(psi_out[1], abs=1e-9)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("materials", "mirrors", "spin"),
     [
@@ -84,6 +87,7 @@ def test_a_part_of_the_grid_tells_all(materials, mirrors, spin):
     assert part[0].step.state.pressure.size == whole[0].step.state.pressure.size / mirrors.copies
 
 
+@pytest.mark.slow
 def test_spin_reversed():
     """Spin about the normal the other way: the same psi_2; unlike bodies veer to the other side."""
     for materials, veers in ((LIKE, False), (UNLIKE, True)):
@@ -96,6 +100,7 @@ def test_spin_reversed():
         assert (abs(one[-1].velocity[1]) > 1e-4) == veers
 
 
+@pytest.mark.slow
 def test_normal_motion_of_like_materials():
     """Friction does not enter: Hertz's impact, of duration 2.9433, depth 1, force 4/3."""
     actual, others = (impact((psi, 0.0)) for psi in (1.0, 3.0))

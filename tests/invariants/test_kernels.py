@@ -8,6 +8,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import pytest
 from tests.checks import BALL, PAIR
 
 import carom
@@ -169,6 +170,7 @@ def computed(table):
     }
 
 
+@pytest.mark.slow
 def test_compiled_equals_uncompiled():
     """Relative, too, for collisions, whose spins are large."""
     table = carom.laws.ReboundLaw(TWO.chi).to_dict()

@@ -78,6 +78,7 @@ def arrays(result):
     return [np.asarray(each) for each in parts if np.asarray(each).dtype.kind == "f"]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("call", CALLS)
 def test_of_any_layout(call):
     plain = arrays(CALLS[call](np.ascontiguousarray))

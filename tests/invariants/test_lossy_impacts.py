@@ -156,6 +156,7 @@ def test_lawful_corners_are_solved(psi: float, chi: float) -> None:
     assert tiny.psi_out == pytest.approx(np.full(4, expected), abs=5e-8)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", MANY)
 def test_opposite_approach_rebounds_oppositely(law: str) -> None:
     """To the last bit, and all else is the same: phases at the same times, slip the other way."""
@@ -175,6 +176,7 @@ def test_opposite_approach_rebounds_oppositely(law: str) -> None:
         assert np.array_equal(h.dissipated, mirrored.dissipated)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", MANY)
 def test_impacts_come_no_further_apart(law: str) -> None:
     """A jump in psi_1, wherever the structure changes, would break the contraction."""
@@ -255,6 +257,7 @@ def test_ledgers_where_rings_end(psi: float, chi: float, e: float) -> None:
     assert h.shear_lost[-1] < 0.5 * psi**2
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("psi", [1.1e4, -1e8, 1e300])
 def test_whatever_is_faster_slides(law: Loss, psi: float) -> None:
@@ -300,6 +303,7 @@ def test_histories_agree_with_themselves() -> None:
             assert largest - 1e-9 <= answer <= largest + 3e-6, name
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("impact", [(0.3, 2.0, 0.2), (3.0, 1.44, 0.1)])
 def test_histories_are_those_of_the_marching_method(impact: tuple[float, float, float]) -> None:
     """psi, U, Q, the energy in the springs, what slip and what dashpots took, at all times.
@@ -320,6 +324,7 @@ def test_histories_are_those_of_the_marching_method(impact: tuple[float, float, 
         assert getattr(h, name) == pytest.approx(factor * ledger[:, column], abs=close), name
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", [0.5, 1.44, 2.7])
 @pytest.mark.parametrize("alpha", [0.01, 0.1, 0.4])
 def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
@@ -379,6 +384,7 @@ def test_bad_input_is_told_and_takes_no_time() -> None:
             assert np.all(np.isfinite(rest) == (rebounds.status[0] == Status.SOLVED))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", [0.01, 0.2, 8.0, 30.0, 60.0])
 def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
     psi = np.append(np.linspace(0.01, 8.0, 9), [20.0, 100.0, 1000.0])
@@ -388,6 +394,7 @@ def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
         assert np.all(np.abs(rebounds.psi_out) < psi)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", LAWS)
 def test_friction_takes_energy_however_slow_or_fast_the_slip(law: Loss) -> None:
     """psi_1 from 1e-30 to 1e6: what shear leaves of the tangential energy that is lost."""

@@ -43,6 +43,7 @@ def same(first: LossyRebounds, second: LossyRebounds) -> bool:
     return all(np.array_equal(a, b, equal_nan=True) for a, b in zip(first, second, strict=True))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("loss", Loss)
 def test_threads_leave_every_bit(loss: Loss) -> None:
     psi, chi, parameter = many(3, 333 if loss is Loss.VISCOUS else 18)

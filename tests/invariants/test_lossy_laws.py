@@ -29,6 +29,7 @@ def relative_error(law, psi):
     return np.max(np.abs(law(psi) - exact) / np.maximum(1.0, np.abs(psi)))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("chi", "e"), [(0.3, 0.9), (1.44, 0.5), (1.44, 0.999), (2.2, 0.05)])
 def test_equals_the_solver(chi, e):
     """Within 3e-8 max(1, |psi|) of `rebound`, of either sign, at edges, in the tail, near zero."""

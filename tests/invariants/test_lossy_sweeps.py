@@ -47,6 +47,7 @@ def require_same(problem, actual, case, at, point):
         assert value == pytest.approx(wanted, rel=ULP, abs=ULP * scale, nan_ok=True), name
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("loss", "kind"), list(zip(LOSSES, (*SECONDS, *SECONDS), strict=False)))
 def test_a_swept_loss_gives_what_single_impacts_give(loss, kind):
     """Hypercubes and tables over five inputs and the loss, against the scalar code."""

@@ -23,6 +23,7 @@ def impacts(seed, count):
     return rng.uniform(0.0, 8.0, count), rng.uniform(0.3, 3.0, count)
 
 
+@pytest.mark.first_case
 @laws
 def test_friction_bounds_the_impulse_and_energy_is_lost(law):
     """|psi_1 - psi_2| <= 2 chi (1 + e), reached where all slides, and |psi_2| <= |psi_1|.
@@ -88,6 +89,7 @@ def test_phases_are_told(law):
     assert kinds[9.0][0] == kinds[9.0][-1] == "gross slip"
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("psi", [0.3, 1.5])
 @pytest.mark.parametrize(
     "law",
@@ -135,6 +137,7 @@ def test_fields_obey_coulombs_law_and_bear_the_load(law):
         assert np.all(pressure >= 0.0)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("psi", "law"), list(zip((0.4, 2.0, 1.0, 0.4, 2.0), MARCHED, strict=True)))
 def test_work_of_friction_is_what_the_ledger_says(law, psi):
     """Summed over the contact, from slip and traction; the ledger is that of energies."""
@@ -146,6 +149,7 @@ def test_work_of_friction_is_what_the_ledger_says(law, psi):
     assert total == pytest.approx(lost, rel=2e-2, abs=2e-3)
 
 
+@pytest.mark.slow
 def test_figures_and_wear_of_marched_impacts():
     ball = carom.Sphere(radius="5 mm", material="nylon")
     pair = carom.Pair(ball, carom.HalfSpace(material="nylon"), friction=0.2)

@@ -34,6 +34,7 @@ ENERGIES = (
 )
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("second", [STEEL, GLASS])
 def test_energy(second):
     """What friction takes is what the motions lose, that of the spin and across included."""

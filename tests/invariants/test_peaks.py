@@ -48,6 +48,7 @@ def scanned(solution, friction, poisson, instants):
 MANY = [pytest.param(case, 20, marks=pytest.mark.slow) for case in range(2, 16)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("case", "count"), [(0, 10), (1, 10), *MANY])
 def test_no_dense_scan_finds_more(case, count):
     """The promise of the docstring: scans at so many instants, one at random in each part of the
@@ -63,6 +64,7 @@ def test_no_dense_scan_finds_more(case, count):
     assert np.all(actual >= 0.95 * answer)  # the scan is no empty one
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("restitution", [None, 0.6])
 @pytest.mark.parametrize(("friction", "poisson"), [(0.05, 0.3), (0.2, 0.4), (0.5, 0.3)])
 def test_no_dense_scan_below_a_depth_finds_more(friction, poisson, restitution):
@@ -136,6 +138,7 @@ def test_stress_grows_with_the_speed_to_two_fifths(hit):
         assert fast[f"{name}_time"].values == pytest.approx(0.5 * slow[f"{name}_time"].values)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("flaw", [1e-6, 1e-3, 0.02, np.inf])
 def test_no_flaw_is_pulled_at_harder(flaw):
     """A dense scan over instants, both sides, radii and depths, by quadrature of hit.stress's

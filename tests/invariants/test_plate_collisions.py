@@ -83,6 +83,7 @@ def test_they_are_impacts_with_units():
     assert 10 < np.count_nonzero(statuses) < 150
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", [0.45, 0.5, 1.44, 4.0])
 def test_they_are_rebounds_of_the_lambda_of_each(chi):
     """e and psi_2 to 1e-9; the inertia of the ball is what gives it this chi."""

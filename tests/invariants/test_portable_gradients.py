@@ -147,6 +147,7 @@ def test_of_the_law_is_that_of_the_exact_rebound(gradient):
     assert_allclose(got, (8.0 * one - two) / (12.0 * step), rtol=0, atol=2e-5)
 
 
+@pytest.mark.slow
 def test_jit_and_vmap():
     """A compiled collision, and one of a single pair mapped over many, are those of NumPy."""
     jax = pytest.importorskip("jax")

@@ -51,6 +51,7 @@ def error(law, psi):
     return np.max(np.abs(law(psi) - carom.rebound(psi, law.chi)))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", SPECIAL)
 def test_equals_the_solver_at_special_chi(chi):
     """Within 1e-9 of `rebound`: in every panel, at every edge to the last bit, in the tails."""
@@ -73,6 +74,7 @@ def test_equals_the_solver_at_random_chi():
         assert error(law, psi) <= ACCURACY, chi
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", [0.8, 1.44, 2.95, 6.0, 10.0])
 def test_equals_the_solver_around_every_kink(chi):
     """Within 1e-9 of `rebound` where the sequence of phases changes, found by bisection here."""
@@ -81,6 +83,7 @@ def test_equals_the_solver_around_every_kink(chi):
     assert error(carom.laws.ReboundLaw(chi), around(places)) <= ACCURACY
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("chi", [0.3, 0.5, 1.44, 4.0])
 @pytest.mark.parametrize("inelasticity", [1e-8, 1e-3, 0.1, 0.4, 1.2, 2.18])
 def test_equals_the_solver_on_plates(chi, inelasticity):
@@ -102,6 +105,7 @@ def law_of(chi, losses):
     return carom.laws.ReboundLaw(chi, losses=losses)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("chi", "losses"),
     [

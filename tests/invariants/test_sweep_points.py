@@ -70,6 +70,7 @@ def designs(names, rng):
     yield Table({name: rng.uniform(*ranges[name], 40) for name in names})
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("kind", PAIRS)
 def test_a_block_is_what_single_impacts_are(kind):
     """Every field of random points against `impact`, to rounding; the truth is the scalar code."""
@@ -192,6 +193,7 @@ def test_two_rigid_bodies_and_names_that_are_not_known():
     assert status.tolist() == [PointStatus.SOLVED, PointStatus.OUT_OF_RANGE]
 
 
+@pytest.mark.slow
 def test_blocks_do_not_depend_on_how_they_are_cut():
     """Any box gives the same bits, down to a single point, from a record that was pickled."""
     rng = np.random.default_rng(6)

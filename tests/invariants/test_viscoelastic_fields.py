@@ -24,6 +24,7 @@ def solutions(count, seed):
         yield carom.solve(psi, chi, losses=carom.KelvinVoigt(restitution=e))
 
 
+@pytest.mark.slow
 def test_coulombs_law_holds_at_every_point():
     """And where it slips the traction is at the limit, against the slip."""
     rng = np.random.default_rng(4)
@@ -65,6 +66,7 @@ def test_tractions_add_up_to_the_forces():
             assert 2.0 * pulled == pytest.approx(now.force[0], abs=2e-6)
 
 
+@pytest.mark.slow
 def test_slip_is_what_slip_velocity_makes(pair):
     """At four points, from after the touch of the outermost on until contact there ends."""
     law = carom.KelvinVoigt(restitution=0.6)

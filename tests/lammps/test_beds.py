@@ -58,6 +58,7 @@ def rows(printed):
     return np.array([line for line in lines if len(line) == 10 and line[0].isdigit()], dtype=float)
 
 
+@pytest.mark.slow
 def test_a_bed_loses_what_the_ledgers_of_contacts_and_walls_say(lammps):
     """It falls on the floor and comes nearly to rest; two thirds of its energy go."""
     lossy = f"{SOLID} restitution 0.6 speed 0.5"
@@ -87,6 +88,7 @@ def test_a_cohesive_bed_loses_what_the_ledgers_say(lammps):
     assert lost > 0.3 * energies[0, 2]
 
 
+@pytest.mark.slow
 def test_a_cohesive_bed_keeps_its_shape(lammps):
     """By JKR: it comes to rest, and nothing creeps."""
     first = DUMPS.replace("out.txt", "first.txt")

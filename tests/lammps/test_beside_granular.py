@@ -197,6 +197,7 @@ PILE = "".join(
 )
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("cohesion", [0.0, 0.05])
 def test_a_small_heap_keeps_its_shape(lammps, cohesion):
     """Fourteen spheres in a pyramid on a floor, which friction alone keeps from sliding apart."""
@@ -244,6 +245,7 @@ def cluster(lammps, then, ranks=1, start=""):
     return lammps.dumped()
 
 
+@pytest.mark.slow
 def test_ranks_and_restarts_keep_what_coherent_contacts_remember(lammps):
     one = cluster(lammps, "run 1500\nwrite_restart x.rst noinit\nrun 500")
     again = cluster(lammps, "run 500", start="read_restart x.rst\n")
@@ -331,6 +333,7 @@ ON_WALL = "region w plane 0 0 0 0 0 1\nfix w all wall/carom {} region w\n"
 STIFF = hertz(friction="tangential mindlin NULL 0.0 0.3")
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("lines", "answer"),
     [

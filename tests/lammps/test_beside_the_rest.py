@@ -34,6 +34,7 @@ def rows(printed, width):
     return np.array(values, dtype=float)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("newton", ["off", "on"])
 @pytest.mark.parametrize(
     ("start", "contacts"),
@@ -194,6 +195,7 @@ def test_restitution_is_that_of_whole_bodies(lammps, ranks):
     assert ball == pytest.approx(-3.0 * clump - 0.1, rel=1e-9)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("units", "length", "time", "mass"),
     [

@@ -48,6 +48,7 @@ def test_a_lammps_of_ones_own(plugin, lammps, sources, tmp_path, capsys, sizes, 
     assert reply in lammps.fails(load + "print rebound\n", LAMMPS_PLUGIN_PATH=str(tmp_path))
 
 
+@pytest.mark.slow
 def test_building_refuses(plugin, tmp_path, monkeypatch):
     refused("must be the folder src of LAMMPS", adapter.from_sources, (tmp_path,))
     (tmp_path / "version.h").write_text('#define LAMMPS_VERSION "22 Jul 2025"\n')

@@ -99,6 +99,7 @@ def exact(pair, velocity, spin):
     return [*along, hit.normal_speed_out], spin, hit.max_penetration
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("centres", "friction", "second", "most"),
     [

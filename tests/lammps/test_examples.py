@@ -62,6 +62,7 @@ def test_settling(lammps):
     assert borne == pytest.approx(1.0, abs=0.03)
 
 
+@pytest.mark.slow
 def test_shear(lammps):
     """The stress ratio is that of a large periodic box, and the work of the lid is what is lost."""
     line = (
@@ -91,6 +92,7 @@ def test_drum(lammps):
 HEAP = r"the slope is (\S+) degrees, (\S+) degrees"
 
 
+@pytest.mark.slow
 def test_heap(lammps):
     """It keeps its shape once the gate is gone and the spheres have come to rest."""
     slope, before = printed(lammps, "in.heap", HEAP, slices=2)

@@ -137,6 +137,7 @@ def test_energies_of_contacts_make_those_of_the_style(lammps, newton, ranks):
     assert min(friction, viscosity) > 1e-3 * elastic
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("newton", "ranks"), HOW)
 def test_losses_of_spheres_make_those_of_the_style(lammps, newton, ranks):
     """Also of contacts that have ended, and with spheres that go to another processor."""
@@ -158,6 +159,7 @@ def anisotropy(weights, normals, all_weights):
     ]
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(("newton", "ranks"), HOW)
 def test_fabric_is_that_of_the_contacts(lammps, newton, ranks):
     """As LAMMPS' manual defines it: contacts, branches and normal forces."""
@@ -264,6 +266,7 @@ write_dump all custom out.txt x y z c_of[*] modify sort id format float %.17g
 """
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_losses_of_spheres_go_on_from_a_restart(lammps, ranks):
     once = packing(lammps, ranks=ranks, speed=1.0, steps="300\nwrite_restart x.rst noinit\nrun 300")

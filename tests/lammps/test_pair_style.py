@@ -98,6 +98,7 @@ def test_losses_by_restitution_at_a_speed_and_by_time(lammps):
     np.testing.assert_allclose(by_time, by_e, atol=1e-6)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("asked", [False, True])
 def test_energies_that_losses_leave_untold_are_warned_of_where_they_are_asked_for(lammps, asked):
     compute = "compute energies all pair carom\n" * asked
@@ -212,6 +213,7 @@ def gas(lammps, ranks=1, newton="off", style="precision double", then="run 3000"
     return lammps.dumped()[:, 1:], printed
 
 
+@pytest.mark.slow
 def test_ranks_and_newton_agree(lammps):
     """After many rebuilds with spheres that change their processor."""
     one, printed = gas(lammps, then="run 8000")
@@ -265,6 +267,7 @@ def test_contacts_that_are_there_at_the_start_bear_springs_and_dashpots(lammps):
     np.testing.assert_allclose(actual, static * (1.0 + 1.5 * tau * speed / depths), rtol=1e-3)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_a_run_from_a_restart_goes_on_to_the_bit(lammps, ranks):
     """Across periodic borders, too, if `noinit` is said."""
@@ -294,6 +297,7 @@ def test_contacts_that_remember_another_kind_stop_the_run(lammps):
 BOX = "boundary f f f\nregion b block -1 1 -1 1 -1 1\ncreate_box 2 b\ncreate_atoms 1 single 0 0 0\n"
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("style", "coeff", "answer"),
     [

@@ -100,6 +100,7 @@ def test_a_few_spheres_take_little_memory_however_many_neighbours_are_allowed(
 MINIMIZE = "min_modify dmax 1e-4 line backtrack\nminimize 0 1e-9 2000 20000\n"
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("coeff", ["", " retardation 1e-5", " restitution 0.8 speed 0.1"])
 @pytest.mark.parametrize(
     ("start", "times"),
@@ -170,6 +171,7 @@ SLIDING = "plane 0 0 0 0 0 1 move v_along NULL NULL"
 TURNING = "plane 0 0 0 0 0 1 rotate v_turn 2 2 0 0 0 1"
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("floor", "between"),
     [

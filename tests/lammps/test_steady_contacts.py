@@ -158,6 +158,7 @@ def folder(request, plugin, tmp_path_factory):
     return adapter.build(adapter.installed(), tmp_path_factory.mktemp("plain"), plain).path.parent
 
 
+@pytest.mark.slow
 def test_friction_brakes_and_nothing_gains_energy(lammps, folder):
     """In single and double precision, elastic or not, whole or beside granular."""
     balls = Balls(np.random.default_rng(47))

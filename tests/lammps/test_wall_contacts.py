@@ -25,6 +25,7 @@ CONTACTS = " ".join(f"f_w[{k}]" for k in range(1, 13))
 EXACT = "modify sort id format float %.17g"
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("losses", ["", "restitution 0.8 speed 0.1"])
 def test_each_contact_is_shown_and_adds_up_to_force_and_energies(lammps, losses, ranks):
@@ -80,6 +81,7 @@ REGIONS = {
 }
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("region", REGIONS.values(), ids=REGIONS)
 def test_spheres_meet_walls_in_the_same_step_however_rarely_neighbors_are_listed(lammps, region):
     """With a long delay every sphere is looked at in every step."""
@@ -103,6 +105,7 @@ def test_spheres_meet_walls_in_the_same_step_however_rarely_neighbors_are_listed
     assert np.count_nonzero(ends[0][:, 7]) > 3
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("losses", ["", "restitution 0.8 speed 0.1"])
 def test_contacts_go_along_to_another_processor(lammps, losses):
     """Spheres that slide, then roll, over a floor: through the middle of the box, and round it."""
@@ -127,6 +130,7 @@ def test_contacts_go_along_to_another_processor(lammps, losses):
     assert np.all(ends[0][:, 8] > 10.0)
 
 
+@pytest.mark.slow
 def test_a_restart_is_read_on_another_number_of_ranks(lammps):
     one, printed = heap(lammps, "run 4000\nwrite_restart x.rst\nrun 300")
     assert float(re.findall(r"^ *4000 +(\S+)", printed, re.MULTILINE)[-1]) < 0.0
@@ -175,6 +179,7 @@ def on_a_wall(lammps, style, losses, start, then):
     )
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("style", "losses"),
     [

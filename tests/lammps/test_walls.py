@@ -199,6 +199,7 @@ def heap(lammps, then, ranks=1, start=HEAP):
     return lammps.dumped()[:, 1:], printed
 
 
+@pytest.mark.slow
 def test_ranks_and_restarts_keep_what_walls_remember(lammps):
     one, _ = heap(lammps, "run 4000\nwrite_restart x.rst\nrun 1000")
     again, _ = heap(lammps, "run 1000", start="read_restart x.rst\n")

@@ -46,6 +46,7 @@ def model(tmp_path_factory):
     return run
 
 
+@pytest.mark.first_case
 @compiles
 @pytest.mark.parametrize("springs", liggghts.SPRINGS)
 @pytest.mark.parametrize("turns", [0, 1, 3])
@@ -107,6 +108,7 @@ def sources(tmp_path):
     return src.parent
 
 
+@pytest.mark.first_case
 @compiles
 @pytest.mark.parametrize("packed", [False, True], ids=["folder", "tarball"])
 def test_build(sources, tmp_path, monkeypatch, capsys, packed):

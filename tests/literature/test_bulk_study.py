@@ -109,12 +109,14 @@ def start():
     return places + 0.2 * random.random(places.shape), velocities - velocities.mean(0), side
 
 
+@pytest.mark.slow
 def test_spheres_without_friction_keep_their_energy(start):
     moving, turning = events.cool(*start, 0.0, np.array([0.5, 2.0]))
     assert moving == pytest.approx(np.full(2, 0.5 * (start[1] ** 2).sum(1).mean()), rel=1e-12)
     assert not turning.any()
 
 
+@pytest.mark.slow
 def test_spheres_never_overlap_and_keep_their_momentum(start):
     """In every event exactly two touch, all others are apart."""
     place, velocity, side = (np.copy(part) for part in start)

@@ -25,6 +25,7 @@ def test_smooth_elastic_spheres_keep_energy_momentum_and_rate():
     assert gas.rotational.max() == 0
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     ("restitution", "a_2"), [(np.sqrt(0.5), 0.0), (0.9, -0.0145578), (0.3, 0.1180559)]
 )
@@ -78,6 +79,7 @@ def test_exact_law_sets_spheres_spinning_at_the_rate_of_its_rebounds():
     assert gas.rotational[1] == pytest.approx(turning * gas.collisions[1], abs=1e-3)
 
 
+@pytest.mark.slow
 def test_friction_alone_cools_in_a_constant_ratio():
     """T_rot/T_tr settles within 5 % of that of Maxwellian spheres, and T_tr falls as t^-2."""
     gas = cool(None, 10_000, 45)
@@ -152,6 +154,7 @@ def test_viscoelastic_spheres_begin_to_cool_as_maxwellian_ones():
     assert slope == pytest.approx(ratio, abs=0.03)
 
 
+@pytest.mark.slow
 def test_a_gas_with_losses_keeps_more_of_its_energy_in_spin():
     _, late, maxwellian = EXAMPLE["cool_with_losses"](5000, 0.8)
     assert late == pytest.approx(maxwellian, rel=0.08)

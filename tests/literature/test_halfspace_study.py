@@ -96,6 +96,7 @@ def test_what_is_kept_apart_is_many():
     assert counts == [100, 50]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("beyond", [10.0, 200.0])
 @pytest.mark.parametrize(("chi", "beta", "friction"), [(1.5, 0.5, 1.0), (7.0, 0.4, 0.05)])
 def test_bounds_hold_far_beyond_sliding(chi, beta, friction, beyond):
@@ -108,6 +109,7 @@ def test_bounds_hold_far_beyond_sliding(chi, beta, friction, beyond):
     assert 1e-6 < abs(full - plain) <= rebound_error(0.85, beta, friction, chi, psi)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     "label",
     ["solid", "unlike", "spin"]

@@ -139,6 +139,7 @@ def difference(actual, name, law):
     return np.max(np.abs(psi_out(wanted, outcomes) - mine))
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", ELASTIC, ids=str)
 def test_same_steps_same_rebound(actual, law):
     """In the same steps our law is LAMMPS's, whatever part is spin: the same numbers are added."""
@@ -162,6 +163,7 @@ def test_damping(actual, law):
     assert actual["wall", law, STEPS][1].normal_speed / SLOW == pytest.approx(restitution, abs=3e-4)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", NEW_DAMPING, ids=str)
 def test_damping_by_coefficient_of_restitution(latest, law):
     """coeff_restitution, which LAMMPS of 2021 lacks, leaves the restitution that is asked for."""

@@ -69,6 +69,7 @@ def test_what_is_not_a_number_fails():
     assert run_tests.error(np.array([1.0, np.nan]), numbers) == np.inf
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("law", study.LAWS)
 @pytest.mark.parametrize("bodies", study.BODIES)
 def test_reference_is_the_law_of_this_package(bodies, law):

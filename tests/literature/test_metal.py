@@ -51,6 +51,7 @@ def test_mean_pressure_rises_to_what_the_source_calls_hardness() -> None:
     assert means == pytest.approx([1.0667, 2.18, 2.87, 2.90], abs=0.02)
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("strain", STRAINS)
 def test_nothing_jumps_and_rates_are_those_of_differences(strain: float) -> None:
     """Load, radius and what springs bear at the centre, over first yield and where Hertz ends."""
@@ -87,6 +88,7 @@ def test_restitution_does_not_depend_on_the_tangential_motion(psi: float) -> Non
     assert np.max(np.abs(there.restitution - here.restitution)) < 1e-12
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("strain", STRAINS)
 def test_restitution_agrees_with_finite_elements(strain: float) -> None:
     """Scalings that Wu, Li & Thornton (2003) are quoted for, from 100 to 3000 V_y: within 0.07.

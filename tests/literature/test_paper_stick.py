@@ -189,6 +189,7 @@ def test_stick_ends_before_maximum_penetration():
         assert 0.0 < slid.end < slid.start
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize("n", range(4))
 def test_exceptions_where_f_is_a_polynomial(n):
     """chi_n = ((11 + 20 n)^2 - 1)/240: stick to the turning point for |psi_1| <= 1/max|F|."""
