@@ -102,6 +102,8 @@ if __name__ == "__main__":
     if Path(sys.argv[0]).stem == "theory_ends" and len(sys.argv) > 2:
         rows = verdicts(*sys.argv[1:])
         save_figure(draw({", ".join(sys.argv[1:]): rows}), "theory_ends.png")
-        print("the theory holds from {:.2g} to {:.2g} m/s".format(*holding(rows)))
+        low, high = holding(rows)
+        some = f"the theory holds from {low:.2g} to {high:.2g} m/s"
+        print("at no speed every row holds: see theory_ends.png" if np.isnan(low) else some)
     else:
         print(main())

@@ -210,6 +210,19 @@ def test_what_is_odd_is_said():
     assert "spin: no mark is seen at all; a fit takes the spin before as zero" in notes(bare)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_plate_whose_tilt_is_forgotten_is_suspected(seed):
+    """A ball that falls on a tilted plate: friction lets speed and spin change in one sense."""
+    tilt = np.radians(-20.0)
+    fall = carom.impact(PAIR, speed=1.5, angle=-tilt)
+    track = filmed(fall, seed, tilt=tilt)
+    suspected = {
+        angle: any("against each other" in note for note in notes(track, plate_angle=angle))
+        for angle in ("-20 deg", "0 deg", "20 deg")
+    }
+    assert suspected == {"-20 deg": False, "0 deg": True, "20 deg": True}
+
+
 BARE = "x,y,frame\n" + "\n".join(f"{i},{abs(i - 5)},{i}" for i in range(11)) + "\n"
 REFUSED = {
     "time: column missing; give time, or frame": (table().drop(columns="frame"), SCALE),

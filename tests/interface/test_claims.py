@@ -62,7 +62,7 @@ def ball(wanted):
 def programs():
     """Return the largest difference of DEM programs from Carom's record of their laws."""
     (rows,) = re.findall(r"begin: engines -->(.*?)<!-- end", "".join(map(text, PAGES)))
-    return max(map(float, re.findall(r"\((\d\S+)\)", rows)))
+    return max(map(float, re.findall(r"\| (\de-\d+) ", rows)))
 
 
 def whole():

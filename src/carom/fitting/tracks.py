@@ -32,6 +32,7 @@ SPINS = ("spin", "spin_out")
 SHARP = 1e-4  # probability below which paths are no parabolas
 DOUBTFUL = 0.8 * np.pi  # turn from frame to frame, beyond which the sense of a spin may be wrong
 FITTED = "fit"
+SURE = 4.0  # standard deviations by which both change
 GRAVITIES, RATES, SCALES = (-1e3, 1e3), (1e-3, 1e9), (1e-6, 1e6)  # that are accepted
 AS_GRAVITY, SIGMAS = 0.02, 4.0  # by which a fitted gravity may differ unsaid, both
 
@@ -171,7 +172,7 @@ def _measured(
         "time": struck,
         "frames": [motion.split, len(frames.time) - motion.split],
         "position_error": float(np.sqrt(motion.squares / motion.freedom)),
-        "notes": [*frames.notes, *_doubts(upright, motion, gravity), *notes],
+        "notes": [*frames.notes, *_doubts(upright, motion, gravity), *notes, *_opposed(row)],
     }
     return row, about
 
@@ -205,6 +206,21 @@ def _spins(
     words = "so that its sense may be the other one; take more frames per second"
     turned = GLOSSARY["angle"].text(largest, 3)
     return spins, [f"spin: the mark turns by {turned} from frame to frame, {words}"]
+
+
+def _opposed(row: dict[str, float]) -> list[str]:
+    """Return a note if speed and spin change against each other: one force changes both."""
+    changes = []
+    for name in ("tangential_speed", "spin"):
+        ends = name, f"{name}_out"
+        if not set(ends) <= row.keys():
+            return []
+        error = float(np.hypot(*(row[end + ERROR] for end in ends)))
+        changes.append((row[ends[1]] - row[ends[0]]) / error if error else np.nan)
+    if not (min(map(abs, changes)) > SURE and changes[0] * changes[1] < 0.0):
+        return []
+    cure = "check plate_angle and its sign, which counts counterclockwise, and the mark"
+    return [f"speed and spin change against each other, which no friction does; {cure}"]
 
 
 def _doubts(frames: Frames, motion: Motion, gravity: float | None) -> list[str]:
