@@ -1,20 +1,24 @@
 """What the Cookbook does beside running the examples: their pictures, and their order."""
 
 from pathlib import Path
-from shutil import move, rmtree
+from shutil import copy, rmtree
 from typing import Any
 
 from sphinx_gallery.scrapers import figure_rst
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
+TAKEN: dict[Path, int] = {}  # pictures, and when they were stored
 
 
 def take_picture(block: Any, variables: dict[str, Any], gallery: dict[str, Any]) -> str:
-    """Take what a script has drawn, a file of its own name; return how a page shows it."""
+    """Take what a cell has drawn, a file of its script's name; return how a page shows it."""
     script = Path(variables["src_file"])
     written = [path for path in map(script.with_suffix, (".png", ".gif")) if path.exists()]
+    stored = {path: path.stat().st_mtime_ns for path in written}
+    new = [path for path in written if TAKEN.get(path) != stored[path]]
+    TAKEN.update(stored)
     places = map(Path, variables["image_path_iterator"])
-    taken = [move(path, next(places).with_suffix(path.suffix)) for path in written]
+    taken = [copy(path, next(places).with_suffix(path.suffix)) for path in new]
     return figure_rst(taken, gallery["src_dir"])
 
 

@@ -26,7 +26,7 @@ Carom.fitCharts = (() => {
       y,
       customdata: row.map((line, place) => `${line}${outlier[place] ? ", an outlier" : ""}`),
       error_y: { type: "data", array: error, color: color("after"), thickness: 1, width: 0 },
-      marker: { size: 7, symbol: outlier.map((out) => (out ? "x" : "circle")), color: outlier.map((out, place) => (out ? colors[place] : color("panel"))), line: { color: colors, width: outlier.map((out) => (out ? 0 : 1.8)) } },
+      marker: { size: 7, color: outlier.map((out) => color(out ? "caution" : "panel")), line: { color: colors, width: 1.8 } },
       hovertemplate: `line %{customdata}: %{y:.4g} ${unit} at %{x:.4g} ${alongUnit}<extra></extra>`,
     };
   }
