@@ -88,3 +88,30 @@ def test_page_of_json_has_every_command_that_prints_it():
     }
     assert {word for word in printing - shown if word.split()[-1] not in APART} == set()
     assert len(shown) == len(COMMANDS)
+
+
+def test_first_uses_of_symbols_and_terms_lead_to_the_glossary():
+    """Those on a page, once; not in titles and code; the longest term that is there."""
+    pytest.importorskip("sphinx")
+    from types import SimpleNamespace
+
+    from docutils import nodes
+    from docutils.core import publish_doctree
+    from glossary_links import SYMBOLS, link, terms
+
+    text = (
+        "Gross slip\n==========\n\nTwo gross slips, ``regime``, :math:`\\psi_1`.\n\n"
+        "Regimes of gross slip, :math:`\\psi_2`, :math:`2 \\chi`.\n"
+    )
+    page = publish_doctree(text)
+    link(page, "g.html", SimpleNamespace(srcdir=DOCS))
+    assert [(one.astext(), one["refuri"]) for one in page.findall(nodes.reference)] == [
+        ("gross slips", "g.html#term-gross-slip"),
+        (r"\psi_1", "g.html#direction-psi"),
+        ("Regimes", "g.html#term-regime"),
+        (r"2 \chi", "g.html#inertia-chi"),
+    ]
+    glossary = (DOCS / "glossary.md").read_text(encoding="utf-8")
+    assert len(terms(glossary)) > 15
+    heads = re.findall(r"(?m)^## (\w+): \$\\(\w+)\$", glossary)
+    assert {f"{word}-{symbol}".lower() for word, symbol in heads} == set(SYMBOLS.values())
