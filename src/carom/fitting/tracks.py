@@ -6,6 +6,7 @@ A parabola is fitted to each side; where the two meet is the impact. A mark give
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from math import hypot, nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -215,8 +216,8 @@ def _opposed(row: dict[str, float]) -> list[str]:
         ends = name, f"{name}_out"
         if not set(ends) <= row.keys():
             return []
-        error = float(np.hypot(*(row[end + ERROR] for end in ends)))
-        changes.append((row[ends[1]] - row[ends[0]]) / error if error else np.nan)
+        error = hypot(*(row[end + ERROR] for end in ends))
+        changes.append((row[ends[1]] - row[ends[0]]) / error if error else nan)
     if not (min(map(abs, changes)) > SURE and changes[0] * changes[1] < 0.0):
         return []
     cure = "check plate_angle and its sign, which counts counterclockwise, and the mark"
