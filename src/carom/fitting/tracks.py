@@ -5,8 +5,8 @@ A parabola is fitted to each side; where the two meet is the impact. A mark give
 
 import json
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from math import hypot, nan
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
