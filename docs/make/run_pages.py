@@ -48,7 +48,6 @@ NOT_RUN = {  # beginnings of commands: what they need that is not here, and wher
     "carom liggghts build": "the sources of LIGGGHTS: tests/liggghts/test_building.py",
     "carom sweep examples/sweep.toml --store result.zarr --scheduler": "a cluster",
     "carom verify lammps --law carom": "the plugin: tests/lammps/test_bench.py",
-    "carom verify score bench/wall": "results of the reader's code",
     "python -m pytest": "minutes",
 }
 BLOCK = re.compile(  # a fenced block, a file if it begins with a name
