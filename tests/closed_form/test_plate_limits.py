@@ -27,7 +27,7 @@ def restitution(give):
 
 
 def test_a_plate_that_hardly_gives_way_loses_in_proportion():
-    """1 - e = (3/2) B(3/5, 3/2) lambda, (11.22)."""
+    """1 - e = (3/2) B(3/5, 3/2) lambda, (11.21)."""
     assert pytest.approx(1.8917058535, abs=1e-10) == SLOPE
     one, two = ((1.0 - restitution(give)) / give for give in (1e-3, 2e-3))
     assert one == pytest.approx(SLOPE, rel=2e-3)

@@ -302,41 +302,41 @@ def test_11_losses():
     assert carom.rebound(border - 0.01, 1.0, losses=law) > border - 0.01 - 3.4 + 1e-6
     assert carom.solve(5.0, 1.0, losses=law).shear_lost == pytest.approx(1.0 - 0.7**2)  # (11.8)
     y = 1e-3**0.4
-    turn = brentq(lambda f: y**5 + 2.5 * (y**3 * f + 0.75 * y * f * f) - 1, 0, 99)  # (11.14)
-    e = (y**3 + 1.5 * y * turn) / (turn + y * y) ** 0.25  # (11.13)
+    turn = brentq(lambda f: y**5 + 2.5 * (y**3 * f + 0.75 * y * f * f) - 1, 0, 99)  # (11.13)
+    e = (y**3 + 1.5 * y * turn) / (turn + y * y) ** 0.25  # (11.12)
     pair = carom.Pair(carom.Sphere(radius=0.005, material=STEEL), SPHERES.first, friction=0.2)
     hit = carom.impact(pair, normal_speed=1.0, losses=carom.ElasticPlastic(yield_velocity=1e-3))
     assert hit.normal_restitution == pytest.approx(e, rel=1e-10)
     assert e == pytest.approx(1.185 * 1e-3**0.25, rel=1e-3)
-    y, d = 0.6, 0.9  # the springs that yield bear the load (11.12)
+    y, d = 0.6, 0.9  # the springs that yield bear the load (11.11)
     springs, motion = np.zeros((SPRING_COLUMNS, 2001)), np.zeros(at.MOTION)
     springs[S] = np.linspace(0.0, np.sqrt(d), 2001) ** 2
     motion[at.DEPTH] = d
     bear(y, motion, motion, 0.0, springs, 2001)
     load = 1.5 * np.trapezoid(springs[NEXT], np.sqrt(springs[S]))
-    assert load == pytest.approx(y**3 + 1.5 * y * (d - y * y), abs=1e-6)  # (11.15)
+    assert load == pytest.approx(y**3 + 1.5 * y * (d - y * y), abs=1e-6)  # (11.14)
 
 
 def test_11_metals_whose_pressure_rises():
     """The energy of springs under Hertz's, a cut and a uniform pressure; fully plastic contacts."""
     b, load = 0.7, 0.2
     c = metal.level(load, b)
-    assert 1.5 * c * b * b - 0.5 * c**3 == pytest.approx(load, rel=1e-14)  # (11.17)
+    assert 1.5 * c * b * b - 0.5 * c**3 == pytest.approx(load, rel=1e-14)  # (11.16)
     below = quad(lambda x: capped(c, b * b - x * x)[0], 0, b, points=[sqrt(b * b - c * c)])[0]
     assert 1.5 * below == pytest.approx(load, rel=1e-9)
     hertz = 15 / 8 * quad(lambda x: (load / b**3 * (b * b - x * x)) ** 2, 0, b)[0]
-    assert hertz == pytest.approx(load * load / b)  # (11.18), (11.13)
+    assert hertz == pytest.approx(load * load / b)  # (11.17), (11.12)
     flat = 15 / 8 * quad(lambda x: (8 * load / (3 * pi * b * b)) ** 2 * (b * b - x * x), 0, b)[0]
     assert flat / hertz == pytest.approx(80 / (9 * pi**2))
     for hard, share, printed in ((2.84, flat / hertz, 2.09), (3.0, 1.0, 2.28)):
         g = hard / 1.6
         depth = brentq(lambda d, g=g: 2.5 * quad(lambda u: 3 * g * u, 0, d)[0] - 1, 0, 9)
-        e = sqrt(share * (3 * g * depth) ** 2 / sqrt(2 * depth))  # (11.19)
+        e = sqrt(share * (3 * g * depth) ** 2 / sqrt(2 * depth))  # (11.18)
         assert e == pytest.approx(printed, abs=5e-3)
 
 
 def test_11_slip_of_a_solid_that_relaxes():
-    """(11.11) and f = sigma N, integrated in small steps, for a limit that grows evenly."""
+    """(11.10) and f = sigma N, integrated in small steps, for a limit that grows evenly."""
     g, theta, limit, rate, m = 1.7, 0.4, 0.2, 0.3, 0.05
     step = step_of(g, theta, 0.5, 2.0, 2.0, 0.0)
     u, relaxed = stretched(limit - g * m, m, limit, limit + 0.5 * rate, rate, step)
@@ -344,7 +344,7 @@ def test_11_slip_of_a_solid_that_relaxes():
     for _ in range(n):
         m += 0.5 / n * (rate - m / theta) / (1 + g)
     assert relaxed == pytest.approx(m, abs=1e-5)
-    assert u + g * relaxed == pytest.approx(limit + 0.5 * rate, abs=1e-12)  # (11.10)
+    assert u + g * relaxed == pytest.approx(limit + 0.5 * rate, abs=1e-12)  # (11.9)
 
 
 def test_12_cattaneo_masing_and_the_loop():
