@@ -53,13 +53,18 @@ def test_the_arrow_is_dragged_for_direction_and_speed(visit):
     seen.linked(f"angle={angle:g}")
 
 
-def test_the_ball_is_turned_for_its_spin(visit):
-    """A radian of turning, counter-clockwise, is the backspin whose rim is as fast as the ball."""
-    seen = visit("?speed=0.6&radius=5", level="first")
+def turn(seen):
+    """Turn the ball by one radian, counter-clockwise."""
     places = seen.page.evaluate(PLACES)
     (x, y), far = places["ball"], 0.6 * places["radius"]
     ways = [(x + far * math.cos(0.1 * k), y - far * math.sin(0.1 * k)) for k in range(11)]
     drag(seen.page, ways[0], *ways[1:])
+
+
+def test_the_ball_is_turned_for_its_spin(visit):
+    """A radian of turning, counter-clockwise, is the backspin whose rim is as fast as the ball."""
+    seen = visit("?speed=0.6&radius=5", level="first")
+    turn(seen)
     (spin,) = numbers(seen, "spin")
     assert spin == pytest.approx(0.6 / 5e-3, rel=0.02)
     seen.until(lambda: seen.page.evaluate("Carom.page.answers()[0].view.spin") == spin)
@@ -68,10 +73,7 @@ def test_the_ball_is_turned_for_its_spin(visit):
 def test_a_hand_reads_other_units(visit):
     """What is typed as 2 in and 60 cm/s turns and flies as 50.8 mm and 0.6 m/s do."""
     seen = visit("?radius=2+in&speed=60+cm/s&angle=30", level="first")
-    places = seen.page.evaluate(PLACES)
-    (x, y), far = places["ball"], 0.6 * places["radius"]
-    ways = [(x + far * math.cos(0.1 * k), y - far * math.sin(0.1 * k)) for k in range(11)]
-    drag(seen.page, ways[0], *ways[1:])
+    turn(seen)
     assert numbers(seen, "spin")[0] == pytest.approx(0.6 / 50.8e-3, rel=0.02)
     places = seen.page.evaluate(PLACES)
     (x, y), (x0, y0) = places["tail"], places["ball"]
