@@ -2,11 +2,13 @@
 
 import json
 import os
+import platform
 import shutil
 import subprocess
 import sys
 from base64 import b64decode
 from importlib.util import module_from_spec, spec_from_file_location
+from itertools import takewhile
 from pathlib import Path
 
 import pytest
@@ -66,6 +68,52 @@ def test_the_best_for_this_processor_is_used(folder):
     contents["libraries"] = [one | {"file": name, "level": level} for level, name in names.items()]
     (folder / CONTENTS).write_text(json.dumps(contents))
     assert carom.get_library() == str(folder / names[one["level"]])
+
+
+@needs_library
+@pytest.mark.parametrize(
+    ("levels", "used"), [("1", 1), ("1 2", 1), ("0", 0), ("", "own"), ("4 1", "own")]
+)
+def test_the_environment_limits_the_level(folder, levels, used, monkeypatch):
+    """So that all machines of a cluster compute the same bits."""
+    contents = json.loads((folder / CONTENTS).read_text())
+    own = contents["libraries"][0]["level"]
+    libraries = [contents["libraries"][0] | {"level": level} for level in (0, 1, own)]
+    for each in libraries:
+        each["file"] = f"{each['level']}.so"
+        shutil.copy(next(folder.glob("libcarom*")), folder / each["file"])
+    (folder / CONTENTS).write_text(json.dumps(contents | {"libraries": libraries}))
+    monkeypatch.setenv(shared_library.LEVELS, levels)
+    level = own if used == "own" else used
+    assert carom.get_library() == str(folder / f"{level}.so")
+
+
+LEVELS = {  # of x86-64, and what Linux calls what they need
+    2: "cx16 lahf_lm popcnt pni sse4_1 sse4_2 ssse3",
+    3: "abm avx avx2 bmi1 bmi2 f16c fma movbe xsave",
+    4: "avx512f avx512bw avx512cd avx512dq avx512vl",
+}
+
+
+@needs_library
+def test_the_level_is_that_of_the_processor():
+    if platform.machine() != "x86_64" or not Path("/proc/cpuinfo").is_file():
+        pytest.skip("this is not Linux on x86-64")
+    lines = Path("/proc/cpuinfo").read_text().splitlines()
+    flags = set(next(line for line in lines if line.startswith("flags")).split())
+    level = 1 + sum(
+        1 for _ in takewhile(lambda words: set(words.split()) <= flags, LEVELS.values())
+    )
+    assert shared_library.opened().handle.carom_processor_level() == level
+
+
+@pytest.mark.parametrize("levels", ["5", "x86-64-v3", "1,3", "-1", "1.0"])
+def test_a_level_that_is_none_is_refused(folder, levels, monkeypatch):
+    monkeypatch.setenv(shared_library.LEVELS, levels)
+    with pytest.raises(
+        carom.InputError, match=f"^CAROM_LEVELS: {levels!r} cannot be used; must be"
+    ):
+        carom.rebound(0.5, 1.44)
 
 
 CUT = [lambda content, size=size: content[:size] for size in (0, 100, 60_000, -1)]

@@ -129,7 +129,8 @@ def _build_for_browsers(folder: Path, sources: str) -> None:
 
 def _kept(sources: str, modules: Sequence[str], level: int, scratch: Path) -> Path:
     """Return the library for a level, built now or before."""
-    recipe = [sources, digest(OWN_FILES), str(level), _numba(), version("llvmlite")]
+    compiler = os.environ.get("CC", "")  # it can be one for other machines
+    recipe = [sources, digest(OWN_FILES), str(level), _numba(), version("llvmlite"), compiler]
     name = f"libcarom{'' if level == 0 else f'-{level}'}{_ending()}"
     folder = kept_in() / sha256(" ".join(recipe).encode()).hexdigest()[:16]
     if (folder / name).is_file():

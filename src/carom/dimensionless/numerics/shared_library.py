@@ -7,6 +7,7 @@ times slower, and `reason` says why.
 
 import ctypes
 import json
+import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from hashlib import sha256
@@ -15,10 +16,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from carom.dimensionless.numerics.signatures import Signature, caller
+from carom.quantities.refusals import refusal
 
 PACKAGE = Path(__file__).parents[2]
 FOLDER = PACKAGE / "lib"
 CONTENTS = "kernels.json"  # beside the libraries: what they are, from what; or why there are none
+LEVELS = "CAROM_LEVELS"  # of x86-64, in the environment: to be built; the highest to be used
 BROWSER, BROWSER_CONTENTS = "carom.wasm", "browser.json"  # kernels for the explorer page
 
 
@@ -105,13 +108,14 @@ def reason() -> str:
 @cache
 def opened() -> Opened:
     """Return the best of the libraries, opened, or raise Unusable."""
+    highest = _highest_level()
     try:
         contents = json.loads((FOLDER / CONTENTS).read_text(encoding="utf-8"))
         if "failure" in contents:
             raise Unusable(f"the compiled library could not be built: {contents['failure']}")
         if digest(PACKAGE / name for name in contents["files"]) != contents["sources"]:
             raise Unusable("the compiled library was built from other sources; install carom again")
-        return _best(contents)
+        return _best(contents, highest)
     except FileNotFoundError:
         allowed = "install carom again, with a C compiler"
         raise Unusable(f"there is no compiled library; {allowed}") from None
@@ -119,9 +123,10 @@ def opened() -> Opened:
         raise Unusable("the compiled library is damaged; install carom again") from None
 
 
-def _best(contents: Any) -> Opened:
-    """Return the library of the highest level that this processor can run."""
-    for each in sorted(contents["libraries"], key=itemgetter("level"), reverse=True):
+def _best(contents: Any, highest: int) -> Opened:
+    """Return the library of the highest level that is admitted and that this processor can run."""
+    admitted = [each for each in contents["libraries"] if each["level"] <= highest]
+    for each in sorted(admitted, key=itemgetter("level"), reverse=True):
         path = FOLDER / each["file"]
         if sha256(path.read_bytes()).hexdigest() != each["sha256"]:
             raise ValueError
@@ -132,6 +137,15 @@ def _best(contents: Any) -> Opened:
         if handle.carom_processor_level() >= each["level"]:
             return Opened(path, handle, contents["compiled_by"], contents["signatures"])
     raise Unusable("there is no compiled library for this processor")
+
+
+def _highest_level() -> int:
+    """Return the highest level that the environment admits, or raise InputError."""
+    text = os.environ.get(LEVELS, "")
+    levels = text.split() or ["4"]
+    if not set(levels) <= set("01234"):
+        raise refusal(LEVELS, text, "must be levels of x86-64 from 1 to 4, separated by blanks")
+    return int(max(levels))
 
 
 def digest(files: Iterable[Path]) -> str:
