@@ -283,16 +283,16 @@ LOCKED = 'mount --bind "$0" "$0" && mount -o remount,bind,ro "$0" && exec "$@"'
 
 @pytest.fixture
 def read_only(tmp_path):
-    """How to run Python where nobody can write into the package, without a home."""
-    package = shutil.copytree(shared_library.PACKAGE, tmp_path / "carom")
+    """How to run Python where nobody can write into the package; without a home and a network."""
+    package = shutil.copytree(shared_library.PACKAGE, tmp_path / "of another user/carom")
     locked = []
     if os.geteuid() == 0:  # for whom permissions are nothing: a place mounted to be read
-        locked = ["unshare", "--mount", "sh", "-c", LOCKED, str(package)]
+        locked = ["unshare", "--mount", "--net", "sh", "-c", LOCKED, str(package)]
         if shutil.which("unshare") is None or subprocess.run([*locked, "true"]).returncode:
             pytest.skip("root can write everywhere, and can mount nothing here")
     for path in (*package.rglob("*"), package):
         path.chmod(0o555 if path.is_dir() else 0o444)
-    environment = {**os.environ, "PYTHONPATH": str(tmp_path), "HOME": "/nowhere"}
+    environment = {**os.environ, "PYTHONPATH": str(package.parent), "HOME": "/nowhere"}
     environment.pop("NUMBA_CACHE_DIR")
     before = sorted(package.rglob("*"))
 
