@@ -275,3 +275,46 @@ def test_recipe_for_spack_has_the_same_requirements():
     python = PROJECT["requires-python"].removeprefix(">=")
     assert told == expected | {"c": "", "python": python}
     assert f'license("{PROJECT["license"]}")' in text
+
+
+def test_only_what_is_ready_can_be_published():
+    workflow = yaml.safe_load((ROOT / ".github/workflows/publish.yml").read_text("utf-8"))
+    check, publish = workflow["jobs"]["check"], workflow["jobs"]["publish"]
+    commands = [step["run"] for step in check["steps"] if "run" in step]
+    assert any(re.search(r"python release/ready\.py --tag \S+ dist/\*$", each) for each in commands)
+    assert any("twine check --strict dist/*" in each for each in commands)
+    assert publish["needs"] == "check"
+    assert publish["permissions"] == {"id-token": "write"}
+    assert "write" not in str(workflow["permissions"]) + str(check["permissions"])
+    uploaded = [step["with"] for step in check["steps"] if "upload-artifact" in str(step)]
+    downloaded = [step["with"] for step in publish["steps"] if "download-artifact" in str(step)]
+    assert downloaded[0] in uploaded
+
+
+def test_page_of_licences_has_every_requirement_of_users_with_the_licence_it_has():
+    """The whole list, with what they need in turn, is compared every week."""
+    import licences
+
+    told = licences.told(licences.PAGE.read_text("utf-8"))
+    extras = PROJECT["optional-dependencies"]
+    names = [
+        *PROJECT["dependencies"],
+        *(each for name in licences.EXTRAS[1:] for each in extras[name]),
+    ]
+    direct = {re.match(r"[\w.-]+", each)[0].lower().replace("_", "-") for each in names} - {"carom"}
+    now = licences.needed()
+    assert len(direct) > 20
+    assert direct <= set(told) & set(now)
+    assert {name: told[name] for name in direct} == {name: now[name] for name in direct}
+    assert "unknown" not in now.values()
+    only_extras = {name for name, kind in now.items() if "GPL" in kind}
+    assert only_extras.isdisjoint(licences.needed(("",)))
+
+
+def test_page_of_licences_names_what_has_a_licence_of_its_own():
+    page = (ROOT / "docs/licences.md").read_text("utf-8")
+    for path in (ROOT / "src/carom").rglob("*"):
+        if path.suffix in (".h", ".hpp", ".cpp") and "GPL-2.0-only" in path.read_text("utf-8"):
+            assert f"`carom/adapters/{path.parent.name}`" in page
+    for path in (ROOT / "src/carom/data/measured").glob("*.csv"):
+        assert re.search(r"(?m)^# source: .*\(\d{4}\)", path.read_text("utf-8")), path.name
