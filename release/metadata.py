@@ -50,6 +50,7 @@ def codemeta() -> str:
     """Return the text of codemeta.json, https://codemeta.github.io/terms, version 3.0."""
     about, cited = project(), yaml.safe_load(citation())
     pythons = [each.removeprefix(PYTHON) for each in about["classifiers"]]
+    needed = about["dependencies"]
     licences = re.findall(r"[\w.-]+-[\w.-]+", about["license"])
     described = {
         "@context": "https://w3id.org/codemeta/3.0",
@@ -73,7 +74,10 @@ def codemeta() -> str:
             for each in about["classifiers"]
             if each.startswith("Operating System")
         ],
-        "softwareRequirements": about["dependencies"],
+        "softwareRequirements": [
+            {"@type": "SoftwareApplication", "name": name, "version": least}
+            for name, least in (re.match(r"([\w.-]+)(.*)", each).groups() for each in needed)
+        ],
         "citation": [
             {"@type": "ScholarlyArticle", "name": each["title"]}
             | ({"@id": f"https://doi.org/{each['doi']}"} if "doi" in each else {})
