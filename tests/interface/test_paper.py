@@ -83,7 +83,8 @@ def test_header_is_what_the_journal_asks_for():
 
 
 def test_sections_are_in_the_order_of_the_journal():
-    asked = "Summary; Statement of need; State of the field; Software design; Acknowledgements"
+    asked = "Summary; Statement of need; State of the field; Software design; "
+    asked += "Research impact statement; AI usage disclosure; Acknowledgements"
     matches = re.findall(r"(?m)^# (.*)$", BODY)
     places = [matches.index(section) for section in (*asked.split("; "), "References")]
     assert places == sorted(places)

@@ -232,7 +232,7 @@ BROKEN = {
 }
 
 
-@pytest.mark.parametrize("content", BROKEN)
+@pytest.mark.parametrize("content", BROKEN, ids=BROKEN.values())  # content has its time in it
 def test_spreadsheets_without_a_table_are_refused(content, stored):
     refused(BROKEN[content], read_table, stored(content, "lab.xlsx"))
 

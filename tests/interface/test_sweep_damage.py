@@ -1,5 +1,6 @@
 """Stores that lack something, or are of a sweep that only looks alike."""
 
+import json
 import pickle
 import shutil
 import subprocess
@@ -10,7 +11,7 @@ import xarray as xr
 from tests.checks import refused
 
 import carom
-from carom.io.stores import FROZEN
+from carom.io.stores import FROZEN, freeze
 
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 1.0, "angle": 0.4}
 AXES = {
@@ -211,3 +212,41 @@ def test_chunk_of_another_place_is_found(name, how, whole, copy, tmp_path):
 def test_programs_that_know_no_seals_read_a_store(whole, copy):
     """They pass over them, as they do over any frame that zstd skips."""
     assert xr.open_zarr(copy, chunks=None).psi_out.equals(whole[1].psi_out)
+
+
+class Touched:
+    """What makes a file when it is unpickled."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def __reduce__(self):
+        return open, (str(self.path), "w")
+
+
+PICKLE = {"id": "pickle", "protocol": 5}
+OLD_FORMAT = {"zarr_format": 2, "chunks": [6], "dtype": "|O", "order": "C", "fill_value": ""}
+FOREIGN = {  # what a node of the metadata is changed to
+    "a filter that unpickles": OLD_FORMAT
+    | {"compressor": None, "filters": [{"id": "vlen-utf8"}, PICKLE]},
+    "a compressor that unpickles": OLD_FORMAT | {"compressor": PICKLE, "filters": None},
+    "a codec of another package": {"codecs": [{"name": "bytes"}, {"name": "numcodecs.pickle"}]},
+    "codecs within a codec": {"codecs": [{"name": "sharding_indexed", "configuration": {}}]},
+    "codecs that are none": {"codecs": 5},
+}
+
+
+@pytest.mark.parametrize("kind", FOREIGN)
+@pytest.mark.parametrize("resume", [False, True], ids=["read", "resumed"])
+def test_a_store_made_to_run_code_is_refused(kind, resume, copy, tmp_path):
+    """Checksums are no protection from those who write them anew."""
+    whole = json.loads((copy / "zarr.json").read_bytes())
+    nodes = whole["consolidated_metadata"]["metadata"]
+    nodes["friction"] = {**nodes["friction"], **FOREIGN[kind]}
+    nodes["friction"].setdefault("attributes", {})["_ARRAY_DIMENSIONS"] = ["friction"]
+    (copy / "zarr.json").write_text(json.dumps(whole))
+    (copy / "friction/0").write_bytes(pickle.dumps([Touched(tmp_path / "run")] * 6))
+    (copy / FROZEN).unlink()
+    freeze(copy)
+    refused("it is not a store of Carom", swept if resume else carom.read, copy)
+    assert not (tmp_path / "run").exists()

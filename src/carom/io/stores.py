@@ -7,6 +7,7 @@ readers of zstd skip. So a chunk of another place, or of another store, is damag
 This needs zarr: import it by `extra`.
 """
 
+import json
 import warnings
 from hashlib import sha256
 from pathlib import Path
@@ -18,7 +19,7 @@ import xarray as xr
 from zarr.core.buffer import Buffer
 from zarr.storage import LocalStore
 
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import refusal, refuse
 
 STATUS = "status"  # of the points of a sweep
 FROZEN = f"{STATUS}/.sha256sums"  # a place that zarr does not list; `sha256sum -c` reads it
@@ -26,6 +27,8 @@ METADATA = "zarr.json"
 FRAME = b"\x50\x2a\x4d\x18\x20\x00\x00\x00"  # begins a frame of 32 bytes that zstd skips
 SEAL_LENGTH = len(FRAME) + 32
 CHUNK = "/c/"  # in the names of chunks
+FORMAT = 3  # of Zarr
+CODECS = {"bytes", "zstd"}  # of what Carom writes; among others are some that run what they read
 
 
 def read_store(path: Path) -> xr.Dataset:
@@ -52,6 +55,7 @@ class SealedStore(LocalStore):
     def __init__(self, root: Path, *, read_only: bool = True) -> None:
         super().__init__(root, read_only=read_only)
         self._frozen = _checked_list(root)
+        _check_codecs(root)
 
     def is_sound(self, key: str) -> bool:
         """Tell whether a chunk is there, and as it was written."""
@@ -126,3 +130,16 @@ def _checked_list(path: Path) -> dict[str, str]:
             changed = f"{shorten(name, 60)} is not what {FROZEN} says"
             raise refusal("store", str(path), f"it is damaged: {changed}; start again")
     return frozen
+
+
+def _check_codecs(path: Path) -> None:
+    """Raise InputError if zarr would have to read what Carom never writes."""
+    try:
+        whole = json.loads((path / METADATA).read_bytes())
+        nodes = [whole, *whole["consolidated_metadata"]["metadata"].values()]
+        formats = {node["zarr_format"] for node in nodes}
+        codecs = {codec["name"] for node in nodes for codec in node.get("codecs", [])}
+        own = formats == {FORMAT} and codecs <= CODECS
+    except (ValueError, LookupError, TypeError, AttributeError):
+        own = False
+    refuse(not own and refusal("store", str(path), "it is not a store of Carom"))
