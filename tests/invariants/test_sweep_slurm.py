@@ -16,7 +16,7 @@ import carom
 pytestmark = [pytest.mark.cluster, pytest.mark.slow]
 PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "cluster.md"
 STAND_INS = {
-    "sbatch": 'cp "$1" job.sh; bash "$1" >>jobs.log 2>&1 & echo "Submitted batch job $!"',
+    "sbatch": 'cp "$1" job$$.sh; bash job$$.sh >>jobs.log 2>&1 & echo "Submitted batch job $!"',
     "scancel": 'kill "$@"',
 }
 
@@ -45,8 +45,8 @@ def run(name, folder, *words, **changes):
 
 def test_script_for_slurm_asks_for_what_it_says_and_sweeps(tmp_path):
     pytest.importorskip("dask_jobqueue", reason="dask-jobqueue is not installed")
-    run("on_slurm.py", tmp_path, **{"1_000_000": "20_000", "jobs=10": "jobs=2"})
-    first, *lines = (tmp_path / "job.sh").read_text().splitlines()
+    run("on_slurm.py", tmp_path, **{"1_000_000": "400", "jobs=4": "jobs=2"})
+    first, *lines = next(tmp_path.glob("job*.sh")).read_text().splitlines()
     assert first.startswith("#!")
     asked = dict(shlex.split(line)[1:3] for line in lines if re.match("#SBATCH -[a-zA-Z] ", line))
     assert asked == {"-J": "dask-worker", "-p": "compute", "-n": "1", "-t": "01:00:00"}
@@ -55,9 +55,9 @@ def test_script_for_slurm_asks_for_what_it_says_and_sweeps(tmp_path):
     assert worker[:3] == [sys.executable, "-m", "distributed.cli.dask_worker"]
     assert worker[worker.index("--nthreads") + 1] == "16"
     ranges = {"angle": ("0 deg", "55 deg"), "spin": ("-50 rad/s", "50 rad/s")}
-    steel = {"radius": "5 mm", "material": "steel"}
-    design = carom.LatinHypercube(ranges, samples=20_000, seed=20261121)
-    here = carom.sweep({"first": steel, "friction": 0.2, "speed": "2 m/s"}, design)
+    pmma = {"first": {"radius": "5 mm", "material": "pmma"}, "friction": 0.2, "speed": "2 m/s"}
+    relaxing = {**pmma, "relaxation_time": "20 us", "modulus_ratio": 1.5}
+    here = carom.sweep(relaxing, carom.LatinHypercube(ranges, samples=400, seed=1))
     assert here.identical(carom.read(tmp_path / "million.zarr").load())
 
 
