@@ -169,9 +169,9 @@ def main() -> None:
         with TemporaryDirectory() as folder:
             adapter.build(adapter.installed(), Path(folder), options)
             if given.smoke or given.ranks:
-                wide = side if given.smoke else 17
-                print(f"{name}: {4 * wide**3} spheres on one and two ranks, {steps} steps")
-                compare_ranks(wide, steps, turns, Path(folder))
+                wide, few = (side, steps) if given.smoke else (17, 200)
+                print(f"{name}: {4 * wide**3} spheres on one and two ranks, {few} steps")
+                compare_ranks(wide, few, turns, Path(folder))
             if not given.ranks:
                 print(f"{name}: Pair, among spheres")
                 compare(list(STYLES), False, side, steps, turns, Path(folder))
