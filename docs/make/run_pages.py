@@ -46,7 +46,7 @@ NOT_RUN = {  # beginnings of commands: what they need that is not here, and wher
     "carom explore": "a server that goes on: tests/browser",
     "carom lammps build": "a place for the plugin: tests/lammps/test_building.py",
     "carom liggghts build": "the sources of LIGGGHTS: tests/liggghts/test_building.py",
-    "carom sweep examples/sweep.toml --store result.zarr --scheduler": "a cluster",
+    "carom sweep examples/million.toml": "a cluster: tests/invariants/test_sweep_cluster.py",
     "carom verify lammps --law carom": "the plugin: tests/lammps/test_bench.py",
     "python -m pytest": "minutes",
 }

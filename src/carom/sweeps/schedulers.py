@@ -1,12 +1,15 @@
 """Where the blocks of a sweep are computed: in threads of this process, or on a dask cluster."""
 
 import logging
+import warnings
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent import futures
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.metadata import version
 from itertools import islice
+from math import inf
+from time import monotonic
 from typing import Any, NamedTuple
 
 from carom.dimensionless.numerics.kernels import compiled_by
@@ -21,14 +24,18 @@ from carom.sweeps.records import SweepStopped
 
 ANSWER_SECONDS = 5.0  # that a scheduler, and its first worker, have to answer
 CLUSTER = "a scheduler"
+LOGS = ("distributed", "distributed.client", "tornado.application")  # one line here tells more
+FIRST = futures.FIRST_COMPLETED
 BLOCKS_AHEAD = 2  # in flight for each thread
+SECONDS_BETWEEN_COUNTS = 1.0  # of the workers of a cluster, which come and go
+SECONDS_WITHOUT_WORKERS = 10.0  # until the user is told; a killed one is back after three
 
 
 class Team(NamedTuple):
-    """Those who compute blocks: how one is submitted, how many work at once, how they are lost."""
+    """Those who compute blocks: how one is submitted, how many work now, how they are lost."""
 
     submit: Callable[[Box], futures.Future[Values]]
-    size: int
+    size: Callable[[], int]
     losses: Mapping[type[BaseException], str]
 
     def results(self, blocks: Sequence[Box]) -> Generator[tuple[Box, Values], None, None]:
@@ -37,11 +44,12 @@ class Team(NamedTuple):
         flying: dict[futures.Future[Values], Box] = {}
         try:
             while True:
-                for box in islice(queue, BLOCKS_AHEAD * self.size - len(flying)):
+                room = BLOCKS_AHEAD * max(1, self.size()) - len(flying)
+                for box in islice(queue, max(0, room)):
                     flying[self.submit(box)] = box
                 if not flying:
                     return
-                for future in futures.wait(flying, return_when=futures.FIRST_COMPLETED).done:
+                for future in futures.wait(flying, SECONDS_BETWEEN_COUNTS, FIRST).done:
                     yield flying.pop(future), future.result()
         except tuple(self.losses) as error:
             raise SweepStopped(self.losses[type(error)]) from None
@@ -56,7 +64,7 @@ def team(scheduler: str | None, workers: int | None, problem: SweepProblem) -> I
     if scheduler is None:
         own = available_cores() if workers is None else counted("workers", workers, 1, MOST_THREADS)
         with futures.ThreadPoolExecutor(own, "sweep") as pool:
-            yield Team(lambda box: pool.submit(problem.block, box), own, {})
+            yield Team(lambda box: pool.submit(problem.block, box), lambda: own, {})
     elif workers is not None:
         allowed = "a cluster has its own workers; leave it out with a scheduler"
         raise refusal("workers", workers, allowed)
@@ -68,7 +76,7 @@ def team(scheduler: str | None, workers: int | None, problem: SweepProblem) -> I
 @contextmanager
 def _cluster(address: str, problem: SweepProblem) -> Iterator[Team]:
     with _client(address) as client:
-        size = _checked_threads(client, address)
+        _check_workers(client, address)
         executor: futures.Executor = client.get_executor(pure=False)
         shared = client.submit(_itself, problem, pure=False)  # a task, made anew if it is lost
         killed = extra("distributed", CLUSTER).KilledWorker
@@ -77,7 +85,8 @@ def _cluster(address: str, problem: SweepProblem) -> Iterator[Team]:
             killed: "the workers of the cluster died, one after another",
         }
         call = executor.submit
-        yield Team(lambda box: call(_remote_block, shared, box, versions()), size, losses)
+        count = _WorkerThreads(client, address)
+        yield Team(lambda box: call(_remote_block, shared, box, versions()), count, losses)
 
 
 @contextmanager
@@ -93,18 +102,56 @@ def _client(address: str) -> Iterator[Any]:
         ) from None
     except (ValueError, TypeError):
         raise refusal("scheduler", address, "must be an address such as tcp://host:8786") from None
-    log = logging.getLogger("distributed.client")  # what it tells is told here in one line
-    level = log.level
-    log.setLevel(logging.CRITICAL)
+    with _quiet(*LOGS), client:
+        yield client
+
+
+@contextmanager
+def _quiet(*names: str) -> Iterator[None]:
+    logs = [logging.getLogger(name) for name in names]
+    levels = [log.level for log in logs]
     try:
-        with client:
-            yield client
+        for log in logs:
+            log.setLevel(logging.CRITICAL)
+        yield
     finally:
-        log.setLevel(level)
+        for log, level in zip(logs, levels, strict=True):
+            log.setLevel(level)
 
 
-def _checked_threads(client: Any, address: str) -> int:
-    """Return the number of threads of a cluster; raise InputError if it cannot be used."""
+class _WorkerThreads:
+    """Counts the threads of a cluster, whose workers come and go."""
+
+    def __init__(self, client: Any, address: str) -> None:
+        self._client, self._address = client, address
+        self._number, self._counted, self._seen = 0, -inf, monotonic()
+
+    def __call__(self) -> int:
+        """Return their number, counted again after a second; CancelledError if it is not known."""
+        if self._client.status != "running":
+            raise futures.CancelledError
+        now = monotonic()
+        if now > self._counted + SECONDS_BETWEEN_COUNTS:
+            self._counted, self._number = now, self._count()
+            self._seen = now if self._number else self._seen
+            if now > self._seen + SECONDS_WITHOUT_WORKERS:
+                self._warn()
+        return self._number
+
+    def _count(self) -> int:
+        try:
+            return sum(self._client.nthreads().values())
+        except OSError:
+            raise futures.CancelledError from None
+
+    def _warn(self) -> None:
+        self._seen = inf  # once, until there are some again
+        words = "has no workers left; the sweep waits for new ones: dask worker"
+        warnings.warn(f"the scheduler {self._address} {words} {self._address}", stacklevel=1)
+
+
+def _check_workers(client: Any, address: str) -> None:
+    """Raise InputError if a cluster has no workers, or some that cannot be used."""
     try:
         client.wait_for_workers(1, timeout=ANSWER_SECONDS)
     except TimeoutError:
@@ -112,7 +159,6 @@ def _checked_threads(client: Any, address: str) -> int:
         raise refusal("scheduler", address, allowed) from None
     for worker, there in client.run(versions, on_error="return").items():
         _require_same(worker, there, versions())
-    return sum(client.nthreads().values())
 
 
 @lru_cache(maxsize=1)
