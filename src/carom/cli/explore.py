@@ -10,7 +10,8 @@ from threading import Thread
 
 import typer
 
-from carom.cli.options import described, whole_option
+from carom.cli.options import checking, described, whole_option
+from carom.io.paths import checked_folder
 from carom.quantities.units import whole
 
 OPTIONS = {
@@ -48,13 +49,17 @@ def explore_command(
     A machine without a screen: carom explore --no-open --port 0
     A copy for a web site: carom explore --export impact-page
     """
+    with checking() as faults:
+        number = faults.trying(whole, "port", port, 0, 65535)
+        if export is not None:
+            faults.trying(checked_folder, export)
     if export is not None:
         _export(export, as_json)
         return
     from carom.explorer import address
 
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
-    bound = address.listening(host, whole("port", port, 0, 65535))
+    bound = address.listening(host, number)
     with bound, suppress(KeyboardInterrupt):
         url = address.url_of(bound, host)
         words = f"{url}  (press Ctrl-C to stop the page)"

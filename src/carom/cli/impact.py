@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
+from carom.cli import completion
 from carom.cli.cases import check_outputs, merged, outputs, stored, tell_sweep
-from carom.cli.options import described, file_argument, whole_option
+from carom.cli.options import checking, described, file_argument, name_option, whole_option
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, one_of, refusal
-from carom.quantities.units import whole
+from carom.quantities.refusals import Faults, InputError, one_of, refusal
+from carom.quantities.units import finite, whole
 
 if TYPE_CHECKING:
     from carom.impacts.result import ImpactResult
@@ -46,15 +47,23 @@ CASE_KEYS = {  # of what options give, in a case file, where they have other nam
 OPTIONS = {
     "case": file_argument("TOML file that describes the impact; options replace what it says."),
     "radius": _flag("radius", "'5 mm'", " of the first body, a sphere"),
-    "material": "Material of the first body: a name that carom materials lists, or 'young=210 "
-    "GPa, poisson=0.3, density=7850'.",
+    "material": name_option(
+        "Material of the first body: a name that carom materials lists, or 'young=210 GPa, "
+        "poisson=0.3, density=7850'.",
+        completion.materials,
+    ),
     "gyration_radius": _flag(
         "gyration_radius", "'3 mm'", " of the first body (default: that of a solid sphere)"
     ),
     "inner_radius": _flag("inner_radius", "'4 mm'"),
-    "against": "Second body: half-space, sphere or cup (default: half-space).",
+    "against": name_option(
+        "Second body: half-space, sphere or cup (default: half-space).",
+        ("half-space", "sphere", "cup"),
+    ),
     "second_radius": _flag("radius", "'10 mm'", " of the second body, a sphere or cup"),
-    "second_material": "Material of the second body (default: that of the first).",
+    "second_material": name_option(
+        "Material of the second body (default: that of the first).", completion.materials
+    ),
     "thickness": _flag("thickness", "'3 mm'", ", which gives way (default: a thick wall)"),
     "width": _flag("width", "'200 mm'", " (default: wide enough)"),
     "friction": _flag("friction", "0.2"),
@@ -80,8 +89,11 @@ OPTIONS = {
     "to compute it from the yield strengths of the materials.",
     "flow_stress": "Yield strength of a metal that is struck beyond its yield, e.g. '1 GPa', or "
     "'material' to take that of the materials; the pressure rises as it yields.",
-    "method": "'exact' solves the theory; 'halfspace' solves the full contact in three dimensions "
-    "by boundary elements, in two seconds, or fifteen for unlike materials.",
+    "method": name_option(
+        "'exact' solves the theory; 'halfspace' solves the full contact in three dimensions by "
+        "boundary elements, in two seconds, or fifteen for unlike materials.",
+        METHODS,
+    ),
     "elements": whole_option(
         "Number of boundary elements across the contact, for --method halfspace (default: 64)."
     ),
@@ -127,22 +139,35 @@ def impact_command(
     --spectrum forces.csv        spectra of the forces, for acoustic sensors
     --peaks                      the largest stresses in both bodies
     """
-    from carom.bodies.cases import LOSSES, MOTION, RATIO, losses_of, motion_of, pair_of, read_case
+    from carom.bodies import cases
+    from carom.bodies.checks import checked_motion
 
-    named = (*CASE_KEYS, "friction", *MOTION, *LOSSES, RATIO)
+    named = (*CASE_KEYS, "friction", *cases.MOTION, *cases.LOSSES, cases.RATIO)
     options = {**given, "plot": plot}
     flags = {CASE_KEYS.get(name, name): options[name] for name in named}
-    content = merged(read_case(case, losses=True) if case is not None else {}, flags)
+    with checking() as faults:
+        read = {} if case is None else faults.trying(cases.read_case, case, losses=True)
+        content = merged(read or {}, flags)
+        files = faults.trying(outputs, content) or {}
+        written = {"plot": files.get("plot"), "output": files.get("data")}
+        faults.trying(check_outputs, written | {"spectrum": files.get("spectrum")})
+        if "animation" in files:
+            faults.trying(carom.plots.checked_animation, files["animation"])
+        counts = {name: given[name] for name in ("elements", "steps")}
+        solver = faults.trying(_method, method, counts)
+        losses, motion = faults.trying(cases.losses_of, content), cases.motion_of(content)
+        if normal_spin is not None:
+            motion["normal_spin"] = normal_spin
+            faults.trying(finite, "normal_spin", normal_spin)
+        round_ones = not cases.has_shapes(content)
+        if round_ones:
+            faults.trying(cases.numbers_of, content)
+        if read is not None:  # else a file that cannot be read may give what is missing
+            pair = faults.trying(cases.pair_of, content)
+            if round_ones:
+                faults.trying(checked_motion, pair, **cases.motion_of(content))
     tell_sweep(content)
-    files = outputs(content)
-    losses = losses_of(content)
-    written = {"plot": files.get("plot"), "output": files.get("data")}
-    check_outputs(written | {"spectrum": files.get("spectrum")})
-    if "animation" in files:
-        carom.plots.checked_animation(files["animation"])
-    solver = _method(method, {name: given[name] for name in ("elements", "steps")})
-    motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
-    hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
+    hit = carom.impact(pair, **motion, losses=losses, method=solver)
     shown = _with_peaks(hit, as_json) if peaks else str(hit)
     paths = list(_store(hit, files))
     typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json and not peaks else shown)
@@ -165,12 +190,13 @@ def _with_peaks(hit: "ImpactResult", as_json: bool) -> str:
 def _method(name: str, numbers: Mapping[str, str | None]) -> Any:
     from carom.impacts.boundary_elements import RANGES
 
-    one_of("method", name, METHODS)
-    counts = {n: whole(n, text, *RANGES[n]) for n, text in numbers.items() if text is not None}
-    if name != "halfspace":
-        for key, value in counts.items():
-            words = "it is an option of boundary elements; add --method halfspace"
-            raise refusal(key, value, words)
+    there = {key: text for key, text in numbers.items() if text is not None}
+    with Faults() as faults:
+        faults.trying(one_of, "method", name, METHODS)
+        counts = {n: faults.trying(whole, n, text, *RANGES[n]) for n, text in there.items()}
+        words = "it is an option of boundary elements; add --method halfspace"
+        if name == "exact":
+            faults.add(*(str(refusal(key, value, words)) for key, value in counts.items()))
     return carom.BoundaryElements(**counts) if counts else name
 
 

@@ -132,9 +132,12 @@ def fit(
     >>> print(carom.fit(drops, pair=plate).thickness)
     3 mm (2.971 to 3.03)
     """
-    level, limited = checked_confidence(confidence), flag("robust", robust)
     how = {"columns": columns, "sheet": sheet, "decimal": decimal}
-    settled, options = _settled(data, pair, vary, fixed, limited, how)
+    with Faults() as faults:
+        level = faults.trying(checked_confidence, confidence)
+        limited = faults.trying(flag, "robust", robust)
+        found = faults.trying(_settled, data, pair, vary, fixed, limited, how)
+    settled, options = found
     return assembled(settled, level, options.taken)
 
 

@@ -68,14 +68,20 @@ def checked_folder(folder: str | Path) -> tuple[Path, Path]:
     return target, real
 
 
+def new_folder(folder: str | Path) -> Path:
+    """Return the real path of a new or empty folder, or raise InputError."""
+    _, target = checked_folder(folder)
+    full = target.is_dir() and any(target.iterdir())
+    refuse(full and refusal("folder", str(folder), "it is not empty; give a new folder"))
+    return target
+
+
 def write_folder(folder: str | Path, files: Mapping[str, bytes]) -> None:
     """Write files into a new or empty folder, which appears whole or not at all.
 
     Raises InputError if there is something in the folder, or it cannot be written.
     """
-    _, target = checked_folder(folder)
-    full = target.is_dir() and any(target.iterdir())
-    refuse(full and refusal("folder", str(folder), "it is not empty; give a new folder"))
+    target = new_folder(folder)
     with accessing("folder", folder, "written"):
         temporary = Path(tempfile.mkdtemp(prefix=".carom-", dir=target.parent))
         try:
