@@ -17,6 +17,7 @@ from carom.cli.programs import lammps_app, liggghts_app
 from carom.cli.sweep import sweep_command
 from carom.cli.track import track_command
 from carom.cli.verify import app as verify_app
+from carom.io.progress import telling
 from carom.io.remedies import SHELL, offering
 from carom.quantities.refusals import InputError
 
@@ -86,7 +87,7 @@ def _built() -> Any:
 def answer(arguments: list[str] | None) -> int:
     """Run a command and return its exit code; raises InputError for bad input."""
     try:
-        with offering(SHELL):
+        with offering(SHELL), telling():
             completion.prepare()
             code = int(_built()(arguments, prog_name="carom", standalone_mode=False) or 0)
     except typer.TyperException as error:

@@ -12,6 +12,7 @@ from carom.quantities.refusals import InputError
 
 ASKED = "_CAROM_COMPLETE"  # the variable by which a shell asks, and by which a script is had
 SHELLS = ("bash", "zsh", "fish", "powershell", "pwsh")
+LOADED = '\n[ "$funcstack[1]" = _carom ] && _carom_completion "$@"\n'
 NAMES = {"prog_name": "carom", "complete_var": ASKED}
 
 
@@ -31,6 +32,8 @@ def install(shell: str) -> None:
     try:
         with accessing("--install-completion", shell, "written"):
             _, path = completion.install(**NAMES, shell=shell)  # type: ignore[attr-defined]
+            if shell == "zsh":  # which loads the script at the first Tab, and has that to do
+                path.write_text(path.read_text() + LOADED)
     except (RuntimeError, UnicodeError) as error:  # no HOME, a file of the shell in no UTF-8
         raise InputError(f"--install-completion: {shell!r} cannot be written; {error}") from None
     typer.echo(f"Carom has stored {path}; open a new terminal to use it.", err=True)

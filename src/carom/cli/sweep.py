@@ -41,7 +41,8 @@ OPTIONS = {
     "scheduler": "Address of a dask cluster to use, e.g. tcp://host:8786.",
     "workers": whole_option("Number of threads (default: one for each core)."),
     "progress": typer.Option(
-        "--progress/--no-progress", help="Show a progress bar (default: only on a terminal)."
+        "--progress/--no-progress",
+        help="Show progress (default): a bar on a terminal, elsewhere a line every ten seconds.",
     ),
 }
 
