@@ -124,7 +124,7 @@ class Once(Quick, TyperCommand):
             ctx.set_parameter_source(param.name, source)
             ctx.params[param.name] = list(value) if isinstance(value, tuple) else value
             if param.required and param.value_is_missing(value):
-                what = param.metavar if param.param_type_name == "argument" else param.opts[0]
+                what = param.opts[0] if isinstance(param, TyperOption) else param.metavar
                 faults.append(f"{param.name}: missing; give {what}")
         if rest:
             advice = "put a value with blanks into quotes, e.g. '30 deg'"

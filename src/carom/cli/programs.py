@@ -36,7 +36,7 @@ LAMMPS = {
     "folder": "Folder for the plugin (default: the folder in which LAMMPS finds it by itself).",
 }
 EXAMPLES = {
-    "folder": typer.Argument(help="New or empty folder for the inputs."),
+    "folder": typer.Argument(help="New or empty folder for the inputs.", metavar="FOLDER"),
     "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
 }
 LIGGGHTS = {
@@ -97,7 +97,8 @@ def examples_command(folder: str, as_json: bool = False) -> None:
     from carom.adapters import lammps as adapter
 
     with checking() as faults:
-        faults.trying(new_folder, folder)
+        if folder is not None:
+            faults.trying(new_folder, folder)
     files = adapter.write_examples(folder)
     if as_json:
         typer.echo(json.dumps({"folder": folder, "files": files}, indent=2))

@@ -80,7 +80,9 @@ def sweep_command(
     with checking() as faults:
         threads = faults.if_given(whole, "workers", workers, 1)
         file, table = output, faults.trying(table_format_of, given, "omega=spin")
-        content = faults.trying(read_case_file, case, losses=True, swept=True)
+        content = None
+        if case is not None:
+            content = faults.trying(read_case_file, case, losses=True, swept=True)
         if content is not None:
             own = faults.trying(_file, content)
             file = own if output is None else output

@@ -210,7 +210,9 @@ for name, words in COMMANDS.items():
 
 
 PACK_OPTIONS = {
-    "folder": typer.Argument(help="New or empty folder for the pack, e.g. bench."),
+    "folder": typer.Argument(
+        help="New or empty folder for the pack, e.g. bench.", metavar="FOLDER"
+    ),
     "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
 }
 
@@ -230,7 +232,8 @@ def pack_command(folder: str, as_json: bool = False) -> None:
     from carom.verify.pack import VERSION, write_pack
 
     with checking() as faults:
-        faults.trying(new_folder, folder)
+        if folder is not None:
+            faults.trying(new_folder, folder)
     files = write_pack(folder)
     record = {"version": VERSION, "folder": folder, "files": files}
     what = f"benchmark pack {VERSION}, {len(files)} files, into {folder}"
