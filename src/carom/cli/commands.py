@@ -17,6 +17,7 @@ from carom.cli.programs import lammps_app, liggghts_app
 from carom.cli.sweep import sweep_command
 from carom.cli.track import track_command
 from carom.cli.verify import app as verify_app
+from carom.io.paths import reading_standard_input
 from carom.io.progress import telling
 from carom.io.remedies import SHELL, offering
 from carom.quantities.refusals import InputError
@@ -41,7 +42,8 @@ app = Commands(
     "the contact.\n\n"
     "Begin with carom impact for one impact, carom sweep for many, carom fit for measured "
     "rebounds, carom verify for contact laws of DEM codes, or carom explore for a page in the "
-    "browser. carom COMMAND --help describes a command. The exit code is 0, 2 for input that "
+    "browser. carom COMMAND --help describes a command. In place of a FILE that is read, - is the "
+    "standard input. The exit code is 0, 2 for input that "
     "cannot be used, 1 for a failure, or 130 after Ctrl-C.\n\n\b\n"
     'Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 '
     '--angle "30 deg"',
@@ -87,7 +89,7 @@ def _built() -> Any:
 def answer(arguments: list[str] | None) -> int:
     """Run a command and return its exit code; raises InputError for bad input."""
     try:
-        with offering(SHELL), telling():
+        with offering(SHELL), telling(), reading_standard_input():
             completion.prepare()
             code = int(_built()(arguments, prog_name="carom", standalone_mode=False) or 0)
     except typer.TyperException as error:

@@ -1,9 +1,11 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
+import os
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import typer
 
@@ -26,6 +28,7 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 
 
 METHODS = ("exact", "halfspace")
+NO_PEAKS = "peaks: boundary elements give no stress below the surface; leave --method out"
 ANIMATION_FRAMES = 60  # of an animation
 CASE_KEYS = {  # of what options give, in a case file, where they have other names there
     "radius": "first.radius",
@@ -45,7 +48,10 @@ CASE_KEYS = {  # of what options give, in a case file, where they have other nam
 
 
 OPTIONS = {
-    "case": file_argument("TOML file that describes the impact; options replace what it says."),
+    "case": file_argument(
+        "TOML file that describes the impact; options replace what it says. Give several for one "
+        "impact each."
+    ),
     "radius": _flag("radius", "'5 mm'", " of the first body, a sphere"),
     "material": name_option(
         "Material of the first body: a name that carom materials lists, or 'young=210 GPa, "
@@ -111,7 +117,7 @@ OPTIONS = {
 
 @described(OPTIONS)
 def impact_command(
-    case: str | None = None,
+    case: list[str] | None = None,
     normal_spin: str | None = None,
     method: str = "exact",
     as_json: bool = False,
@@ -129,6 +135,7 @@ def impact_command(
     \b
     Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 --angle "30 deg"
     A case file: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
+    Several, or the standard input: carom impact steel.toml glass.toml - --json < brass.toml
 
     You can add to the first example:
 
@@ -139,52 +146,93 @@ def impact_command(
     --spectrum forces.csv        spectra of the forces, for acoustic sensors
     --peaks                      the largest stresses in both bodies
     """
-    from carom.bodies import cases
-    from carom.bodies.checks import checked_motion
+    from carom.bodies.cases import LOSSES, MOTION, RATIO
 
-    named = (*CASE_KEYS, "friction", *cases.MOTION, *cases.LOSSES, cases.RATIO)
+    named = (*CASE_KEYS, "friction", *MOTION, *LOSSES, RATIO)
     options = {**given, "plot": plot}
     flags = {CASE_KEYS.get(name, name): options[name] for name in named}
     with checking() as faults:
-        read = {} if case is None else faults.trying(cases.read_case, case, losses=True)
+        counts = {name: given[name] for name in ("elements", "steps")}
+        solver = faults.trying(_method, method, counts)
+        if normal_spin is not None:
+            faults.trying(finite, "normal_spin", normal_spin)
+        if peaks and method == "halfspace":
+            faults.add(NO_PEAKS)
+        read = []
+        for name in case or [None]:
+            with faults.catching(str(name) if case and len(case) > 1 else ""):
+                read.append(_read(name, flags))
+        twice = Counter(os.path.realpath(file) for one in read for file in one.files.values())
+        several = [file for file, count in twice.items() if count > 1]
+        words = "several impacts are to be stored there; write [output] into each case file"
+        faults.add(*(str(refusal("output file", file, words)) for file in several))
+    spin = {} if normal_spin is None else {"normal_spin": normal_spin}
+    records, paths = [], []
+    for name, one in zip(case or [""], read, strict=True):
+        hit = carom.impact(one.pair, **one.motion, **spin, losses=one.losses, method=solver)
+        head = f"{name}\n" if len(read) > 1 else ""
+        told = _record(hit, peaks=peaks) if as_json else head + _text(hit, peaks=peaks)
+        paths += _store(hit, one.files)
+        if as_json:
+            records.append(told)
+        else:
+            typer.echo(told)
+    if as_json:
+        typer.echo(json.dumps(records if len(records) > 1 else records[0], indent=2))
+    for path in paths:
+        stored(path)
+
+
+class _Case(NamedTuple):
+    """One impact: bodies, speeds, losses, and the files that are asked for."""
+
+    pair: Any
+    motion: dict[str, Any]
+    losses: Any
+    files: dict[str, str]
+
+
+def _read(path: str | None, flags: Mapping[str, Any]) -> _Case:
+    """Return what a case file and flags say together, or raise InputError with all faults."""
+    from carom.bodies import cases
+    from carom.bodies.checks import checked_motion
+
+    with Faults() as faults:
+        pair, read = None, faults.trying(cases.read_case, path, losses=True) if path else {}
         content = merged(read or {}, flags)
         files = faults.trying(outputs, content) or {}
         written = {"plot": files.get("plot"), "output": files.get("data")}
         faults.trying(check_outputs, written | {"spectrum": files.get("spectrum")})
         if "animation" in files:
             faults.trying(carom.plots.checked_animation, files["animation"])
-        counts = {name: given[name] for name in ("elements", "steps")}
-        solver = faults.trying(_method, method, counts)
         losses, motion = faults.trying(cases.losses_of, content), cases.motion_of(content)
-        if normal_spin is not None:
-            motion["normal_spin"] = normal_spin
-            faults.trying(finite, "normal_spin", normal_spin)
         round_ones = not cases.has_shapes(content)
         if round_ones:
             faults.trying(cases.numbers_of, content)
         if read is not None:  # else a file that cannot be read may give what is missing
             pair = faults.trying(cases.pair_of, content)
             if round_ones:
-                faults.trying(checked_motion, pair, **cases.motion_of(content))
+                faults.trying(checked_motion, pair, **motion)
     tell_sweep(content)
-    hit = carom.impact(pair, **motion, losses=losses, method=solver)
-    shown = _with_peaks(hit, as_json) if peaks else str(hit)
-    paths = list(_store(hit, files))
-    typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json and not peaks else shown)
-    for path in paths:
-        stored(path)
+    return _Case(pair, motion, losses, files)
 
 
-def _with_peaks(hit: "ImpactResult", as_json: bool) -> str:
-    from carom.impacts.peaks import peaks_record, peaks_text
+def _record(hit: "ImpactResult", *, peaks: bool) -> dict[str, Any]:
+    from carom.impacts.peaks import peaks_record
 
-    if not isinstance(hit, carom.results.Impact):
-        words = "boundary elements give no stress below the surface; leave --method out"
-        raise InputError(f"peaks: {words}")
-    peaks = hit.peaks()
-    if as_json:
-        return json.dumps(hit.to_dict() | {"peaks": peaks_record(peaks)}, indent=2)
-    return f"{hit}\n{peaks_text(peaks)}"
+    return hit.to_dict() | ({"peaks": peaks_record(_peaks(hit))} if peaks else {})
+
+
+def _text(hit: "ImpactResult", *, peaks: bool) -> str:
+    from carom.impacts.peaks import peaks_text
+
+    return f"{hit}\n{peaks_text(_peaks(hit))}" if peaks else str(hit)
+
+
+def _peaks(hit: "ImpactResult") -> Any:
+    if isinstance(hit, carom.results.Impact):
+        return hit.peaks()
+    raise InputError(NO_PEAKS)
 
 
 def _method(name: str, numbers: Mapping[str, str | None]) -> Any:
