@@ -15,7 +15,7 @@ TRACK = Path(__file__).parents[2] / "examples" / "data" / "track_deeplabcut.csv"
 SWEEP = CASE.replace('angle = "30 deg"\n', "") + '[sweep.axes]\nangle = ["10 deg", "40 deg"]\n'
 SCORED = b"psi_1,psi_2\n0.5,0.047\n1.5,-0.43\n3.5,-1.477\n"
 BALL = f"[first]{CASE.split('[first]')[1]}".encode()
-DROPS = "drop_height,rebound_height\n0.2,0.162\n0.3,0.241\n0.4,0.326\n0.5,0.403\n"
+DROPS = "drop_height [m],rebound_height [m]\n0.2,0.162\n0.3,0.241\n0.4,0.326\n0.5,0.403\n"
 READ = {  # a command that reads a file, by that and by the standard input
     "impact FILE --json": CASE.encode(),
     "sweep FILE --json": SWEEP.encode(),
@@ -46,6 +46,7 @@ def test_the_standard_input_is_read_like_a_file(line, run, typed):
     Path("scored.csv").write_bytes(SCORED.replace(b"psi_1", b"a"))
     Path("file").write_bytes(READ[line])
     of_file = run(*line.replace("FILE", "file").split())
+    assert of_file[1], of_file[2]
     typed(READ[line])
     code, out, err = run(*line.replace("FILE", "-").split())
     assert code == of_file[0], err

@@ -10,6 +10,7 @@ from threading import Thread
 
 import typer
 
+from carom.cli import heard
 from carom.cli.options import checking, described, whole_option
 from carom.io.paths import checked_folder
 from carom.quantities.units import whole
@@ -58,9 +59,8 @@ def explore_command(
         return
     from carom.explorer import address
 
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
     bound = address.listening(host, number)
-    with bound, suppress(KeyboardInterrupt):
+    with bound, suppress(KeyboardInterrupt, SystemExit):
         url = address.url_of(bound, host)
         words = f"{url}  (press Ctrl-C to stop the page)"
         typer.echo(json.dumps({"url": url}) if as_json else words)
@@ -70,7 +70,8 @@ def explore_command(
         from carom.explorer.serving import serving
 
         serving(bound, host).serve()
-    os._exit(0)  # without waiting for threads that are at work
+    ended = heard[0] if heard else signal.SIGINT
+    os._exit(128 + ended)  # without waiting for threads that are at work
 
 
 def _export(folder: str, as_json: bool) -> None:

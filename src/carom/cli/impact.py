@@ -159,17 +159,18 @@ def impact_command(
         if peaks and method == "halfspace":
             faults.add(NO_PEAKS)
         read = []
-        for name in case or [None]:
-            with faults.catching(str(name) if case and len(case) > 1 else ""):
-                read.append(_read(name, flags))
+        files = case or [""]
+        for name in files:
+            with faults.catching(name if len(files) > 1 else ""):
+                read.append(_read(name if case else None, flags))
         twice = Counter(os.path.realpath(file) for one in read for file in one.files.values())
         several = [file for file, count in twice.items() if count > 1]
         words = "several impacts are to be stored there; write [output] into each case file"
         faults.add(*(str(refusal("output file", file, words)) for file in several))
-    spin = {} if normal_spin is None else {"normal_spin": normal_spin}
-    records, paths = [], []
-    for name, one in zip(case or [""], read, strict=True):
-        hit = carom.impact(one.pair, **one.motion, **spin, losses=one.losses, method=solver)
+    spin: dict[str, Any] = {} if normal_spin is None else {"normal_spin": normal_spin}
+    records, paths = [], list[Path]()
+    for name, one in zip(files, read, strict=True):
+        hit = carom.impact(one.pair, **one.motion | spin, losses=one.losses, method=solver)
         head = f"{name}\n" if len(read) > 1 else ""
         told = _record(hit, peaks=peaks) if as_json else head + _text(hit, peaks=peaks)
         paths += _store(hit, one.files)
@@ -198,7 +199,9 @@ def _read(path: str | None, flags: Mapping[str, Any]) -> _Case:
     from carom.bodies.checks import checked_motion
 
     with Faults() as faults:
-        pair, read = None, faults.trying(cases.read_case, path, losses=True) if path else {}
+        pair, read = None, {}
+        if path is not None:
+            read = faults.trying(cases.read_case, path, losses=True)
         content = merged(read or {}, flags)
         files = faults.trying(outputs, content) or {}
         written = {"plot": files.get("plot"), "output": files.get("data")}

@@ -118,7 +118,7 @@ def _standard_input(kept: list[bytes], mode: str, how: Mapping[str, Any]) -> Any
         if sys.stdin is None:
             raise OSError(errno.EBADF, "the standard input is closed")
         kept.append(sys.stdin.buffer.read())
-    content: Any = io.BufferedReader(io.BytesIO(kept[0]))  # type: ignore[type-var]
+    content: Any = io.BufferedReader(io.BytesIO(kept[0]))
     return content if "b" in mode else io.TextIOWrapper(content, **how)
 
 
