@@ -3,7 +3,7 @@
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Container, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from contextlib import suppress
 from inspect import signature
 from pathlib import Path
@@ -110,13 +110,7 @@ def check_case(
     """Raise InputError for all unknown keys, and for losses unless the caller supports them."""
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
-        unknown = [key for key in table if key not in allowed]
-        for key in unknown[: refusals.MOST_LISTED]:
-            faults.add(
-                f"{refusals.heading(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}"
-            )
-        for key in unknown[refusals.MOST_LISTED :]:  # which are counted, not told
-            faults.add(f"{key}: unknown key")
+        faults.add(*_unknown(table, allowed, lambda key: f"unknown key{place(key, name)}"))
 
     checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")
     with Faults() as faults:
@@ -132,6 +126,17 @@ def check_case(
             check(table, allowed, name)
             if isinstance(table.get("material"), Mapping):
                 check(table["material"], MATERIAL, name)
+
+
+def _unknown(
+    table: Mapping[str, Any], allowed: Iterable[str], words: Callable[[str], str]
+) -> Iterator[str]:
+    """Yield what is to be said of keys that are not allowed."""
+    unknown = [key for key in table if key not in allowed]
+    for place, key in enumerate(unknown):
+        told = place < refusals.MOST_LISTED  # the others are counted
+        name = refusals.heading(str(key)) if told else key
+        yield f"{name}: {words(key)}; {hint(key, allowed)}" if told else f"{name}: unknown"
 
 
 def line_of(key: str, text: str, table: str) -> int:
@@ -364,9 +369,7 @@ def _as_table(value: Any) -> Any:
                 texts = (text for name, text in entries if name == key)
                 raise refusal(key, " and ".join(texts), TWICE)
     if isinstance(value, Mapping):
-        unknown = {key: refusals.heading(str(key)) for key in value if key not in MATERIAL}
-        words = "unknown in a material"
-        refuse(*(f"{name}: {words}; {hint(key, MATERIAL)}" for key, name in unknown.items()))
+        refuse(*_unknown(value, MATERIAL, lambda _: "unknown in a material"))
     return value
 
 
