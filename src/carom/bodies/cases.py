@@ -2,31 +2,20 @@
 
 import re
 import tomllib
-from collections import Counter
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Container, Iterable, Mapping
 from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.bodies import solids
+from carom.bodies.case_materials import MATERIAL, material_values, read_material, unknown_keys
 from carom.bodies.kinematics import READERS
-from carom.bodies.materials import VALUES, Material, as_material, material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.bodies.smooth_body import Body
 from carom.io.files import read_dataset, read_text
 from carom.io.paths import checked_path
-from carom.quantities import refusals
-from carom.quantities.refusals import (
-    Faults,
-    InputError,
-    checked_type,
-    hint,
-    one_of,
-    refusal,
-    refuse,
-)
+from carom.quantities.refusals import Faults, InputError, checked_type, one_of, refusal, refuse
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
@@ -41,7 +30,6 @@ MOTION = {**READERS, "spin": finite, "spin2": finite}
 LOSSES = ("restitution", "loss_time", "yield_velocity", "flow_stress", "relaxation_time")
 RATIO = "modulus_ratio"  # goes with a relaxation time
 ONE_LOSS = "each of them sets the loss of energy"
-TWICE = "it is given twice in the material; leave one of them out"
 FROM_STRENGTH = "material"  # what the yield strengths give
 OF_STRENGTH = {"yield_velocity": "a speed, e.g. '0.1 m/s'", "flow_stress": "a stress, e.g. '1 GPa'"}
 SIZES: dict[str, Callable[[str, Any], float]] = {
@@ -62,7 +50,6 @@ MADE: dict[str, tuple[Callable[..., Body], tuple[str, ...]]] = {  # bodies of ot
     "clump": (solids.clump, ("centres", "radii", "angle", IN_SPACE)),
 }
 OF_SHAPES = tuple({n: None for _, names in MADE.values() for n in names if n not in SIZES})
-MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data", "spectrum")
 SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads
 SWEPT = ("samples", "seed", "table", "columns", "sheet", "decimal", "outputs", "axes")
@@ -110,7 +97,7 @@ def check_case(
     """Raise InputError for all unknown keys, and for losses unless the caller supports them."""
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
-        faults.add(*_unknown(table, allowed, lambda key: f"unknown key{place(key, name)}"))
+        faults.add(*unknown_keys(table, allowed, lambda key: f"unknown key{place(key, name)}"))
 
     checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")
     with Faults() as faults:
@@ -126,17 +113,6 @@ def check_case(
             check(table, allowed, name)
             if isinstance(table.get("material"), Mapping):
                 check(table["material"], MATERIAL, name)
-
-
-def _unknown(
-    table: Mapping[str, Any], allowed: Iterable[str], words: Callable[[str], str]
-) -> Iterator[str]:
-    """Yield what is to be said of keys that are not allowed."""
-    unknown = [key for key in table if key not in allowed]
-    for place, key in enumerate(unknown):
-        told = place < refusals.MOST_LISTED  # the others are counted
-        name = refusals.heading(str(key)) if told else key
-        yield f"{name}: {words(key)}; {hint(key, allowed)}" if told else f"{name}: unknown"
 
 
 def line_of(key: str, text: str, table: str) -> int:
@@ -327,58 +303,6 @@ def _needed(table: Mapping[str, Any], body: str, prefix: str, key: str, example:
         words = f"missing for the {body} body; give --{prefix}{key}, e.g. '{example}'"
         raise InputError(f"{key}: {words}")
     return table[key]
-
-
-def read_material(value: Any) -> Material:
-    """Return a material from a name, a table, or text like "young=210 GPa, poisson=0.3"."""
-    table = _as_table(value)
-    if not isinstance(table, Mapping):
-        return as_material(table)
-    if _adds_to_catalogue(table):
-        return material(**table)
-    needed = [key for key in ("young", "poisson") if key not in table]
-    refuse(*(f"{n}: missing in the material; give young, poisson and density" for n in needed))
-    return Material(**table)
-
-
-def _adds_to_catalogue(table: Mapping[str, Any]) -> bool:
-    """Tell whether a table names a material of the catalogue instead of elastic constants."""
-    return isinstance(table.get("name"), str) and not {"young", "poisson"} & set(table)
-
-
-def material_values(value: Any) -> dict[str, float]:
-    """Return what is known of a material, in SI units; a table may leave values out."""
-    table = _as_table(value)
-    if isinstance(table, Mapping) and _adds_to_catalogue(table):
-        with suppress(InputError):  # the name may be one's own, for what the case leaves out
-            table = material(**table)
-    if isinstance(table, Mapping):
-        stuff = Material(**{"young": 1.0, "poisson": 0.0, **table})
-        return {name: getattr(stuff, name) for name in VALUES if table.get(name) is not None}
-    stuff = as_material(table)
-    return {name: getattr(stuff, name) for name in VALUES if getattr(stuff, name) is not None}
-
-
-def _as_table(value: Any) -> Any:
-    """Return text like "young=210 GPa, poisson=0.3" as a table, anything else as it is."""
-    if isinstance(value, str) and "=" in value:
-        entries = [_entry(part) for part in value.split(",")]
-        value = dict(entries)
-        for key, count in Counter(name for name, _ in entries).items():
-            if count > 1:
-                texts = (text for name, text in entries if name == key)
-                raise refusal(key, " and ".join(texts), TWICE)
-    if isinstance(value, Mapping):
-        refuse(*_unknown(value, MATERIAL, lambda _: "unknown in a material"))
-    return value
-
-
-def _entry(part: str) -> tuple[str, str]:
-    key, equals, text = part.partition("=")
-    if not equals:
-        example = "write e.g. young=210 GPa, poisson=0.3, density=7850 with decimal points"
-        raise refusal("material", part.strip(), example)
-    return key.strip(), text.strip()
 
 
 def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":

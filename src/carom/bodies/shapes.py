@@ -79,7 +79,7 @@ class Sphere(Shape):
                 faults.add("sphere: give gyration_radius or inner_radius, not both")
             outer = faults.trying(positive, "radius", radius)
             stuff = faults.trying(as_material, material)
-            gyration = faults.trying(_size, "gyration_radius", turning)
+            gyration = faults.if_given(positive, "gyration_radius", turning)
             inner = 0.0 if hole is None else faults.trying(not_negative, "inner_radius", hole)
         set_fields(self, radius=outer, material=stuff)
         set_fields(self, gyration_radius=gyration, inner_radius=inner)
@@ -163,7 +163,7 @@ class HalfSpace(Shape):
         sizes = {"thickness": thickness, "width": width}
         with Faults() as faults:
             stuff = faults.trying(as_material, material)
-            read = {name: faults.trying(_size, name, value) for name, value in sizes.items()}
+            read = {name: faults.if_given(positive, name, size) for name, size in sizes.items()}
         set_fields(self, material=stuff, **read)
         needs = "a plate needs a material with a density; leave thickness out for a thick wall"
         missing = thickness is not None and stuff.density is None
@@ -224,10 +224,6 @@ class Cup(Shape):
     def curvature(self) -> float:
         """Curvature -1/R in 1/m, negative because the surface is concave."""
         return -1.0 / self.radius
-
-
-def _size(name: str, value: Value | None) -> float | None:
-    return None if value is None else positive(name, value)
 
 
 def sphere_fits(ball: Sphere) -> bool:

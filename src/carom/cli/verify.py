@@ -23,7 +23,8 @@ from carom.cli.options import (
     table_format_of,
     whole_option,
 )
-from carom.io.paths import checked_output, new_folder
+from carom.cli.pack import pack_command
+from carom.io.paths import checked_output
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import one_of
 from carom.quantities.units import finite, positive, whole
@@ -193,8 +194,8 @@ def engine_command(
         entries = faults.trying(named, law)
         if output is not None:
             faults.trying(checked_output, output, (".csv",))
-            one = "output: it stores the results of one law; give --law, e.g. --law mindlin"
-            faults.add(*([one] if law is None else []))
+        if output is not None and law is None:
+            faults.add("output: it stores the results of one law; give --law, e.g. --law mindlin")
         pair = None if case is None else pair_of(read_case_file(case))
     engine = getattr(carom.verify, str(context.command.name).capitalize())(program)
     bench = carom.verify.bench(engine, entries, pair=pair, steps=count, time_limit=seconds)
@@ -209,36 +210,7 @@ for name, words in COMMANDS.items():
     app.command(name, help=words)(engine_command)
 
 
-PACK_OPTIONS = {
-    "folder": typer.Argument(
-        help="New or empty folder for the pack, e.g. bench.", metavar="FOLDER"
-    ),
-    "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
-}
-
-
-@app.command("pack")
-@described(PACK_OPTIONS)
-def pack_command(folder: str, as_json: bool = False) -> None:
-    """Write the benchmark pack for developers of DEM codes.
-
-    Use this command to test a DEM code that you write. The pack holds reference impacts with error
-    bars, and inputs of DEM codes for them. A version of the pack has the same numbers, to the last
-    byte, wherever it is written.
-
-    \b
-    Example: carom verify pack bench
-    """
-    from carom.verify.pack import VERSION, write_pack
-
-    with checking() as faults:
-        if folder is not None:
-            faults.trying(new_folder, folder)
-    files = write_pack(folder)
-    record = {"version": VERSION, "folder": folder, "files": files}
-    what = f"benchmark pack {VERSION}, {len(files)} files, into {folder}"
-    words = f"Carom has written {what}. Start with its README.md."
-    typer.echo(json.dumps(record, indent=2) if as_json else words)
+app.command("pack")(pack_command)
 
 
 SCORE_OPTIONS = {
@@ -324,9 +296,7 @@ TUNE_OPTIONS = {
     ),
     "restitution": "Normal coefficient of restitution that the dampings shall give (default: that "
     "of the case, or 1).",
-    "measure": name_option(
-        "Error in psi_2 to minimise over the incidences: its max or its rms.", ("max", "rms")
-    ),
+    "measure": name_option("Error in psi_2 to minimise: its max or its rms.", ("max", "rms")),
 }
 
 
