@@ -168,13 +168,13 @@ def test_start_up_loads_nothing_that_is_not_needed():
     """Of what takes long: nothing until something is computed, and little for an impact."""
     steps = ["import carom", "from carom.cli import main; main(['--help'])"]
     steps += [f"main({[*BALL, *SPEED]!r})"]
-    slow = ["numpy", "numba", "scipy", "xarray", "pint", "matplotlib", "pandas", "rich"]
+    slow = ["numpy", "numba", "scipy", "xarray", "pint", "matplotlib", "pandas", "rich", "pydantic"]
     told = f"; import sys; print('loaded', *[name for name in {slow!r} if name in sys.modules])\n"
     command = [sys.executable, "-c", "".join(step + told for step in steps)]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     lines = [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("loaded")]
     assert lines[:2] == [[], []]
-    assert not {"xarray", "pint", "matplotlib", "pandas"} & set(lines[2])
+    assert not {"xarray", "pint", "matplotlib", "pandas", "rich", "pydantic"} & set(lines[2])
 
 
 def commands(of=app, path=""):

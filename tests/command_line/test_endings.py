@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 import pytest
+from tests.command_line.test_options import COMMANDS
 
 BALL = ["--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
 IMPACT = ["impact", *BALL, "--speed", "2", "--angle", "30 deg"]
@@ -218,6 +219,89 @@ def test_a_signal_at_any_time_ends_in_one_line(arguments, number, there):
         assert "Traceback" not in err
         assert not [name for name in left(there) if name.startswith(".carom-")]
         assert not list(there.rglob("*.partial"))
+
+
+ANY = {  # an argument of each command, which is not read before the signal comes
+    ("sweep",): ["sweep.toml"],
+    ("track",): ["track.csv"],
+    ("curve",): ["--chi", "1"],
+    ("verify", "pack"): ["bench"],
+    ("verify", "score"): ["scored.csv"],
+    ("lammps", "examples"): ["inputs"],
+    ("liggghts", "build"): ["--source", "there"],
+}
+PARSED = """
+import os, signal
+from carom.cli.options import Once
+parsed = Once._parsed
+def interrupted(*given):
+    os.kill(os.getpid(), signal.{number})
+    return parsed(*given)
+Once._parsed = interrupted
+"""
+CHECKED = """
+import os, signal
+from carom.quantities.refusals import Faults
+def interrupted(self):
+    os.kill(os.getpid(), signal.{number})
+    return self
+Faults.__enter__ = interrupted
+Faults.settle = interrupted
+"""
+
+
+@pytest.mark.first_case
+@pytest.mark.parametrize("number", CODES)
+@pytest.mark.parametrize("moment", [PARSED, CHECKED], ids=["parsed", "checked"])
+@pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
+def test_every_command_ends_with_one_exit_code(words, moment, number, there, command):
+    """While its words are parsed, and while it looks at what they mean."""
+    arguments = [*words, *ANY.get(words, [])]
+    code, out, err = command(there, *arguments, before=moment.format(number=number))
+    assert (code, out) == (CODES[number], "")
+    assert err == (STOPPED if number == "SIGINT" else "")
+    assert left(there) == ["sweep.toml"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", CODES)
+@pytest.mark.parametrize("asked", ["lammps", "standard input"])
+def test_a_signal_while_others_are_awaited(asked, number, there):
+    """A compiler, which ends as well, with what it has started; somebody who types."""
+    compiler = there / "bin" / "c++"
+    compiler.parent.mkdir()
+    compiler.write_text('#!/bin/sh\nsleep 60 & echo $! > "$CHILD"\nwait\n')
+    compiler.chmod(0o755)
+    (there / "src").mkdir()
+    (there / "src" / "version.h").write_text('#define LAMMPS_VERSION "22 Jul 2025"')
+    (there / "src" / "mpi.h").touch()
+    child, before = there / "child", left(there)
+    path = f"{compiler.parent}:{os.environ['PATH']}"
+    build = ["lammps", "build", "--include", "src", "--folder", "built"]
+    arguments = build if asked == "lammps" else ["impact", "-"]
+    process = subprocess.Popen(
+        [sys.executable, "-c", RUN, *arguments],
+        cwd=there,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PATH": path, "CHILD": str(child)},
+    )
+    late = time.monotonic() + 60.0
+    if asked == "lammps":
+        while not (child.exists() and child.read_text().strip()) and time.monotonic() < late:
+            time.sleep(0.1)
+    else:
+        time.sleep(3.0)
+    process.send_signal(getattr(signal, number))
+    assert process.wait(timeout=20) == CODES[number]
+    assert process.communicate() == ("", STOPPED if number == "SIGINT" else "")
+    if asked == "lammps":
+        time.sleep(0.5)
+        state = Path(f"/proc/{int(child.read_text())}/stat")
+        assert not state.exists() or state.read_text().split()[2] == "Z"
+    assert left(there) in (before, sorted([*before, "child"]))
 
 
 TRACKED = Path(__file__).parents[2] / "examples" / "data" / "track_deeplabcut.csv"

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from carom.bodies.cases import losses_of, motion_of, pair_of, read_case
+from carom.bodies.kinematics import approach
 from carom.bodies.plausibility import doubts_of_case
-from carom.impacts.solve import approach
 from carom.sweeps.tables import plan
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

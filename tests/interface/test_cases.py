@@ -8,7 +8,8 @@ from tests.checks import refused
 
 import carom
 from carom.bodies import cases
-from carom.bodies.cases import check_case, material_values, pair_of, read_case, read_material
+from carom.bodies.case_materials import material_values, read_material
+from carom.bodies.cases import check_case, pair_of, read_case
 
 POINTS = (
     "^material: '3' cannot be used; write e.g. young=210 GPa, poisson=0.3, density=7850 with "

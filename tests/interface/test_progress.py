@@ -9,17 +9,19 @@ import struct
 import subprocess
 import sys
 import termios
+from textwrap import indent
 
 import pytest
 from tests.checks import refused
 
+from carom.io import progress
 from carom.io.progress import Place, advancing, place
 
 LONG = """
 import sys, time, rich.progress
 import carom.io.progress
 from carom.io.progress import advancing
-carom.io.progress.SECONDS_BEFORE_BAR = {patience}
+carom.io.progress.PATIENCE = dict.fromkeys(carom.io.progress.Place, {patience})
 with advancing("impacts", 30, unit="steps") as advance:
     for step in range(30):
         advance(1)
@@ -169,7 +171,7 @@ def test_a_dumb_terminal_gets_no_control_sequences():
 
 def test_work_within_work_has_no_bar_of_its_own():
     """And a bar does not wait for the end of the first step."""
-    code = "import time, carom.io.progress as p\np.SECONDS_BEFORE_BAR = 0.1\n"
+    code = "import time, carom.io.progress as p\np.PATIENCE = dict.fromkeys(p.Place, 0.1)\n"
     code += "with p.advancing('outer', 2):\n    with p.advancing('inner', 3) as advance:\n"
     code += "        advance(1); time.sleep(0.3); advance(2)\n"
     code += "with p.advancing('after', 2):\n    time.sleep(0.3)"
@@ -179,21 +181,53 @@ def test_work_within_work_has_no_bar_of_its_own():
     assert re.search("after.*0/2", got)
 
 
+LINE = re.compile(r"impacts: \d+/30 steps, \d:\d\d:\d\d (left|passed)")
+
+
 def test_a_pipe_gets_nothing_unless_asked():
+    """Of a call; what it gets then, and what commands write, are plain lines."""
     work = LONG.format(patience=0.05, more="")
     asked = (work.replace("30, unit", f"30, {progress}, unit") for progress in (None, False, True))
-    env = {"FORCE_COLOR": "1", **os.environ}
-    line = [sys.executable, "-c", "".join(asked)]
+    told = f"from carom.io.progress import telling\nwith telling():\n{indent(work, '    ')}"
+    env = {**os.environ, "FORCE_COLOR": "1"}
+    line = [sys.executable, "-c", "".join([*asked, told])]
     run = subprocess.run(line, capture_output=True, text=True, env=env)
-    by_default, unwanted, wanted, end = run.stderr.split("done\n")
+    by_default, unwanted, wanted, of_command, end = run.stderr.split("done\n")
     assert by_default == unwanted == end == run.stdout == ""
-    assert "30/30" in wanted
+    for lines in (wanted.splitlines(), of_command.splitlines()):
+        assert all(map(LINE.fullmatch, lines)), lines
+        assert lines[-1] == "impacts: 30/30 steps, 0:00:00 left"
+        assert int(lines[0].split()[1].split("/")[0]) > 3, "it takes its time to appear"
+
+
+def test_lines_come_every_ten_seconds(monkeypatch, capsys):
+    """By a clock of the test; the time left is that of the steps so far."""
+    clock = iter([10.0, 20.0, 25.0])
+    waits = []
+
+    class Over:
+        def wait(self, seconds):
+            waits.append(seconds)
+            return len(waits) == 3
+
+    monkeypatch.setattr("carom.io.progress.monotonic", lambda: next(clock))
+    work = progress._Work("impacts", "points", 1000, 400, 0.0)
+    advances = iter([100, 100, 400])
+    line = work.line
+    monkeypatch.setattr(work, "line", lambda: (work.advance(next(advances)), line())[1])
+    progress._paint(Place.TEXT, work, Over())
+    assert waits == [10.0, 10.0, 10.0]
+    assert capsys.readouterr().err.splitlines() == [
+        "impacts: 500/1,000 points, 0:00:50 left",
+        "impacts: 600/1,000 points, 0:00:40 left",
+        "impacts: 1,000/1,000 points, 0:00:00 left",
+    ]
 
 
 @pytest.mark.slow
 def test_a_command_shows_how_far_it_is():
     """`carom verify laws` prints its table to a file, and its bar on the terminal."""
-    code = "import carom.io.progress as p, sys\np.SECONDS_BEFORE_BAR = 0.0\n"
+    code = "import carom.io.progress as p, sys\np.PATIENCE = dict.fromkeys(p.Place, 0.0)\n"
     code += "from carom.cli import main\nsys.exit(main(['verify', 'laws', '--psi', '1', '--json']))"
     got, stdout, status = on_terminal(code)
     laws = len(json.loads(stdout)["laws"])

@@ -13,9 +13,9 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore::DeprecationWarning:jupyter_client"),
 ]
 
-SOON = "import time, carom.io.progress\ncarom.io.progress.SECONDS_BEFORE_BAR = 0.2"
+SOON = "import carom, time, carom.io.progress as p\np.PATIENCE = dict.fromkeys(p.Place, 0.2)"
 WORK = """
-with carom.io.progress.advancing("impacts", 20, {progress}, unit="steps") as advance:
+with p.advancing("impacts", 20, {progress}, unit="steps") as advance:
     for step in range(20):
         time.sleep(0.05)
         advance(1)

@@ -54,7 +54,7 @@ LONG = [
 
 @pytest.fixture
 def _at_once(monkeypatch):
-    monkeypatch.setattr("carom.io.progress.SECONDS_BEFORE_BAR", 0.0)
+    monkeypatch.setattr("carom.io.progress.PATIENCE", dict.fromkeys(Place, 0.0))
 
 
 @pytest.mark.first_case

@@ -4,11 +4,12 @@ import contextlib
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from carom.quantities.refusals import InputError, refusal
 
@@ -46,13 +47,17 @@ def carry_out(
 ) -> None:
     """Run what compiles, telling each line of it, or raise InputError with its complaint."""
     output: list[str] = []
-    with subprocess.Popen(
-        words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
-    ) as running:
-        assert running.stdout is not None
-        for line in running.stdout:
-            output.append(line)
-            tell(line)
+    to_line: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    to_line |= {"text": True, "errors": "replace", "start_new_session": True}
+    with subprocess.Popen(words, **to_line) as running:
+        try:
+            for line in running.stdout or ():
+                output.append(line)
+                tell(line)
+        except BaseException:  # an interrupt ends what the compiler has started, too
+            with contextlib.suppress(OSError):
+                os.killpg(running.pid, signal.SIGKILL)
+            raise
     if running.returncode:
         first = next((i for i, line in enumerate(output) if FAILURE.search(line)), 0)
         complaint = "".join(output[first:]).strip()[:LONGEST_COMPLAINT]

@@ -2,23 +2,20 @@
 
 import re
 import tomllib
-from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping
-from contextlib import suppress
 from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.bodies import solids
-from carom.bodies.kinematics import slope
-from carom.bodies.materials import VALUES, Material, as_material, material
+from carom.bodies.case_materials import MATERIAL, material_values, read_material, unknown_keys
+from carom.bodies.kinematics import READERS
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.bodies.smooth_body import Body
 from carom.io.files import read_dataset, read_text
 from carom.io.paths import checked_path
-from carom.quantities import refusals
-from carom.quantities.refusals import InputError, checked_type, hint, one_of, refusal, refuse
+from carom.quantities.refusals import Faults, InputError, checked_type, one_of, refusal, refuse
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
@@ -28,19 +25,11 @@ if TYPE_CHECKING:
 
 Case = dict[str, Any]
 
-MOTION: dict[str, Callable[[str, Any], float]] = {
-    "speed": positive,
-    "angle": lambda _, value: slope(value),
-    "normal_speed": positive,
-    "tangential_speed": finite,
-    "spin": finite,
-    "spin2": finite,
-}
+MOTION = {**READERS, "spin": finite, "spin2": finite}
 # What tells the loss, one at most.
 LOSSES = ("restitution", "loss_time", "yield_velocity", "flow_stress", "relaxation_time")
 RATIO = "modulus_ratio"  # goes with a relaxation time
 ONE_LOSS = "each of them sets the loss of energy"
-TWICE = "it is given twice in the material; leave one of them out"
 FROM_STRENGTH = "material"  # what the yield strengths give
 OF_STRENGTH = {"yield_velocity": "a speed, e.g. '0.1 m/s'", "flow_stress": "a stress, e.g. '1 GPa'"}
 SIZES: dict[str, Callable[[str, Any], float]] = {
@@ -61,11 +50,11 @@ MADE: dict[str, tuple[Callable[..., Body], tuple[str, ...]]] = {  # bodies of ot
     "clump": (solids.clump, ("centres", "radii", "angle", IN_SPACE)),
 }
 OF_SHAPES = tuple({n: None for _, names in MADE.values() for n in names if n not in SIZES})
-MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data", "spectrum")
 SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads
 SWEPT = ("samples", "seed", "table", "columns", "sheet", "decimal", "outputs", "axes")
 KINDS = ("half-space", "sphere", "cup")
+OF_KINDS: dict[str, Iterable[str]] = {"half-space": PLATE, "sphere": SIZES, "cup": ("radius",)}
 SHAPES = (HalfSpace, Sphere, Cup)
 TABLES = {
     "first": ("kind", *BODY, *OF_SHAPES),
@@ -108,16 +97,10 @@ def check_case(
     """Raise InputError for all unknown keys, and for losses unless the caller supports them."""
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
-        unknown = [key for key in table if key not in allowed]
-        for key in unknown[: refusals.MOST_LISTED]:
-            faults.add(
-                f"{refusals.heading(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}"
-            )
-        for key in unknown[refusals.MOST_LISTED :]:  # which are counted, not told
-            faults.add(f"{key}: unknown key")
+        faults.add(*unknown_keys(table, allowed, lambda key: f"unknown key{place(key, name)}"))
 
     checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")
-    with refusals.Faults() as faults:
+    with Faults() as faults:
         for key in () if losses else (*LOSSES, RATIO):
             if key in case:
                 where = place(key, "")
@@ -147,13 +130,22 @@ def line_of(key: str, text: str, table: str) -> int:
 
 
 def pair_of(case: Mapping[str, Any]) -> Pair:
-    """Return the bodies of a case with their friction, or raise InputError."""
-    if case.get("friction") is None:
-        raise InputError("friction: missing; give --friction, e.g. 0.2 (0 for none)")
-    table = case.get("first", {})
+    """Return the bodies of a case with their friction, or raise InputError with all faults."""
+    friction: Any = case.get("friction")
+    with Faults() as faults:
+        if friction is None:
+            faults.add("friction: missing; give --friction, e.g. 0.2 (0 for none)")
+        else:
+            faults.trying(not_negative, "friction", friction)
+        first = faults.trying(_first, case.get("first", {}))
+        any_first = first or Sphere(radius=1.0, material="steel")  # to look at the second, too
+        second = faults.trying(_second, case.get("second", {}), any_first)
+    return Pair(first, second, friction)
+
+
+def _first(table: Mapping[str, Any]) -> Sphere | Body:
     kind = one_of("kind", table.get("kind", "sphere"), ("sphere", *MADE))
-    first = _made(kind, table) if kind in MADE else _sphere("first", "", table, {})
-    return Pair(first, _second(case.get("second", {}), first), case["friction"])
+    return _made(kind, table) if kind in MADE else _sphere("first", "", table, {})
 
 
 def has_shapes(case: Mapping[str, Any]) -> bool:
@@ -205,11 +197,37 @@ def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
     return {name: case[name] for name in MOTION if case.get(name) is not None}
 
 
+def numbers_of(case: Mapping[str, Any]) -> dict[str, float]:
+    """Return the numbers of a case of round bodies by name, or raise InputError with all faults."""
+    read: dict[str, Any] = {}
+    with Faults() as faults:
+        for name, check in {"friction": not_negative, **MOTION}.items():
+            if case.get(name) is not None:
+                read[name] = faults.trying(check, name, case[name])
+        for name in (*LOSSES, RATIO):
+            if case.get(name) is not None:
+                read[name] = faults.trying(read_loss, name, case[name])
+        for body in ("first", "second"):
+            table = case.get(body, {})
+            sizes = SIZES if body == "first" else {**SIZES, **PLATE}
+            for name in filter(lambda size: table.get(size) is not None, sizes):
+                read[f"{body}.{name}"] = faults.trying(sizes[name], name, table[name])
+            if table.get("material") is not None:
+                known = faults.trying(material_values, table["material"]) or {}
+                read |= {f"{body}.material.{name}": value for name, value in known.items()}
+    return {name: value for name, value in read.items() if value is not None}
+
+
 def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
     """Return the law by which the normal motion of a case loses energy, or None."""
     names = [name for name in LOSSES if case.get(name) is not None]
-    refuse(len(names) > 1 and f"{names[1]}: give it or {names[0]}, not both; {ONE_LOSS}")
-    refuse_half({*names, *([RATIO] if case.get(RATIO) is not None else [])})
+    there = [*names, *([RATIO] if case.get(RATIO) is not None else [])]
+    with Faults() as faults:
+        if len(names) > 1:
+            faults.add(f"{names[1]}: give it or {names[0]}, not both; {ONE_LOSS}")
+        faults.trying(refuse_half, there)
+        for name in there:
+            faults.trying(read_loss, name, case[name])
     if not names:
         return None
     ratio = case.get(RATIO, 1.0)
@@ -255,26 +273,27 @@ def _second(table: Mapping[str, Any], first: Sphere | Body) -> Counterbody | Bod
     kind = one_of("kind", table.get("kind", KINDS[0]), (*KINDS, *MADE))
     if kind in MADE:
         return _made(kind, {"material": first.material, **table})
-    for name in PLATE if kind != "half-space" else ():
-        if name in table:
-            raise refusal(name, table[name], f"a {kind} has none; leave it out")
-    if kind == "sphere":
-        same = {"material": first.material, "radius": getattr(first, "radius", None)}
-        return _sphere("second", "second-", table, same)
-    for name in reversed(SIZES):
-        if name in table and (kind, name) != ("cup", "radius"):
-            raise refusal(name, table[name], f"a {kind} has none; leave it out")
-    stuff = read_material(table.get("material", first.material))
-    if kind == "half-space":
-        return HalfSpace(material=stuff, **{name: table.get(name) for name in PLATE})
-    return Cup(radius=_needed(table, "second", "second-", "radius", "10 mm"), material=stuff)
+    foreign = [n for n in (*PLATE, *reversed(SIZES)) if n in table and n not in OF_KINDS[kind]]
+    with Faults() as faults:
+        words = f"a {kind} has none; leave it out"
+        faults.add(*(str(refusal(name, table[name], words)) for name in foreign))
+        if kind == "sphere":
+            same = {"material": first.material, "radius": getattr(first, "radius", None)}
+            return _sphere("second", "second-", table, same)
+        stuff = faults.trying(read_material, table.get("material", first.material))
+        stuff = stuff or first.material
+        if kind == "half-space":
+            return HalfSpace(material=stuff, **{name: table.get(name) for name in PLATE})
+        return Cup(radius=_needed(table, "second", "second-", "radius", "10 mm"), material=stuff)
 
 
 def _sphere(name: str, prefix: str, table: Mapping[str, Any], default: Mapping[str, Any]) -> Sphere:
     values = {**default, **table}
     values.pop("kind", None)
-    _needed(values, name, prefix, "radius", "5 mm")
-    stuff = read_material(_needed(values, name, prefix, "material", "steel"))
+    with Faults() as faults:
+        faults.trying(_needed, values, name, prefix, "radius", "5 mm")
+        with faults.catching():
+            stuff = read_material(_needed(values, name, prefix, "material", "steel"))
     return Sphere(**{**values, "material": stuff})
 
 
@@ -284,62 +303,6 @@ def _needed(table: Mapping[str, Any], body: str, prefix: str, key: str, example:
         words = f"missing for the {body} body; give --{prefix}{key}, e.g. '{example}'"
         raise InputError(f"{key}: {words}")
     return table[key]
-
-
-def read_material(value: Any) -> Material:
-    """Return a material from a name, a table, or text like "young=210 GPa, poisson=0.3"."""
-    table = _as_table(value)
-    if not isinstance(table, Mapping):
-        return as_material(table)
-    if _adds_to_catalogue(table):
-        return material(**table)
-    for key in ("young", "poisson"):
-        if key not in table:
-            raise InputError(f"{key}: missing in the material; give young, poisson and density")
-    return Material(**table)
-
-
-def _adds_to_catalogue(table: Mapping[str, Any]) -> bool:
-    """Tell whether a table names a material of the catalogue instead of elastic constants."""
-    return isinstance(table.get("name"), str) and not {"young", "poisson"} & set(table)
-
-
-def material_values(value: Any) -> dict[str, float]:
-    """Return what is known of a material, in SI units; a table may leave values out."""
-    table = _as_table(value)
-    if isinstance(table, Mapping) and _adds_to_catalogue(table):
-        with suppress(InputError):  # the name may be one's own, for what the case leaves out
-            table = material(**table)
-    if isinstance(table, Mapping):
-        stuff = Material(**{"young": 1.0, "poisson": 0.0, **table})
-        return {name: getattr(stuff, name) for name in VALUES if table.get(name) is not None}
-    stuff = as_material(table)
-    return {name: getattr(stuff, name) for name in VALUES if getattr(stuff, name) is not None}
-
-
-def _as_table(value: Any) -> Any:
-    """Return text like "young=210 GPa, poisson=0.3" as a table, anything else as it is."""
-    if isinstance(value, str) and "=" in value:
-        entries = [_entry(part) for part in value.split(",")]
-        value = dict(entries)
-        for key, count in Counter(name for name, _ in entries).items():
-            if count > 1:
-                texts = (text for name, text in entries if name == key)
-                raise refusal(key, " and ".join(texts), TWICE)
-    if isinstance(value, Mapping):
-        for key in value:
-            if key not in MATERIAL:
-                where = refusals.heading(str(key))
-                raise InputError(f"{where}: unknown in a material; {hint(key, MATERIAL)}")
-    return value
-
-
-def _entry(part: str) -> tuple[str, str]:
-    key, equals, text = part.partition("=")
-    if not equals:
-        example = "write e.g. young=210 GPa, poisson=0.3, density=7850 with decimal points"
-        raise refusal("material", part.strip(), example)
-    return key.strip(), text.strip()
 
 
 def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":

@@ -5,10 +5,12 @@ from functools import reduce
 from operator import and_
 from typing import Any
 
+from carom.bodies.kinematics import Tangential, approach
 from carom.bodies.pairs import MOST, Pair, Scales, holds
 from carom.bodies.shapes import Sphere
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, checked_type, refusal, refuse
+from carom.quantities.refusals import Faults, InputError, checked_type, refusal, refuse
+from carom.quantities.units import Value, finite
 
 LEAST_SCALE = 1e-300  # of what may vanish: less loses digits
 OF_FRICTION = ("tangential_length", "tangential_force", "tangential_speed")  # zero without it
@@ -63,6 +65,24 @@ def with_friction(pair: Any, why: str) -> Pair:
     if checked_pair(pair).friction == 0.0:
         raise refusal("friction", 0.0, f"must be positive; {why}")
     return checked_pair(pair)
+
+
+def checked_motion(
+    pair: Pair | None,
+    speed: Value | None = None,
+    angle: Value | None = None,
+    normal_speed: Value | None = None,
+    tangential_speed: Any = None,
+    spin: Any = 0.0,
+    spin2: Any = 0.0,
+) -> tuple[float, Tangential]:
+    """Return the normal speed and what is tangential, or raise InputError with all faults."""
+    with Faults() as faults:
+        both = faults.trying(approach, speed, angle, normal_speed, tangential_speed)
+        spins = [faults.trying(finite, n, s) for n, s in (("spin", spin), ("spin2", spin2))]
+        if pair is not None and spins[1] is not None:
+            faults.trying(check_second_spin, pair, spin2, spins=spins[1] != 0.0)
+    return both[0], Tangential(both[1], *spins)
 
 
 def check_second_spin(pair: Pair, spin2: Any, *, spins: bool) -> None:

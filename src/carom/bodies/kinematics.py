@@ -1,7 +1,7 @@
 """The approach of two bodies, their motion after two impulses, and the observables of it."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import zip_longest
@@ -11,8 +11,15 @@ from typing import Any, NamedTuple
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.elementwise import arctan2, cos, hypot, quotient, sin, where
-from carom.quantities.refusals import refusal, refuse
+from carom.quantities.refusals import Faults, refusal, refuse
 from carom.quantities.units import APPROACH, Value, finite, positive
+
+READERS: dict[str, Callable[[str, Any], float]] = {
+    "speed": positive,
+    "angle": lambda _, value: slope(value),
+    "normal_speed": positive,
+    "tangential_speed": finite,
+}
 
 
 def approach(
@@ -24,10 +31,13 @@ def approach(
     """Return normal and tangential speed from either way of giving them, in m/s."""
     motion = {"speed": speed, "angle": angle}
     motion |= {"normal_speed": normal_speed, "tangential_speed": tangential_speed}
-    if by_angle(motion):
-        return components(positive("speed", speed), slope(0.0 if angle is None else angle))
-    tangential = finite("tangential_speed", 0.0 if tangential_speed is None else tangential_speed)
-    return positive("normal_speed", normal_speed), tangential
+    there = {name: value for name, value in motion.items() if value is not None}
+    with Faults() as faults:
+        angular = faults.trying(by_angle, motion)
+        read = {name: faults.trying(READERS[name], name, value) for name, value in there.items()}
+    if angular:
+        return components(read["speed"], read.get("angle", 0.0))
+    return read["normal_speed"], read.get("tangential_speed", 0.0)
 
 
 def by_angle(motion: Mapping[str, Any]) -> bool:

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from carom.quantities.glossary import listed
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import checked_type, hint, nearest, refusal, refuse
+from carom.quantities.refusals import Faults, checked_type, hint, nearest, refusal, refuse
 from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative, number, positive
 
@@ -103,18 +103,17 @@ class Material(Printed):
         loss_factor: Value | None = None,
         name: str | None = None,
     ) -> None:
-        ratio = number("poisson", poisson)
-        if not -1.0 < ratio <= 0.5:
-            raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
-        set_fields(self, young=_stiffness(young), poisson=ratio)
         strengths = (yield_strength, tensile_strength, fracture_toughness, flaw_size)
         others = (density, *strengths, hardness, surface_energy, loss_factor)
-        for key, value in zip(VALUES[2:], others, strict=True):
-            check = not_negative if key in VALUES[-2:] else positive
-            set_fields(self, **{key: None if value is None else check(key, value)})
-        if name is not None:
-            checked_type("name", name, str, "must be a text")
-        set_fields(self, name=name)
+        with Faults() as faults:
+            read = {"young": faults.trying(_stiffness, young)}
+            read["poisson"] = faults.trying(_lateral, poisson)
+            for key, value in zip(VALUES[2:], others, strict=True):
+                check = not_negative if key in VALUES[-2:] else positive
+                read[key] = faults.if_given(check, key, value)
+            if name is not None:
+                faults.trying(checked_type, "name", name, str, "must be a text")
+        set_fields(self, **read, name=name)
 
     @property
     def shear_modulus(self) -> float:
@@ -169,6 +168,14 @@ class Catalogue(dict[str, Material], Printed):
 
 def _in_mega(value: float | None) -> str:
     return "-" if value is None else f"{value / 1e6:.4g}"
+
+
+def _lateral(poisson: Value) -> float:
+    """Return Poisson's ratio, or raise InputError."""
+    ratio = number("poisson", poisson)
+    if -1.0 < ratio <= 0.5:
+        return ratio
+    raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
 
 
 def _stiffness(young: Any) -> float:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.cases import material_values
+from carom.bodies.case_materials import material_values
 from carom.bodies.materials import VALUES
 from carom.bodies.pairs import Pair
 from carom.io.labels import Finding

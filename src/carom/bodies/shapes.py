@@ -10,7 +10,7 @@ from carom.bodies.materials import VALUES, Material, as_material, set_fields
 from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, refusal, refuse
+from carom.quantities.refusals import Faults, refusal, refuse
 from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative, positive
 
@@ -73,12 +73,15 @@ class Sphere(Shape):
         gyration_radius: Value | None = None,
         inner_radius: Value | None = None,
     ) -> None:
-        if gyration_radius is not None and inner_radius is not None:
-            raise InputError("sphere: give gyration_radius or inner_radius, not both")
-        set_fields(self, radius=positive("radius", radius), material=as_material(material))
         hole, turning = inner_radius, gyration_radius
-        gyration = None if turning is None else positive("gyration_radius", turning)
-        inner = 0.0 if hole is None else not_negative("inner_radius", hole)
+        with Faults() as faults:
+            if turning is not None and hole is not None:
+                faults.add("sphere: give gyration_radius or inner_radius, not both")
+            outer = faults.trying(positive, "radius", radius)
+            stuff = faults.trying(as_material, material)
+            gyration = faults.if_given(positive, "gyration_radius", turning)
+            inner = 0.0 if hole is None else faults.trying(not_negative, "inner_radius", hole)
+        set_fields(self, radius=outer, material=stuff)
         set_fields(self, gyration_radius=gyration, inner_radius=inner)
         if not self.inner_radius < self.radius:
             raise refusal("inner_radius", inner_radius, f"must be below the radius, {radius!r}")
@@ -157,9 +160,10 @@ class HalfSpace(Shape):
         thickness: Value | None = None,
         width: Value | None = None,
     ) -> None:
-        stuff = as_material(material)
         sizes = {"thickness": thickness, "width": width}
-        read = {name: value and positive(name, value) for name, value in sizes.items()}
+        with Faults() as faults:
+            stuff = faults.trying(as_material, material)
+            read = {name: faults.if_given(positive, name, size) for name, size in sizes.items()}
         set_fields(self, material=stuff, **read)
         needs = "a plate needs a material with a density; leave thickness out for a thick wall"
         missing = thickness is not None and stuff.density is None
@@ -211,7 +215,10 @@ class Cup(Shape):
 
     @known_keywords
     def __init__(self, *, radius: Value, material: Material | str) -> None:
-        set_fields(self, radius=positive("radius", radius), material=as_material(material))
+        with Faults() as faults:
+            size = faults.trying(positive, "radius", radius)
+            stuff = faults.trying(as_material, material)
+        set_fields(self, radius=size, material=stuff)
 
     @property
     def curvature(self) -> float:

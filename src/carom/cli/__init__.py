@@ -18,7 +18,7 @@ FAILED, REFUSED, INTERRUPTED = 1, 2, 130  # exit codes
 ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
 
 
-_heard: list[int] = []  # signals that are to end this process
+heard: list[int] = []  # signals that are to end this process
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -36,8 +36,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _failed(error: Exception) -> int:
-    if _heard:  # C code makes other errors of what ends a process
-        return _say("the command was interrupted", 128 + _heard[0])
+    if heard:  # C code makes other errors of what ends a process
+        return _say("the command was interrupted", 128 + heard[0])
     from carom.quantities.refusals import InputError
 
     if isinstance(error, InputError):
@@ -77,7 +77,7 @@ def _run() -> int:
 
 def _end(number: int, _: object) -> Never:
     """End this process, so that it still removes its temporary files."""
-    _heard.append(number)
+    heard.append(number)
     if number == signal.SIGINT:
         raise KeyboardInterrupt
     sys.exit(128 + number)

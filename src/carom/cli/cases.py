@@ -2,13 +2,14 @@
 
 import os
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 import carom
-from carom.quantities.refusals import checked_type, refusal
+from carom.quantities.refusals import Faults, InputError, checked_type, refusal, refuse
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
@@ -18,13 +19,15 @@ if TYPE_CHECKING:
 def named_values(option: str, texts: list[str] | None, example: str) -> dict[str, str]:
     """Return the values by name of texts like "restitution=0.98", or raise InputError."""
     values: dict[str, str] = {}
+    faults: list[InputError] = []
     for text in texts or []:
         name, equals, value = (part.strip() for part in text.rpartition("="))
         if not (name and equals and value):
-            raise refusal(option, text, f"write a name and a value, e.g. {example}")
-        if name in values:
-            raise refusal(option, text, f"{name} is given twice; leave one of them out")
+            faults.append(refusal(option, text, f"write a name and a value, e.g. {example}"))
+        elif name in values:
+            faults.append(refusal(option, text, f"{name} is given twice; leave one of them out"))
         values[name] = value
+    refuse(*faults)
     return values
 
 
@@ -91,17 +94,16 @@ def check_outputs(outputs: Mapping[str, str | None], **inputs: str | Path | None
     figures = {"plot": FIGURES, "posterior": (*TABLES, *FIGURES), "map": (*FIGURES, *TABLES)}
     figures["report"] = DOCUMENTS
     real: dict[str, str] = {}
-    for name, path in {**inputs, **outputs}.items():
-        if path is None:
-            continue
-        if name in outputs:
-            checked_output(path, figures.get(name, TABLES))
-        try:
-            same = real.setdefault(os.path.realpath(path), name)
-        except ValueError:  # no file can have such a name, as its reader says
-            continue
-        if same != name:
-            raise refusal(name, str(path), f"this file is also that of {same}; give another name")
+    with Faults() as faults:
+        for name, path in {**inputs, **outputs}.items():
+            if path is None:
+                continue
+            if name in outputs:
+                faults.trying(checked_output, path, figures.get(name, TABLES))
+            with suppress(ValueError):  # no file can have such a name, as its reader says
+                same = real.setdefault(os.path.realpath(path), name)
+                words = f"this file is also that of {same}; give another name"
+                faults.add(*([str(refusal(name, str(path), words))] if same != name else []))
 
 
 def store(result: "Result", output: str | None, plot: str | None) -> None:

@@ -8,18 +8,21 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, require_some, stored
-from carom.cli.options import described, whole_option
-from carom.quantities.refusals import InputError, refusal, refuse
+from carom.cli.options import checking, described, name_option, store_text, whole_option
+from carom.io.paths import checked_output
+from carom.quantities.refusals import Faults, one_of, refusal
 from carom.quantities.units import finite, or_none, positive, whole
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from carom.bodies.losses import KelvinVoigt, ZenerPlate
+    from carom.laws.exact import ReboundLaw
 
 PRINTED_ROWS = 17
 MOST_POINTS = 100_000
 HEADERS = (".h",)
+LANGUAGES = ("c",)
 COLUMNS = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
 
 
@@ -36,8 +39,11 @@ OPTIONS = {
     ),
     "points": whole_option("Number of values of psi_1, from 2 to 100,000."),
     "output": "Store the curve: .csv or .nc, or .h with --export c.",
-    "export": "Print psi_2(psi_1) as source code instead of a table: 'c' gives a header for C and "
-    "C++ with one function for each --chi.",
+    "export": name_option(
+        "Print psi_2(psi_1) as source code instead of a table: 'c' gives a header for C and C++ "
+        "with one function for each --chi.",
+        LANGUAGES,
+    ),
 }
 
 
@@ -67,20 +73,28 @@ def curve_command(
     A plate: carom curve --chi 1.44 --inelasticity 0.4
     A C header: carom curve --chi 1.44 --export c --output rebound.h
     """
+    with checking() as faults:
+        values = [faults.trying(positive, "chi", value) for value in chi or ()]
+        losses = faults.trying(_losses, restitution, inelasticity)
+        first = faults.trying(finite, "from", start, "1")
+        last: Any = faults.if_given(finite, "to", stop, "1")
+        count = faults.trying(whole, "points", points, 2, MOST_POINTS)
+        if export is None:
+            faults.trying(check_outputs, {"plot": plot, "output": output})
+        else:
+            table = {"--json": as_json, "--plot": plot, "--from": start != "0", "--to": stop}
+            table["--points"] = points != "401"
+            faults.trying(_check_export, export, output, table)
+        if stop is None and None not in values:
+            last = 4.0 * max(values, default=nan) + 1.0
+        if None not in (first, last) and first >= last:
+            faults.add(str(refusal("to", last, f"must be above --from, {first:g}")))
     if export is not None:
-        table = {"--json": as_json, "--plot": plot, "--from": start != "0", "--to": stop}
-        table["--points"] = points != "401"
-        _export(chi, _losses(restitution, inelasticity), export, output, table)
+        _export([carom.laws.ReboundLaw(value, losses=losses) for value in values], output)
         return
     import numpy as np
 
-    check_outputs({"plot": plot, "output": output})
-    values = [positive("chi", value) for value in chi]
-    first = finite("from", start, "1")
-    last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")
-    refuse(not first < last and refusal("to", last, f"must be above --from, {first:g}"))
-    psi = np.linspace(first, last, whole("points", points, 2, MOST_POINTS))
-    dataset = carom.curve(values, psi, losses=_losses(restitution, inelasticity))
+    dataset = carom.curve(values, np.linspace(first, last, count), losses=losses)
     if output is not None:
         stored(carom.save(dataset, output))
     if plot is not None:
@@ -92,34 +106,35 @@ def curve_command(
 
 
 def _losses(restitution: str | None, inelasticity: str | None) -> "KelvinVoigt | ZenerPlate | None":
-    if inelasticity is not None:
-        twice = "give it or --restitution, not both; each of them sets the loss of energy"
-        refuse(restitution is not None and f"inelasticity: {twice}")
-        return carom.ZenerPlate(inelasticity=inelasticity)
-    return None if restitution is None else carom.KelvinVoigt(restitution=restitution)
+    with Faults() as faults:
+        if None not in (restitution, inelasticity):
+            twice = "give it or --restitution, not both; each of them sets the loss of energy"
+            faults.add(f"inelasticity: {twice}")
+        viscous = plate = None
+        if restitution is not None:
+            viscous = faults.trying(carom.KelvinVoigt, restitution=restitution)
+        if inelasticity is not None:
+            plate = faults.trying(carom.ZenerPlate, inelasticity=inelasticity)
+    return viscous or plate
 
 
-def _export(
-    chi: list[str],
-    losses: "KelvinVoigt | ZenerPlate | None",
-    language: str,
-    output: str | None,
-    others: dict[str, Any],
-) -> None:
-    from carom.io.paths import checked_output, replace_whole
+def _check_export(language: str, output: str | None, others: dict[str, Any]) -> None:
+    with Faults() as faults:
+        faults.trying(one_of, "export", language, LANGUAGES)
+        unused = [name for name, value in others.items() if value]
+        faults.add(*(f"{n}: has no effect with --export; leave one of them out" for n in unused))
+        if output is not None:
+            faults.trying(checked_output, output, HEADERS)
+
+
+def _export(laws: "list[ReboundLaw]", output: str | None) -> None:
     from carom.laws.header import c_header
 
-    refuse(language != "c" and refusal("export", language, "must be c, a header for C and C++"))
-    unused = next((name for name, value in others.items() if value), None)
-    if unused is not None:
-        raise InputError(f"{unused}: has no effect with --export; leave one of them out")
-    target = None if output is None else checked_output(output, HEADERS)
-    text = c_header([carom.laws.ReboundLaw(positive("chi", value), losses=losses) for value in chi])
-    if target is None:
+    text = c_header(laws)
+    if output is None:
         typer.echo(text, nl=False)
         return
-    replace_whole(target, lambda where: where.write_text(text, encoding="utf-8", newline="\n"))
-    stored(target)
+    store_text(text, output)
 
 
 def _records(dataset: "xr.Dataset") -> list[dict[str, Any]]:

@@ -10,7 +10,9 @@ from threading import Thread
 
 import typer
 
-from carom.cli.options import described, whole_option
+from carom.cli import heard
+from carom.cli.options import checking, described, whole_option
+from carom.io.paths import checked_folder
 from carom.quantities.units import whole
 
 OPTIONS = {
@@ -48,14 +50,17 @@ def explore_command(
     A machine without a screen: carom explore --no-open --port 0
     A copy for a web site: carom explore --export impact-page
     """
+    with checking() as faults:
+        number = faults.trying(whole, "port", port, 0, 65535)
+        if export is not None:
+            faults.trying(checked_folder, export)
     if export is not None:
         _export(export, as_json)
         return
     from carom.explorer import address
 
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
-    bound = address.listening(host, whole("port", port, 0, 65535))
-    with bound, suppress(KeyboardInterrupt):
+    bound = address.listening(host, number)
+    with bound, suppress(KeyboardInterrupt, SystemExit):
         url = address.url_of(bound, host)
         words = f"{url}  (press Ctrl-C to stop the page)"
         typer.echo(json.dumps({"url": url}) if as_json else words)
@@ -65,7 +70,8 @@ def explore_command(
         from carom.explorer.serving import serving
 
         serving(bound, host).serve()
-    os._exit(0)  # without waiting for threads that are at work
+    ended = heard[0] if heard else signal.SIGINT
+    os._exit(128 + ended)  # without waiting for threads that are at work
 
 
 def _export(folder: str, as_json: bool) -> None:

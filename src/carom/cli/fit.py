@@ -10,13 +10,17 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
+from carom.cli import completion
 from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
 from carom.cli.options import (
     ARGUMENTS,
     TABLE,
+    checking,
     described,
     file_argument,
     file_option,
+    name_option,
+    store_format,
     table_format_of,
     whole_option,
 )
@@ -35,7 +39,10 @@ OPTIONS = {
         "CSV file or spreadsheet with one impact per row and units in its head, e.g. 'angle "
         "[deg]'. Of several files the parameters are compared."
     ),
-    "dataset": "Published measurements that come with Carom, e.g. kharaz2001, instead.",
+    "dataset": name_option(
+        "Published measurements that come with Carom, e.g. kharaz2001, instead.",
+        completion.datasets,
+    ),
     "case": file_option(
         "Case file, as for carom impact, with the bodies; needed if the data hold none. For "
         "several files give one for all, or repeat this option for one after the other."
@@ -119,33 +126,29 @@ def fit_command(
     A plate of unknown thickness: carom fit drops.csv --case ball.toml --thickness "3 mm"
     An empty table: carom fit --template > rebounds.csv
     """
+    from carom.fitting.options import checked_confidence
+
     if template:
         _tell_template(data[0] if data else dataset, as_json)
         return
-    sources, cases = _sources(data, dataset), case or []
-    count, sampling = _checked_numbers(advice, about, steps, seed)
-    outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
-    inputs = {**_numbered("data", sources), **_numbered("case", [*dict.fromkeys(cases)])}
-    check_outputs(outputs, **inputs)
-    how = table_format_of(given)
-    options: dict[str, Any] = {
-        "vary": None if vary is None else _names(vary),
-        "fixed": named_values("fix", fix, "restitution=0.98"),
-        "robust": not squares,
-        "confidence": confidence,
-    }
-    fit: Any
-    advised = None
-    if len(sources) > 1:
+    with checking() as faults:
+        sources, cases = faults.trying(_sources, data, dataset) or [], case or []
+        numbers = faults.trying(_checked_numbers, advice, about, steps, seed)
+        outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
+        inputs = {**_numbered("data", sources), **_numbered("case", [*dict.fromkeys(cases)])}
+        faults.trying(check_outputs, outputs, **inputs)
+        how = faults.trying(table_format_of, given)
+        options = {"vary": None if vary is None else _names(vary), "robust": not squares}
+        options["fixed"] = faults.trying(named_values, "fix", fix, "restitution=0.98")
+        options["confidence"] = faults.trying(checked_confidence, confidence)
         alone = {"advice": advice, "posterior": posterior}
-        refuse(*(text and refusal(name, text, ONE_SET) for name, text in alone.items()))
-        fit = _joint_fit(sources, cases, thickness, _names(share or ""), how, options)
-    else:
-        many = "of one file; give several files, or leave it out"
-        refuse(share and refusal("share", share, many), cases[1:] and f"case: {many}")
-        pair = _pair(cases[0] if cases else None, thickness, sources[0], how)
-        fit = carom.fit(sources[0], pair=pair, **how._asdict(), **options)
+        faults.trying(_check_count, len(sources), cases, share, alone)
+        pairs = faults.trying(_pairs, sources, cases, thickness, how)
+        faults.settle()
+        fit = _fitted(sources, pairs, _names(share or ""), how._asdict() | options)
+        count, sampling = numbers
         advised = None if count is None else fit.advice(count, about)
+    store_format(how, given["save_columns"])
     store(fit, output, plot)
     if report is not None:
         command = shlex.join(["carom", "fit", *context.meta[ARGUMENTS]])
@@ -163,11 +166,14 @@ def _checked_numbers(
     from carom.fitting.advice import MOST_LISTED
     from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
 
-    alone = about is not None and advice is None
-    refuse(alone and refusal("for", about, "it has no effect without --advice; give that, too"))
-    count = None if advice is None else whole("advice", advice, 1, MOST_LISTED)
-    of_chain = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
-    return count, of_chain
+    with Faults() as faults:
+        if about is not None and advice is None:
+            words = "it has no effect without --advice; give that, too"
+            faults.add(str(refusal("for", about, words)))
+        count = faults.if_given(whole, "advice", advice, 1, MOST_LISTED)
+        length = faults.trying(whole, "steps", steps, FEWEST_STEPS, MOST_STEPS)
+        start = faults.trying(whole, "seed", seed, 0, MOST_SEED)
+    return count, (length, start)
 
 
 def _print(fit: "Fit | JointFit", advised: "Advice | None", as_json: bool) -> None:
@@ -187,35 +193,60 @@ def _numbered(name: str, paths: Sequence[str | Path]) -> dict[str, str | Path]:
     return {name if place == 1 else f"{name} {place}": path for place, path in enumerate(paths, 1)}
 
 
-def _joint_fit(
-    sources: Sequence[str | Path],
-    cases: Sequence[str],
-    thickness: str | None,
-    share: Sequence[str],
-    how: "TableFormat",
-    options: Mapping[str, Any],
-) -> "JointFit":
-    """Return the fit of several files."""
-    from carom.fitting.joint_result import named_sets
+def _check_count(
+    files: int, cases: Sequence[str], share: str | None, alone: Mapping[str, str | None]
+) -> None:
+    """Raise InputError for what only one file has, or only several of them."""
+    many = "of one file; give several files, or leave it out"
+    few = f"case: {len(cases)} for {files} files; give one for all, or one for each"
+    if files > 1:
+        single = (text and refusal(name, text, ONE_SET) for name, text in alone.items())
+        refuse(*single, len(cases) not in (0, 1, files) and few)
+    else:
+        refuse(share and refusal("share", share, many), cases[1:] and f"case: {many}")
 
-    sets = named_sets(sources)
-    one = cases[0] if cases else None
-    own: Sequence[str | None] = cases if len(cases) > 1 else [one] * len(sets)
-    few = f"case: {len(cases)} for {len(sets)} files; give one for all, or one for each"
-    refuse(len(own) != len(sets) and few)
-    pairs = []
+
+def _pairs(
+    sources: Sequence[str | Path], cases: Sequence[str], thickness: str | None, how: "TableFormat"
+) -> list["Pair | None"]:
+    """Return the bodies of each file."""
+    own: list[str | None] = [*cases] or [None]
+    own = own if len(own) == len(sources) else own[:1] * len(sources)
     with Faults() as faults:
-        for (name, source), case in zip(sets.items(), own, strict=True):
+        pairs = []
+        for (name, source), case in zip(_sets(sources).items(), own, strict=True):
             with faults.catching(name):
                 pairs.append(_pair(case, thickness, source, how))
-    return carom.joint_fit(sets, share=share, pair=pairs, **how._asdict(), **options)
+    return pairs
+
+
+def _sets(sources: Sequence[str | Path]) -> dict[str, Any]:
+    """Return files by the names that they have in messages, which one alone does not need."""
+    from carom.fitting.joint_result import named_sets
+
+    if len(sources) > 1:
+        return named_sets(sources)
+    return dict(zip([""], sources, strict=False))
+
+
+def _fitted(
+    sources: Sequence[str | Path],
+    pairs: Sequence["Pair | None"],
+    share: Sequence[str],
+    options: Mapping[str, Any],
+) -> Any:
+    if len(sources) == 1:
+        return carom.fit(sources[0], pair=pairs[0], **options)
+    return carom.joint_fit(_sets(sources), share=share, pair=pairs, **options)
 
 
 def _tell_template(source: str | None, as_json: bool) -> None:
     from carom.fitting.template import TEMPLATE
 
-    if source is not None:
-        raise refusal("template", source, "it prints an empty table; give it no data")
+    with checking() as faults:
+        if source is not None:
+            allowed = "it prints an empty table; give it no data"
+            faults.add(str(refusal("template", source, allowed)))
     typer.echo(json.dumps({"template": TEMPLATE}) if as_json else TEMPLATE, nl=as_json)
 
 

@@ -1,18 +1,21 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
+import os
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import typer
 
 import carom
+from carom.cli import completion
 from carom.cli.cases import check_outputs, merged, outputs, stored, tell_sweep
-from carom.cli.options import described, file_argument, whole_option
+from carom.cli.options import checking, described, file_argument, name_option, whole_option
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, one_of, refusal
-from carom.quantities.units import whole
+from carom.quantities.refusals import Faults, InputError, one_of, refusal
+from carom.quantities.units import finite, whole
 
 if TYPE_CHECKING:
     from carom.impacts.result import ImpactResult
@@ -25,6 +28,7 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 
 
 METHODS = ("exact", "halfspace")
+NO_PEAKS = "peaks: boundary elements give no stress below the surface; leave --method out"
 ANIMATION_FRAMES = 60  # of an animation
 CASE_KEYS = {  # of what options give, in a case file, where they have other names there
     "radius": "first.radius",
@@ -44,17 +48,28 @@ CASE_KEYS = {  # of what options give, in a case file, where they have other nam
 
 
 OPTIONS = {
-    "case": file_argument("TOML file that describes the impact; options replace what it says."),
+    "case": file_argument(
+        "TOML file that describes the impact; options replace what it says. Give several for one "
+        "impact each."
+    ),
     "radius": _flag("radius", "'5 mm'", " of the first body, a sphere"),
-    "material": "Material of the first body: a name that carom materials lists, or 'young=210 "
-    "GPa, poisson=0.3, density=7850'.",
+    "material": name_option(
+        "Material of the first body: a name that carom materials lists, or 'young=210 GPa, "
+        "poisson=0.3, density=7850'.",
+        completion.materials,
+    ),
     "gyration_radius": _flag(
         "gyration_radius", "'3 mm'", " of the first body (default: that of a solid sphere)"
     ),
     "inner_radius": _flag("inner_radius", "'4 mm'"),
-    "against": "Second body: half-space, sphere or cup (default: half-space).",
+    "against": name_option(
+        "Second body: half-space, sphere or cup (default: half-space).",
+        ("half-space", "sphere", "cup"),
+    ),
     "second_radius": _flag("radius", "'10 mm'", " of the second body, a sphere or cup"),
-    "second_material": "Material of the second body (default: that of the first).",
+    "second_material": name_option(
+        "Material of the second body (default: that of the first).", completion.materials
+    ),
     "thickness": _flag("thickness", "'3 mm'", ", which gives way (default: a thick wall)"),
     "width": _flag("width", "'200 mm'", " (default: wide enough)"),
     "friction": _flag("friction", "0.2"),
@@ -80,8 +95,11 @@ OPTIONS = {
     "to compute it from the yield strengths of the materials.",
     "flow_stress": "Yield strength of a metal that is struck beyond its yield, e.g. '1 GPa', or "
     "'material' to take that of the materials; the pressure rises as it yields.",
-    "method": "'exact' solves the theory; 'halfspace' solves the full contact in three dimensions "
-    "by boundary elements, in two seconds, or fifteen for unlike materials.",
+    "method": name_option(
+        "'exact' solves the theory; 'halfspace' solves the full contact in three dimensions by "
+        "boundary elements, in two seconds, or fifteen for unlike materials.",
+        METHODS,
+    ),
     "elements": whole_option(
         "Number of boundary elements across the contact, for --method halfspace (default: 64)."
     ),
@@ -99,7 +117,7 @@ OPTIONS = {
 
 @described(OPTIONS)
 def impact_command(
-    case: str | None = None,
+    case: list[str] | None = None,
     normal_spin: str | None = None,
     method: str = "exact",
     as_json: bool = False,
@@ -117,6 +135,7 @@ def impact_command(
     \b
     Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 --angle "30 deg"
     A case file: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
+    Several, or the standard input: carom impact steel.toml glass.toml - --json < brass.toml
 
     You can add to the first example:
 
@@ -127,50 +146,108 @@ def impact_command(
     --spectrum forces.csv        spectra of the forces, for acoustic sensors
     --peaks                      the largest stresses in both bodies
     """
-    from carom.bodies.cases import LOSSES, MOTION, RATIO, losses_of, motion_of, pair_of, read_case
+    from carom.bodies.cases import LOSSES, MOTION, RATIO
 
     named = (*CASE_KEYS, "friction", *MOTION, *LOSSES, RATIO)
     options = {**given, "plot": plot}
     flags = {CASE_KEYS.get(name, name): options[name] for name in named}
-    content = merged(read_case(case, losses=True) if case is not None else {}, flags)
-    tell_sweep(content)
-    files = outputs(content)
-    losses = losses_of(content)
-    written = {"plot": files.get("plot"), "output": files.get("data")}
-    check_outputs(written | {"spectrum": files.get("spectrum")})
-    if "animation" in files:
-        carom.plots.checked_animation(files["animation"])
-    solver = _method(method, {name: given[name] for name in ("elements", "steps")})
-    motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
-    hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
-    shown = _with_peaks(hit, as_json) if peaks else str(hit)
-    paths = list(_store(hit, files))
-    typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json and not peaks else shown)
+    with checking() as faults:
+        counts = {name: given[name] for name in ("elements", "steps")}
+        solver = faults.trying(_method, method, counts)
+        if normal_spin is not None:
+            faults.trying(finite, "normal_spin", normal_spin)
+        if peaks and method == "halfspace":
+            faults.add(NO_PEAKS)
+        read = []
+        files = case or [""]
+        for name in files:
+            with faults.catching(name if len(files) > 1 else ""):
+                read.append(_read(name if case else None, flags))
+        twice = Counter(os.path.realpath(file) for one in read for file in one.files.values())
+        several = [file for file, count in twice.items() if count > 1]
+        words = "several impacts are to be stored there; write [output] into each case file"
+        faults.add(*(str(refusal("output file", file, words)) for file in several))
+    spin: dict[str, Any] = {} if normal_spin is None else {"normal_spin": normal_spin}
+    records, paths = [], list[Path]()
+    for name, one in zip(files, read, strict=True):
+        hit = carom.impact(one.pair, **one.motion | spin, losses=one.losses, method=solver)
+        head = f"{name}\n" if len(read) > 1 else ""
+        told = _record(hit, peaks=peaks) if as_json else head + _text(hit, peaks=peaks)
+        paths += _store(hit, one.files)
+        if as_json:
+            records.append(told)
+        else:
+            typer.echo(told)
+    if as_json:
+        typer.echo(json.dumps(records if len(records) > 1 else records[0], indent=2))
     for path in paths:
         stored(path)
 
 
-def _with_peaks(hit: "ImpactResult", as_json: bool) -> str:
-    from carom.impacts.peaks import peaks_record, peaks_text
+class _Case(NamedTuple):
+    """One impact: bodies, speeds, losses, and the files that are asked for."""
 
-    if not isinstance(hit, carom.results.Impact):
-        words = "boundary elements give no stress below the surface; leave --method out"
-        raise InputError(f"peaks: {words}")
-    peaks = hit.peaks()
-    if as_json:
-        return json.dumps(hit.to_dict() | {"peaks": peaks_record(peaks)}, indent=2)
-    return f"{hit}\n{peaks_text(peaks)}"
+    pair: Any
+    motion: dict[str, Any]
+    losses: Any
+    files: dict[str, str]
+
+
+def _read(path: str | None, flags: Mapping[str, Any]) -> _Case:
+    """Return what a case file and flags say together, or raise InputError with all faults."""
+    from carom.bodies import cases
+    from carom.bodies.checks import checked_motion
+
+    with Faults() as faults:
+        pair, read = None, {}
+        if path is not None:
+            read = faults.trying(cases.read_case, path, losses=True)
+        content = merged(read or {}, flags)
+        files = faults.trying(outputs, content) or {}
+        written = {"plot": files.get("plot"), "output": files.get("data")}
+        faults.trying(check_outputs, written | {"spectrum": files.get("spectrum")})
+        if "animation" in files:
+            faults.trying(carom.plots.checked_animation, files["animation"])
+        losses, motion = faults.trying(cases.losses_of, content), cases.motion_of(content)
+        round_ones = not cases.has_shapes(content)
+        if round_ones:
+            faults.trying(cases.numbers_of, content)
+        if read is not None:  # else a file that cannot be read may give what is missing
+            pair = faults.trying(cases.pair_of, content)
+            if round_ones:
+                faults.trying(checked_motion, pair, **motion)
+    tell_sweep(content)
+    return _Case(pair, motion, losses, files)
+
+
+def _record(hit: "ImpactResult", *, peaks: bool) -> dict[str, Any]:
+    from carom.impacts.peaks import peaks_record
+
+    return hit.to_dict() | ({"peaks": peaks_record(_peaks(hit))} if peaks else {})
+
+
+def _text(hit: "ImpactResult", *, peaks: bool) -> str:
+    from carom.impacts.peaks import peaks_text
+
+    return f"{hit}\n{peaks_text(_peaks(hit))}" if peaks else str(hit)
+
+
+def _peaks(hit: "ImpactResult") -> Any:
+    if isinstance(hit, carom.results.Impact):
+        return hit.peaks()
+    raise InputError(NO_PEAKS)
 
 
 def _method(name: str, numbers: Mapping[str, str | None]) -> Any:
     from carom.impacts.boundary_elements import RANGES
 
-    one_of("method", name, METHODS)
-    counts = {n: whole(n, text, *RANGES[n]) for n, text in numbers.items() if text is not None}
-    if name != "halfspace":
-        for key, value in counts.items():
-            words = "it is an option of boundary elements; add --method halfspace"
-            raise refusal(key, value, words)
+    there = {key: text for key, text in numbers.items() if text is not None}
+    with Faults() as faults:
+        faults.trying(one_of, "method", name, METHODS)
+        counts = {n: faults.trying(whole, n, text, *RANGES[n]) for n, text in there.items()}
+        words = "it is an option of boundary elements; add --method halfspace"
+        if name == "exact":
+            faults.add(*(str(refusal(key, value, words)) for key, value in counts.items()))
     return carom.BoundaryElements(**counts) if counts else name
 
 

@@ -7,13 +7,17 @@ import typer
 
 import carom
 from carom.bodies.materials import VALUES
-from carom.cli.options import described
+from carom.cli import completion
+from carom.cli.options import checking, described
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import refusal
 from carom.quantities.units import or_none
 
 OPTIONS = {
-    "name": typer.Argument(help="Material to show, with the source of every value."),
+    "name": typer.Argument(
+        help="Material to show, with the source of every value.",
+        autocompletion=completion.materials,
+    ),
     "pairs": typer.Option(
         "--pairs", help="List measured restitution and friction of pairs of materials instead."
     ),
@@ -42,8 +46,12 @@ def materials_command(name: str | None = None, pairs: bool = False, as_json: boo
     All materials: carom materials
     Measured pairs: carom materials --pairs
     """
-    if pairs and name is not None:
-        raise refusal("--pairs", name, "it lists all pairs; leave the name out")
+    with checking() as faults:
+        if pairs and name is not None:
+            words = "it lists all pairs; leave the name out"
+            faults.add(str(refusal("--pairs", name, words)))
+        if name is not None:
+            faults.trying(carom.material, name)
     if pairs:
         listed = _pairs()
         typer.echo(

@@ -1,23 +1,38 @@
-"""Commands and their options, which are given once, but for lists; typer takes the last."""
+"""Commands and their options, and what is wrong with the words of a command line.
 
+Options are given once, but for lists; typer takes the last. All faults of a line are told at once:
+those of its words are collected here, and those of what they mean by the command (`checking`).
+"""
+
+import os
+import shlex
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from contextvars import ContextVar
+from difflib import get_close_matches
 from inspect import Parameter, Signature, signature
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar, get_origin
 
 import typer
-from typer.core import TyperCommand, TyperOption
+from typer.core import TyperCommand, TyperGroup, TyperOption
 
 from carom.cli.cases import named_values, stored
 from carom.io.paths import checked_output, replace_whole
-from carom.quantities.refusals import InputError
+from carom.quantities.refusals import Faults, clipped, nearest
+from carom.quantities.symbols import meant, remark
 
 if TYPE_CHECKING:
     from carom.io.heads import TableFormat
 
 Command = TypeVar("Command", bound=Callable[..., None])
+Names = Iterable[str] | Callable[[], Iterable[str]]
 
 ARGUMENTS = "carom.arguments"  # of a command as they were given, in `meta` of its context
+FAULTS = "carom.faults"  # of these arguments, there as well
+MISSPELT = 0.8  # how similar a word is to the one it stands for
+
+_line: ContextVar[tuple[str, ...]] = ContextVar("line", default=())  # its faults so far
 
 
 def file_option(words: str) -> Any:
@@ -50,33 +65,118 @@ class Interrupted(Exception):
     """A command was interrupted, as by Ctrl-C; typer drops what such an exception says."""
 
 
-class Once(TyperCommand):
+def checking() -> Faults:
+    """Return what collects the faults of a command line, with those of its words."""
+    return Faults(*_line.get())
+
+
+class Quick:
+    """What commands and groups of them do without waiting for pydantic and rich."""
+
+    def get_help_option(self, ctx: Any) -> Any:
+        """Return the option --help; typer has pydantic look at what is neither true nor false."""
+        option = super().get_help_option(ctx)  # type: ignore[misc]
+        option.default = False
+        return option
+
+    def shell_complete(self, ctx: Any, incomplete: str) -> list[Any]:
+        """Return what a word may become, without help, which rich would wrap into words."""
+        items: list[Any] = super().shell_complete(ctx, incomplete)  # type: ignore[misc]
+        for item in items:
+            item.help = None
+        return items
+
+
+class Group(Quick, TyperGroup):
+    """A group of commands."""
+
+
+class Once(Quick, TyperCommand):
     """A command that refuses an option given twice, unless it is one of several values."""
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; raises Interrupted for a KeyboardInterrupt."""
+        token = _line.set(ctx.meta[FAULTS])
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt as error:
             raise Interrupted(*error.args) from None
+        finally:
+            _line.reset(token)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Keep the arguments and read them, after a look at how often each option is there."""
+        """Keep the arguments, their values, which are texts or flags, and what is wrong with them.
+
+        Typer has pydantic look at them, which takes longer than most commands.
+        """
         ctx.meta[ARGUMENTS] = tuple(args)
-        order = self.make_parser(ctx).parse_args(list(args))[2]
+        faults: list[str] = []
+        given, rest, order = self._parsed(ctx, list(args), faults)
         for option, count in Counter(order).items():
             if count > 1 and isinstance(option, TyperOption) and not option.multiple:
                 names = "/".join((*option.opts, *option.secondary_opts))
-                raise InputError(f"{names}: it is given {count} times; leave all but one out")
-        return super().parse_args(ctx, args)
+                faults.append(f"{names}: it is given {count} times; leave all but one out")
+        for param in sorted(self.get_params(ctx), key=lambda each: not each.is_eager):
+            if param.is_eager:  # --help, which ends the command
+                param.handle_parse_result(ctx, given, rest)
+                continue
+            value, source = param.consume_value(ctx, given)
+            ctx.set_parameter_source(param.name, source)
+            ctx.params[param.name] = list(value) if isinstance(value, tuple) else value
+            if param.required and param.value_is_missing(value):
+                what = param.opts[0] if isinstance(param, TyperOption) else param.metavar
+                faults.append(f"{param.name}: missing; give {what}")
+        if rest:
+            advice = "put a value with blanks into quotes, e.g. '30 deg'"
+            faults.append(f"{clipped(shlex.join(rest))}: not expected; {advice}")
+        ctx.meta[FAULTS], ctx.args = tuple(faults), rest
+        return list(rest)
+
+    def _parsed(self, ctx: Any, words: list[str], faults: list[str]) -> Any:
+        """Return values by name, words left over and the order of parameters; collect faults."""
+        while True:
+            left = list(words)
+            try:
+                return self.make_parser(ctx).parse_args(left)
+            except typer.TyperException as error:
+                place = len(words) - len(left) - 1
+                near, known = option_meant(error)
+                faults.append(f"{(error.message if near else error.format_message()).rstrip('.')}")
+                faults[-1] += f"; {near}" * bool(near)
+                value = left[:1] if known is None and _is_value(words[place], left) else []
+                instead = [] if known is None else [known, *words[place].split("=", 1)[1:]]
+                words[place : place + 1 + len(value)] = instead
+
+
+def _is_value(option: str, after: list[str]) -> bool:
+    """Tell whether the word after an unknown option is probably its value, and no file."""
+    word = after[0] if after else "-"
+    return "=" not in option and not word.startswith("-") and not os.path.exists(word)
+
+
+def option_meant(error: typer.TyperException) -> tuple[str, str | None]:
+    """Return a hint at the option that one stands for, and its name if there is hardly a doubt."""
+    word = str(getattr(error, "option_name", "")).strip("-").replace("-", "_")
+    context = getattr(error, "ctx", None)
+    if not word or context is None or type(error).__name__ != "NoSuchOption":
+        return "", None
+    options = [name for each in context.command.params for name in each.opts]
+    names = {name.strip("-").replace("-", "_"): name for name in options}
+    name = meant(word, names)
+    if name:
+        return f"write {names[name]}{remark(word, name).removeprefix(name)}", names[name]
+    plain = f"--{word.replace('_', '-')}"
+    sure = get_close_matches(plain, options, n=1, cutoff=MISSPELT)
+    return nearest(plain, options), next(iter(sure), None)
 
 
 class Commands(typer.Typer):
     """Commands of this kind, with help as plain text, which comes where no command is given."""
 
-    def __init__(self, name: str, words: str) -> None:
+    def __init__(self, name: str, words: str, kind: type[Group] = Group) -> None:
         plain: dict[str, Any] = {"rich_markup_mode": None, "pretty_exceptions_enable": False}
-        super().__init__(name=name, help=words, no_args_is_help=True, add_completion=False, **plain)
+        plain |= {"no_args_is_help": True, "add_completion": False, "cls": kind}
+        super().__init__(name=name, help=words, **plain)
 
     def command(self, name: str | None = None, **more: Any) -> Callable[..., Any]:
         """Return what registers a function as a command."""
@@ -104,19 +204,30 @@ def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
 
 
 def table_format_of(given: Mapping[str, Any], example: str = "omega=spin_out") -> "TableFormat":
-    """Return how a table is to be read by the options `TABLE`; it is stored if asked for."""
-    from carom.io.heads import as_toml, table_format
+    """Return how a table is to be read by the options `TABLE`, or raise InputError."""
+    from carom.io.heads import table_format
 
-    stored_as = given["save_columns"]
-    target = None if stored_as is None else checked_output(stored_as, (".toml",))
-    own = table_format(given["columns"], given["sheet"], given["decimal"])
-    names = named_values("column", given["column"], example)
-    how = own._replace(columns={**own.columns, **names})
-    if target is not None:
-        text = as_toml(how)
-        replace_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
-        stored(target)
+    with Faults() as faults:
+        if given["save_columns"] is not None:
+            faults.trying(checked_output, given["save_columns"], (".toml",))
+        own = faults.trying(table_format, given["columns"], given["sheet"], given["decimal"])
+        names = faults.trying(named_values, "column", given["column"], example)
+    how: TableFormat = own._replace(columns={**own.columns, **names})
     return how
+
+
+def store_format(how: "TableFormat", name: str | None) -> None:
+    """Store how a table is read, if that is asked for."""
+    from carom.io.heads import as_toml
+
+    if name is not None:
+        store_text(as_toml(how), name)
+
+
+def store_text(text: str, name: str) -> None:
+    """Store a text in UTF-8, and tell that."""
+    replace_whole(Path(name), lambda f: f.write_text(text, encoding="utf-8", newline="\n"))
+    stored(name)
 
 
 def _with_help(parameter: Parameter, option: Any) -> Parameter:
@@ -129,6 +240,16 @@ def _with_help(parameter: Parameter, option: Any) -> Parameter:
 def file_argument(words: str) -> Any:
     """Return the argument of a file that is read."""
     return typer.Argument(help=words, metavar="FILE")
+
+
+def name_option(words: str, names: Names) -> Any:
+    """Return the option of a name; shells complete those that there are."""
+    return typer.Option(help=words, autocompletion=completing(names))
+
+
+def completing(names: Names) -> Callable[[], Iterable[str]]:
+    """Return what typer asks for the names that complete a word."""
+    return names if callable(names) else lambda: names
 
 
 def whole_option(words: str) -> Any:

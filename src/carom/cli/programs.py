@@ -6,7 +6,9 @@ from typing import Any
 
 import typer
 
-from carom.cli.options import Commands, described
+from carom.cli.options import Commands, checking, described, name_option
+from carom.io.paths import new_folder
+from carom.quantities.refusals import one_of
 
 lammps_app = Commands(
     "lammps",
@@ -27,11 +29,14 @@ LAMMPS = {
         help="Folder src of the LAMMPS that you compiled yourself. Give the option again for "
         "the folder of its mpi.h.",
     ),
-    "sizes": "Integer sizes with which you compiled your own LAMMPS: smallbig or bigbig.",
+    "sizes": name_option(
+        "Integer sizes with which you compiled your own LAMMPS: smallbig or bigbig.",
+        ("smallbig", "bigbig"),
+    ),
     "folder": "Folder for the plugin (default: the folder in which LAMMPS finds it by itself).",
 }
 EXAMPLES = {
-    "folder": typer.Argument(help="New or empty folder for the inputs."),
+    "folder": typer.Argument(help="New or empty folder for the inputs.", metavar="FOLDER"),
     "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
 }
 LIGGGHTS = {
@@ -43,9 +48,9 @@ LIGGGHTS = {
 @lammps_app.command("build")
 @described(LAMMPS)
 def lammps_command(
-    include: list[Path] | None = None,
+    include: list[str] | None = None,
     sizes: str = "smallbig",
-    folder: Path | None = None,
+    folder: str | None = None,
     as_json: bool = False,
 ) -> None:
     """Compile the plugin with pair_style carom for LAMMPS.
@@ -60,9 +65,13 @@ def lammps_command(
     from carom.adapters import lammps as adapter
     from carom.io.progress import advancing
 
-    program = adapter.from_sources(tuple(include), sizes) if include else adapter.installed()
-    default = adapter.folder(program.version if include else None)
-    target = default if folder is None else folder
+    with checking() as faults:
+        faults.trying(one_of, "sizes", sizes, adapter.SIZES)
+        places = tuple(map(Path, include or ()))
+        program = adapter.from_sources(places) if places else adapter.installed()
+    program = program._replace(sizes=sizes) if places else program
+    default = adapter.folder(program.version if places else None)
+    target = default if folder is None else Path(folder)
     with advancing("compiling the plugin", None):
         built = adapter.build(program, target)
     flags = " ".join(word for word in built.command if word.startswith(("-O", "-m", "-f", "-D")))
@@ -88,6 +97,9 @@ def examples_command(folder: str, as_json: bool = False) -> None:
     """
     from carom.adapters import lammps as adapter
 
+    with checking() as faults:
+        if folder is not None:
+            faults.trying(new_folder, folder)
     files = adapter.write_examples(folder)
     if as_json:
         typer.echo(json.dumps({"folder": folder, "files": files}, indent=2))
@@ -98,7 +110,7 @@ def examples_command(folder: str, as_json: bool = False) -> None:
 
 @liggghts_app.command("build")
 @described(LIGGGHTS)
-def liggghts_command(source: Path, folder: Path | None = None, as_json: bool = False) -> None:
+def liggghts_command(source: str, folder: str | None = None, as_json: bool = False) -> None:
     """Compile LIGGGHTS with the tangential model carom.
 
     This takes some minutes and makes a LIGGGHTS without MPI and VTK. The source package of Debian
@@ -109,8 +121,9 @@ def liggghts_command(source: Path, folder: Path | None = None, as_json: bool = F
     """
     from carom.adapters import liggghts
 
-    target = liggghts.program().parent if folder is None else folder
-    built = liggghts.build(source, target)
+    checking().settle()
+    target = liggghts.program().parent if folder is None else Path(folder)
+    built = liggghts.build(Path(source), target)
     what = f"LIGGGHTS {built.version} with tangential model carom"
     advice = "Write this into the input: pair_style gran model hertz tangential carom"
     _tell(built, as_json, [f"Carom has built {what}: {built.path}", advice])

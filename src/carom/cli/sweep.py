@@ -11,7 +11,15 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, outputs, read_case_file, require_some, stored, tell
-from carom.cli.options import TABLE, described, file_argument, table_format_of, whole_option
+from carom.cli.options import (
+    TABLE,
+    checking,
+    described,
+    file_argument,
+    store_format,
+    table_format_of,
+    whole_option,
+)
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
 from carom.quantities.refusals import refusal
@@ -33,7 +41,8 @@ OPTIONS = {
     "scheduler": "Address of a dask cluster to use, e.g. tcp://host:8786.",
     "workers": whole_option("Number of threads (default: one for each core)."),
     "progress": typer.Option(
-        "--progress/--no-progress", help="Show a progress bar (default: only on a terminal)."
+        "--progress/--no-progress",
+        help="Show progress (default): a bar on a terminal, elsewhere a line every ten seconds.",
     ),
 }
 
@@ -64,19 +73,28 @@ def sweep_command(
     The speeds above which the second body yields:
       carom sweep examples/sweep.toml --quantities yield_speed_second
     """
+    from carom.sweeps.any_shape import problem_of
     from carom.sweeps.records import summary
     from carom.sweeps.tables import plan
 
-    content = read_case_file(case, losses=True, swept=True)
-    file = _file(content) if output is None else output
-    check_outputs({"output": file})
-    table = table_format_of(given, "omega=spin")
-    design, chosen = plan(content, Path(case), table)
-    if quantities is not None:
-        chosen = [name.strip() for name in quantities.split(",")]
+    with checking() as faults:
+        threads = faults.if_given(whole, "workers", workers, 1)
+        file, table = output, faults.trying(table_format_of, given, "omega=spin")
+        content = None
+        if case is not None:
+            content = faults.trying(read_case_file, case, losses=True, swept=True)
+        if content is not None:
+            own = faults.trying(_file, content)
+            file = own if output is None else output
+        faults.trying(check_outputs, {"output": file})
+        if content is not None:
+            design, chosen = plan(content, Path(case), table)
+            if quantities is not None:
+                chosen = [name.strip() for name in quantities.split(",")]
+            problem_of(content, design, chosen)
+    store_format(table, given["save_columns"])
     tell(design._doubts())
     with _stopping():
-        threads = None if workers is None else whole("workers", workers, 1)
         how: dict[str, Any] = {"scheduler": scheduler, "workers": threads, "progress": progress}
         dataset = carom.sweep(content, design, outputs=chosen, store=store, resume=resume, **how)
     if file is not None:

@@ -7,7 +7,14 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, stored
-from carom.cli.options import TABLE, described, file_argument, table_format_of
+from carom.cli.options import (
+    TABLE,
+    checking,
+    described,
+    file_argument,
+    store_format,
+    table_format_of,
+)
 
 OPTIONS = {
     "data": file_argument(
@@ -29,7 +36,7 @@ OPTIONS = {
 
 @described(OPTIONS)
 def track_command(
-    data: list[str],
+    data: list[str] | None = None,
     plate_angle: str = "0 deg",
     gravity: str = "9.80665 m/s^2",
     y_down: bool | None = None,
@@ -49,10 +56,15 @@ def track_command(
     An export of Tracker in metres: carom track ball.txt --column "x=x [m]" --column "y=y [m]"
     Many impacts: carom track 10deg.csv 20deg.csv 30deg.csv --frame-rate 1000 --pixels-per-mm 12
     """
-    check_outputs({"output": output}, **{f"track {i}": each for i, each in enumerate(data)})
-    how = table_format_of(given, "'ball x=x [px]'")._asdict()
-    how |= {name: value for name, value in given.items() if name not in TABLE}
-    motions = carom.track(data, plate_angle=plate_angle, gravity=gravity, y_down=y_down, **how)
+    with checking() as faults:
+        tracks = {f"track {i}": each for i, each in enumerate(data or ())}
+        faults.trying(check_outputs, {"output": output}, **tracks)
+        table = faults.trying(table_format_of, given, "'ball x=x [px]'")
+        options = {name: value for name, value in given.items() if name not in TABLE}
+        options |= {"plate_angle": plate_angle, "gravity": gravity, "y_down": y_down}
+        how = table._asdict() if table else {}
+        motions = faults.trying(carom.track, data or [], **how, **options)
+    store_format(table, given["save_columns"])
     if output is not None:
         stored(carom.save(motions, output))
     from carom.fitting.tracks import as_records, as_text

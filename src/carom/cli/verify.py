@@ -8,18 +8,25 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
+from carom.cli import completion
 from carom.cli.cases import check_outputs, read_case_file, store, stored
 from carom.cli.options import (
     TABLE,
     Commands,
+    checking,
     described,
     file_argument,
     file_option,
+    name_option,
+    store_format,
+    store_text,
     table_format_of,
     whole_option,
 )
+from carom.cli.pack import pack_command
+from carom.io.paths import checked_output
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError
+from carom.quantities.refusals import one_of
 from carom.quantities.units import finite, positive, whole
 
 if TYPE_CHECKING:
@@ -44,7 +51,7 @@ LAWS_OPTIONS = {
     "kappa": "Stiffness ratio kappa = G*/E* (default: that of solid spheres, 4 chi/7).",
     "psi": "Incidence psi_1 = kappa V_x/(mu V_1) at which laws are compared (default: 15 from 0.1 "
     "to 6). You can repeat this option.",
-    "law": "Rank only this law, e.g. mindlin_rescale.",
+    "law": name_option("Rank only this law, e.g. mindlin_rescale.", completion.laws),
     "restitution": "Give all laws the damping for this normal coefficient of restitution, e.g. "
     "0.9 (default: that of the case, or no damping).",
     "output": "Store the ranking: .csv or .nc.",
@@ -89,23 +96,26 @@ def laws_command(
     from carom.verify.own_impact import own_impact
     from carom.verify.tuning import setting_of
 
-    if error_map is not None and law is None:
-        raise InputError("map: it shows one law; give --law, e.g. --law mindlin")
-    if error_map is not None and (kappa is not None or psi):
-        raise InputError("map: it shows solid spheres at all psi_1; leave --kappa and --psi out")
-    check_outputs({"plot": plot, "output": output, "map": error_map}, case=case)
-    incidences = [finite("psi_in", value) for value in psi or INCIDENCES]
     own = None
-    if case is None:
-        ratio = None if kappa is None else positive("kappa", kappa)
-        size = SOLID_CHI if chi is None else positive("chi", chi)
-        e = None if restitution is None else damped_restitution("restitution", restitution)
-    else:
-        content = read_case_file(case, losses=True)
-        setting = setting_of(content, chi, kappa, "0", None, restitution)
-        size, ratio, own = setting.chi, setting.kappa, own_impact(content, setting.restitution)
-        e = None if setting.restitution == 1.0 else setting.restitution
-    ranking = carom.verify.rank(named(law), chi=size, kappa=ratio, psi_1=incidences, restitution=e)
+    with checking() as faults:
+        if error_map is not None and law is None:
+            faults.add("map: it shows one law; give --law, e.g. --law mindlin")
+        if error_map is not None and (kappa is not None or psi):
+            faults.add("map: it shows solid spheres at all psi_1; leave --kappa and --psi out")
+        files = {"plot": plot, "output": output, "map": error_map}
+        faults.trying(check_outputs, files, case=case)
+        incidences = [faults.trying(finite, "psi_in", value) for value in psi or INCIDENCES]
+        entries = faults.trying(named, law)
+        if case is None:
+            ratio = faults.if_given(positive, "kappa", kappa)
+            size = SOLID_CHI if chi is None else faults.trying(positive, "chi", chi)
+            e = faults.if_given(damped_restitution, "restitution", restitution)
+        else:
+            content = read_case_file(case, losses=True)
+            setting = setting_of(content, chi, kappa, "0", None, restitution)
+            size, ratio, own = setting.chi, setting.kappa, own_impact(content, setting.restitution)
+            e = None if setting.restitution == 1.0 else setting.restitution
+    ranking = carom.verify.rank(entries, chi=size, kappa=ratio, psi_1=incidences, restitution=e)
     store(ranking, output, plot)
     if error_map is not None:
         stored(_store_map(ranking.standings[0].entry.law, error_map))
@@ -154,7 +164,7 @@ ENGINES_OPTIONS = {
         "Case file, as for carom impact, with the bodies (default: a steel ball on a steel "
         "plate, chi = 1.4412)."
     ),
-    "law": "Run only this law, by its name in carom verify laws.",
+    "law": name_option("Run only this law, by its name in carom verify laws.", completion.laws),
     "steps": whole_option("Time steps per duration of Hertz's contact."),
     "time_limit": "Time limit of each run, e.g. '60 s'.",
     "program": "Path of the executable (default: Carom looks for it).",
@@ -175,26 +185,22 @@ def engine_command(
 ) -> None:
     """Run the program that the command is named after, and print how it has done."""
     from carom.bodies.cases import pair_of
-    from carom.io.paths import checked_output, replace_whole
     from carom.verify.engines.experiments import MOST_STEPS
     from carom.verify.entries import named
 
-    count = whole("steps", steps, 10, MOST_STEPS)
-    target = None if output is None else checked_output(output, (".csv",))
-    if target is not None and law is None:
-        raise InputError("output: it stores the results of one law; give --law, e.g. --law mindlin")
-    engine = getattr(carom.verify, str(context.command.name).capitalize())
-    bench = carom.verify.bench(
-        engine(program),
-        named(law),
-        pair=None if case is None else pair_of(read_case_file(case)),
-        steps=count,
-        time_limit=positive("time_limit", time_limit),
-    )
-    if target is not None and not bench.failed:
-        text = bench.results()
-        replace_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
-        stored(target)
+    with checking() as faults:
+        count = faults.trying(whole, "steps", steps, 10, MOST_STEPS)
+        seconds = faults.trying(positive, "time_limit", time_limit)
+        entries = faults.trying(named, law)
+        if output is not None:
+            faults.trying(checked_output, output, (".csv",))
+        if output is not None and law is None:
+            faults.add("output: it stores the results of one law; give --law, e.g. --law mindlin")
+        pair = None if case is None else pair_of(read_case_file(case))
+    engine = getattr(carom.verify, str(context.command.name).capitalize())(program)
+    bench = carom.verify.bench(engine, entries, pair=pair, steps=count, time_limit=seconds)
+    if output is not None and not bench.failed:
+        store_text(bench.results(), output)
     typer.echo(json.dumps(bench.to_dict(), indent=2) if as_json else str(bench))
     if bench.failed:
         raise typer.Exit(1)
@@ -204,31 +210,7 @@ for name, words in COMMANDS.items():
     app.command(name, help=words)(engine_command)
 
 
-PACK_OPTIONS = {
-    "folder": typer.Argument(help="New or empty folder for the pack, e.g. bench."),
-    "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
-}
-
-
-@app.command("pack")
-@described(PACK_OPTIONS)
-def pack_command(folder: str, as_json: bool = False) -> None:
-    """Write the benchmark pack for developers of DEM codes.
-
-    Use this command to test a DEM code that you write. The pack holds reference impacts with error
-    bars, and inputs of DEM codes for them. A version of the pack has the same numbers, to the last
-    byte, wherever it is written.
-
-    \b
-    Example: carom verify pack bench
-    """
-    from carom.verify.pack import VERSION, write_pack
-
-    files = write_pack(folder)
-    record = {"version": VERSION, "folder": folder, "files": files}
-    what = f"benchmark pack {VERSION}, {len(files)} files, into {folder}"
-    words = f"Carom has written {what}. Start with its README.md."
-    typer.echo(json.dumps(record, indent=2) if as_json else words)
+app.command("pack")(pack_command)
 
 
 SCORE_OPTIONS = {
@@ -286,11 +268,15 @@ def score_command(
     Velocities or forces: carom verify score results.csv --case examples/steel_ball.toml
     A damped contact: carom verify score rebounds.csv --chi 1.44 --restitution 0.9
     """
-    check_outputs({"plot": plot, "output": output}, results=results, case=case)
-    content = None if case is None else read_case_file(case, losses=True)
-    how = table_format_of(given)._asdict()
-    how |= {name: value for name, value in given.items() if name not in TABLE}
-    score = carom.verify.score(results, case=content, tolerance=tolerance, **how)
+    with checking() as faults:
+        faults.trying(check_outputs, {"plot": plot, "output": output}, results=results, case=case)
+        limit = faults.trying(positive, "tolerance", tolerance, "1")
+        table = faults.trying(table_format_of, given)
+        content = None if case is None else faults.trying(read_case_file, case, losses=True)
+        faults.settle()
+        how = table._asdict() | {n: value for n, value in given.items() if n not in TABLE}
+        score = carom.verify.score(results, case=content, tolerance=limit, **how)
+    store_format(table, given["save_columns"])
     store(score, output, plot)
     typer.echo(json.dumps(score.to_dict(), indent=2) if as_json else str(score))
     if not score.passed:
@@ -310,7 +296,7 @@ TUNE_OPTIONS = {
     ),
     "restitution": "Normal coefficient of restitution that the dampings shall give (default: that "
     "of the case, or 1).",
-    "measure": "Error in psi_2 to minimise over the incidences: its max or its rms.",
+    "measure": name_option("Error in psi_2 to minimise: its max or its rms.", ("max", "rms")),
 }
 
 
@@ -339,10 +325,12 @@ def tune_command(
     """
     from carom.verify.entries import called
     from carom.verify.own_impact import own_impact
-    from carom.verify.tuning import setting_of
+    from carom.verify.tuning import MEASURES, setting_of
 
-    content = None if case is None else read_case_file(case, losses=True)
-    setting = setting_of(content, chi, kappa, start, stop, restitution)
+    with checking() as faults:
+        faults.trying(one_of, "measure", measure, MEASURES)
+        content = None if case is None else read_case_file(case, losses=True)
+        setting = setting_of(content, chi, kappa, start, stop, restitution)
     tuning = carom.verify.tune(
         chi=setting.chi, kappa=setting.kappa, psi_1=setting.psi, measure=measure
     )

@@ -23,6 +23,7 @@ from carom.fitting.reading import read_problem, read_rebounds
 from carom.fitting.repeats import with_readings
 from carom.fitting.restrictions import refuse_contradicted
 from carom.fitting.result import Fit, assembled
+from carom.io.progress import advancing
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import Faults, flag, refuse
 from carom.quantities.units import Value
@@ -132,9 +133,12 @@ def fit(
     >>> print(carom.fit(drops, pair=plate).thickness)
     3 mm (2.971 to 3.03)
     """
-    level, limited = checked_confidence(confidence), flag("robust", robust)
     how = {"columns": columns, "sheet": sheet, "decimal": decimal}
-    settled, options = _settled(data, pair, vary, fixed, limited, how)
+    with Faults() as faults:
+        level = faults.trying(checked_confidence, confidence)
+        limited = faults.trying(flag, "robust", robust)
+        found = faults.trying(_settled, data, pair, vary, fixed, limited, how)
+    settled, options = found
     return assembled(settled, level, options.taken)
 
 
@@ -218,7 +222,8 @@ def _settled(
     turns = OFFSET in options.free or options.start[OFFSET]
     law = STRAIGHT if problem.is_normal and not turns else EXACT
     model = Model(suited(law, problem), problem, (), options.start).freeing(options.free)
-    settled = settle(with_readings(model, loss), loss, options.start)
+    with advancing("fitting", None):
+        settled = settle(with_readings(model, loss), loss, options.start)
     if options.taken:
         refuse_contradicted(settled.whole)
     return settled, options

@@ -108,18 +108,19 @@ def track(
     """
     many = isinstance(source, Sequence) and not isinstance(source, str | bytes)
     sources = list(source) if many else [source]
-    refuse(not sources and "track: no tracks; give a file or columns by name")
-    steepest = finite("plate_angle", plate_angle)
-    refuse(abs(steepest) >= 0.5 * np.pi and refusal("plate_angle", plate_angle, "below 90 deg"))
-    is_fitted = isinstance(gravity, str) and gravity == FITTED
-    downwards = None if is_fitted else within("gravity", gravity, *GRAVITIES)
-    down = None if y_down is None else flag("y_down", y_down)
-    scale = _metres_per_pixel(pixels_per_mm, pixels_per_diameter, radius)
-    rate = None if frame_rate is None else within("frame_rate", frame_rate, *RATES)
-    how = table_format(columns, sheet, decimal)
     names = [str(e if isinstance(e, str | Path) else i) for i, e in enumerate(sources)]
     found = []
     with Faults() as faults:
+        if not sources:
+            faults.add("data: missing; give a file with a track, or columns by name")
+        steepest = faults.trying(_tilt, plate_angle)
+        is_fitted = isinstance(gravity, str) and gravity == FITTED
+        downwards = None if is_fitted else faults.trying(within, "gravity", gravity, *GRAVITIES)
+        down = faults.if_given(flag, "y_down", y_down)
+        scale = faults.trying(_metres_per_pixel, pixels_per_mm, pixels_per_diameter, radius)
+        rate = faults.if_given(within, "frame_rate", frame_rate, *RATES)
+        how = faults.trying(table_format, columns, sheet, decimal)
+        faults.settle()
         for name, each in zip(names, sources, strict=True):
             with faults.catching(f"track {name}" if len(names) > 1 else ""):
                 frames = read_track(each, how, rate, scale)
@@ -127,18 +128,26 @@ def track(
     return _dataset(names, found)
 
 
+def _tilt(plate_angle: Value) -> float:
+    angle = finite("plate_angle", plate_angle)
+    refuse(abs(angle) >= 0.5 * np.pi and refusal("plate_angle", plate_angle, "below 90 deg"))
+    return angle
+
+
 def _metres_per_pixel(
     per_mm: Value | None, per_diameter: Value | None, radius: Value | None
 ) -> float | None:
-    both = per_mm is not None and per_diameter is not None
-    refuse(both and "pixels_per_mm: it gives the same as pixels_per_diameter; leave one out")
-    if per_mm is not None:
-        return 1e-3 / within("pixels_per_mm", per_mm, *SCALES)
-    if per_diameter is None:
-        return None
-    refuse(radius is None and "radius: missing; pixels_per_diameter needs it, e.g. '5 mm'")
-    pixels = within("pixels_per_diameter", per_diameter, *SCALES)
-    return 2.0 * positive("radius", radius) / pixels
+    with Faults() as faults:
+        flat = faults.if_given(within, "pixels_per_mm", per_mm, *SCALES)
+        across = faults.if_given(within, "pixels_per_diameter", per_diameter, *SCALES)
+        if per_mm is not None and per_diameter is not None:
+            faults.add("pixels_per_mm: it gives the same as pixels_per_diameter; leave one out")
+        if per_diameter is not None and radius is None:
+            faults.add("radius: missing; pixels_per_diameter needs it, e.g. '5 mm'")
+        size = faults.if_given(positive, "radius", radius)
+    if flat is not None:
+        return 1e-3 / float(flat)
+    return None if across is None else 2.0 * float(size) / float(across)
 
 
 def _measured(

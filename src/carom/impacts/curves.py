@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, ScaleFreeLaw, scale_free
-from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
+from carom.dimensionless.rebounds import answered, lossy_rebounds, rebound, regime_borders
 from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
@@ -30,6 +31,7 @@ REGIMES = (
     "gross slip through maximum penetration, then microslip",
     "gross slip throughout",
 )
+AT_ONCE = 1000  # impacts: some tenths of a second
 PLACE = "sequence of phases, its place in sequence_name"
 MET = "sequence of phases of one impact of the map or more"
 BORDER = {"units": "1", "long_name": "psi_in at which the regime changes"}
@@ -64,7 +66,11 @@ def borders(chi: float) -> tuple[float, float, float]:
 
 @known_keywords
 def curve(
-    chi: float | Sequence[float], psi_1: ArrayLike, *, losses: ScaleFreeLaw | None = None
+    chi: float | Sequence[float],
+    psi_1: ArrayLike,
+    *,
+    losses: ScaleFreeLaw | None = None,
+    progress: Progress = None,
 ) -> xr.Dataset:
     """Return psi_2 and restitutions against psi_1, one row per chi, as a labelled dataset.
 
@@ -80,6 +86,9 @@ def curve(
         psi_1 of each column.
     losses : KelvinVoigt, optional
         What the impact loses energy to: a restitution e is given.
+    progress : bool or callable, optional
+        Whether a progress bar is shown after two seconds, by default in a notebook and on a
+        terminal; or a function that is called with the number of impacts done and their total.
 
     Returns
     -------
@@ -102,7 +111,17 @@ def curve(
     chis, incoming = _axes(chi, psi_1)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
-    outgoing = rebound(nonzero, rows, losses=losses)
+
+    def solve(psi: Array, ratios: Array) -> tuple[Array, Any, str]:
+        parts = []
+        with advancing("solving the rebounds", psi.size, progress, unit="impacts") as advance:
+            for start in range(0, psi.size, AT_ONCE):
+                part = slice(start, start + AT_ONCE)
+                parts.append(rebound(psi[part], ratios[part], losses=losses, return_status=True))
+                advance(psi[part].size)
+        return *map(np.concatenate, zip(*parts, strict=True)), ""  # type: ignore[return-value]
+
+    outgoing = answered({"psi_1": nonzero, "chi": rows}, solve, Status, False)
     contact = outgoing / nonzero
     centre = 1.0 - SOLID_SPHERE * (1.0 - contact)
     wide, border = ("chi", "psi_in"), regime_borders(chis, *_ends(losses))

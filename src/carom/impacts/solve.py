@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
 from numpy.typing import ArrayLike
 
-from carom.bodies.checks import check_second_spin, checked_pair, checked_scales
-from carom.bodies.kinematics import Tangential, approach
+from carom.bodies.checks import checked_motion, checked_pair, checked_scales
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import checked_type, refusal, refuse
+from carom.quantities.refusals import Faults, checked_type, refusal, refuse
 from carom.quantities.units import Value, finite
 
 if TYPE_CHECKING:
@@ -125,14 +124,13 @@ def impact(
         speeds: dict[str, Any] = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
         speeds |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2}
         return _of_bodies(pair, speeds, losses, normal_spin, method)
-    along: Any = tangential_speed
-    approaching, tangential = approach(speed, angle, normal_speed, along)
-    first_spin, second_spin = (finite(n, s) for n, s in (("spin", spin), ("spin2", spin2)))
-    about_normal = finite("normal_spin", normal_spin)
-    check_second_spin(pair, spin2, spins=second_spin != 0.0)
-    motion = Tangential(tangential, first_spin, second_spin)
+    with Faults() as faults:
+        speeds = {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2}
+        read = faults.trying(checked_motion, pair, speed, angle, normal_speed, **speeds)
+        about_normal = faults.trying(finite, "normal_spin", normal_spin)
+    approaching, motion = read
     velocity = motion.contact_velocity(pair)
-    scales = checked_scales(pair, approaching, velocity, tangential, *motion.carried(pair))
+    scales = checked_scales(pair, approaching, velocity, motion[0], *motion.carried(pair))
     if isinstance(method, str) and method == "exact":
         return solve_exactly(pair, scales, motion, losses, about_normal)
     checked_pair(pair)

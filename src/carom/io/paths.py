@@ -1,16 +1,19 @@
 """Names of files that users give, opening them, and writing them: whole or not at all.
 
 A link is followed, so that the file it points to is written and the link stays. A stream is what
-cannot be replaced: a pipe, a device, and whatever /dev/stdout is at the moment.
+cannot be replaced: a pipe, a device, and whatever /dev/stdout is at the moment. For commands "-" is
+the standard input.
 """
 
 import errno
+import io
 import os
 import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 from threading import Thread
@@ -22,6 +25,9 @@ DESCRIPTOR_FOLDERS = ("/dev/fd", "/proc/self/fd")  # in which a name is an open 
 STREAM_FORMATS = (".csv", ".png", ".gif", ".h", ".html")  # if it has no ending
 PIPE_SECONDS = 5.0  # that somebody has to open the other end of a pipe
 MOST_LINKS = 40  # that are followed, as the system does
+STANDARD_INPUT = "-"
+
+_standard: ContextVar[list[bytes] | None] = ContextVar("standard", default=None)  # its content
 
 
 def checked_path(what: str, path: str | Path, kind: str = "file") -> Path:
@@ -68,14 +74,20 @@ def checked_folder(folder: str | Path) -> tuple[Path, Path]:
     return target, real
 
 
+def new_folder(folder: str | Path) -> Path:
+    """Return the real path of a new or empty folder, or raise InputError."""
+    _, target = checked_folder(folder)
+    full = target.is_dir() and any(target.iterdir())
+    refuse(full and refusal("folder", str(folder), "it is not empty; give a new folder"))
+    return target
+
+
 def write_folder(folder: str | Path, files: Mapping[str, bytes]) -> None:
     """Write files into a new or empty folder, which appears whole or not at all.
 
     Raises InputError if there is something in the folder, or it cannot be written.
     """
-    _, target = checked_folder(folder)
-    full = target.is_dir() and any(target.iterdir())
-    refuse(full and refusal("folder", str(folder), "it is not empty; give a new folder"))
+    target = new_folder(folder)
     with accessing("folder", folder, "written"):
         temporary = Path(tempfile.mkdtemp(prefix=".carom-", dir=target.parent))
         try:
@@ -91,8 +103,30 @@ def write_folder(folder: str | Path, files: Mapping[str, bytes]) -> None:
             shutil.rmtree(temporary, ignore_errors=True)
 
 
+@contextmanager
+def reading_standard_input() -> Iterator[None]:
+    """Let "-" stand for the standard input inside of this context, as often as it is read."""
+    token = _standard.set([])
+    try:
+        yield
+    finally:
+        _standard.reset(token)
+
+
+def _standard_input(kept: list[bytes], mode: str, how: Mapping[str, Any]) -> Any:
+    if not kept:
+        if sys.stdin is None:
+            raise OSError(errno.EBADF, "the standard input is closed")
+        kept.append(sys.stdin.buffer.read())
+    content: Any = io.BufferedReader(io.BytesIO(kept[0]))
+    return content if "b" in mode else io.TextIOWrapper(content, **how)
+
+
 def opened(path: Path, mode: str = "r", **how: Any) -> Any:
     """Return an open file; raises OSError as `open`, and for a pipe that has no other end."""
+    kept = _standard.get()
+    if kept is not None and str(path) == STANDARD_INPUT and "r" in mode:
+        return _standard_input(kept, mode, how)
     if not path.is_fifo():
         return path.open(mode, **how)
     files: list[IO[Any]] = []

@@ -1,13 +1,20 @@
-"""The progress of long work, as a bar on a terminal or in a notebook, or for a function."""
+"""The progress of long work: a bar on a terminal or in a notebook, lines elsewhere, or a function.
+
+Where there is no terminal the commands print a line every ten seconds; a call of the library does
+so only if it is asked to, as it may be one of many that run at once.
+"""
 
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from datetime import timedelta
 from enum import Enum
 from functools import partial
 from threading import Event, Lock, Thread
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from carom.quantities.refusals import refusal
@@ -19,17 +26,20 @@ Listener = Callable[[int, int], object]  # takes how many are done, and of how m
 Progress = bool | Listener | None  # what functions take: whether a bar is shown, or who listens
 Advance = Callable[[int], object]  # what work calls with how many more are done
 
-SECONDS_BEFORE_BAR = 2.0
 _shown = Lock()  # one bar at a time: what is part of other work has none
 
 
 class Place(Enum):
-    """Where a bar is shown, and after how many seconds it is drawn again."""
+    """Where progress is shown, and after how many seconds again."""
 
     NOTEBOOK = 0.5
     TERMINAL = 0.1
     TEXT = 10.0
     NOWHERE = None
+
+
+PATIENCE = {Place.NOTEBOOK: 2.0, Place.TERMINAL: 2.0, Place.TEXT: 10.0}  # seconds before the first
+UNWATCHED: ContextVar[Place] = ContextVar("unwatched", default=Place.NOWHERE)  # without a terminal
 
 
 @dataclass
@@ -40,9 +50,24 @@ class _Work:
     unit: str
     total: int | None
     done: int
+    begun: float = field(default_factory=monotonic)
+
+    def __post_init__(self) -> None:
+        self._before = self.done
 
     def advance(self, more: int) -> None:
         self.done += more
+
+    def line(self) -> str:
+        """Return what is done, of how much, and the time that is left or has passed."""
+        passed, more = monotonic() - self.begun, self.done - self._before
+        counts = [f"{n:,}" for n in (self.done, self.total) if n is not None]
+        time = f"{timedelta(seconds=round(passed))} passed"
+        if self.total and more:
+            left = passed * max(self.total - self.done, 0) / more
+            time = f"{timedelta(seconds=round(left))} left"
+        told = "/".join(counts) + f" {self.unit}" * bool(self.unit)
+        return ", ".join([f"{self.what}: {told}" if self.total or self.unit else self.what, time])
 
 
 def advancing(
@@ -50,9 +75,10 @@ def advancing(
 ) -> AbstractContextManager[Advance]:
     """Return a context for long work; its value is a function to call with each progress.
 
-    After two seconds a bar on stderr shows the finished part and the time left. By default it is
-    shown in a notebook and on a terminal, with True anywhere, with False nowhere. A function is
-    called with the finished and the total number instead.
+    After two seconds a bar on stderr shows the finished part and the time left, where there is no
+    terminal a line every ten seconds. By default it is shown in a notebook and on a terminal, with
+    True anywhere, with False nowhere. A function is called with the finished and the total number
+    instead.
 
     Examples
     --------
@@ -72,8 +98,18 @@ def advancing(
     return nullcontext(work.advance) if where is Place.NOWHERE else _showing(where, work)
 
 
+@contextmanager
+def telling() -> Iterator[None]:
+    """Let work inside of this context print lines where there is no terminal."""
+    token = UNWATCHED.set(Place.TEXT)
+    try:
+        yield
+    finally:
+        UNWATCHED.reset(token)
+
+
 def place(progress: bool | None) -> Place:
-    """Return where a bar is shown; by default only on a terminal or in a notebook."""
+    """Return where progress is shown; by default on a terminal, in a notebook, and by commands."""
     if progress is False:
         return Place.NOWHERE
     ipython = sys.modules.get("IPython")  # which is not imported for it
@@ -81,7 +117,7 @@ def place(progress: bool | None) -> Place:
         return Place.NOTEBOOK
     if sys.stderr is not None and sys.stderr.isatty():
         return Place.TEXT if os.environ.get("TERM") == "dumb" else Place.TERMINAL
-    return Place.TEXT if progress else Place.NOWHERE
+    return Place.TEXT if progress else UNWATCHED.get()
 
 
 def _tell(listener: Listener, work: _Work, more: int) -> None:
@@ -111,7 +147,13 @@ def _showing(where: Place, work: _Work) -> Iterator[Advance]:
 
 def _paint(where: Place, work: _Work, over: Event) -> None:
     """Draw the bar again and again, from when the patience ends until the work is over."""
-    if over.wait(SECONDS_BEFORE_BAR):
+    if over.wait(PATIENCE[where]):
+        return
+    if where is Place.TEXT:
+        _print(work)
+        while not over.wait(where.value):
+            _print(work)
+        _print(work)
         return
     bar = _bar(where, work)
     task = bar.add_task(work.what, total=work.total, completed=work.done)
@@ -125,15 +167,17 @@ def _paint(where: Place, work: _Work, over: Event) -> None:
         bar.stop()
 
 
+def _print(work: _Work) -> None:
+    with suppress(OSError, ValueError):  # who has read it has gone; the work goes on
+        print(work.line(), file=sys.stderr, flush=True)
+
+
 def _drawing(where: Place, bar: "Bar") -> Callable[[], object]:
     """Draw the bar for the first time; return what draws it again."""
     if where is Place.TERMINAL:  # the cursor stays, so that a process that is killed leaves it
         bar.start()
         bar.console.show_cursor(True)
         return bar.refresh
-    if where is Place.TEXT:
-        bar.console.print(bar)
-        return partial(bar.console.print, bar)
     from IPython.display import display
 
     shown = display(bar, display_id=True)  # type: ignore[no-untyped-call]

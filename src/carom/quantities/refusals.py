@@ -1,9 +1,9 @@
 """Clear refusals: one line with the argument, its value, what is allowed, what to do.
 
-Of a file all faults are said in one message, instead of one a run.
+Of a file, a command line or the inputs of a call all faults are said in one message.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from reprlib import Repr
@@ -114,10 +114,10 @@ def _shown(value: Any) -> str:
 
 
 class Faults:
-    """What is wrong with a file: collected inside its context, and told in one message after it."""
+    """What is wrong with inputs: collected inside its context, and told in one message after it."""
 
-    def __init__(self) -> None:
-        self._messages: list[str] = []
+    def __init__(self, *messages: str) -> None:
+        self._messages = list(messages)
         self._collecting = False
 
     def __enter__(self) -> Self:
@@ -144,6 +144,15 @@ class Faults:
             yield
         except InputError as error:
             self.add(*(f"{heading(name)}: {fault}" if name else fault for fault in error.faults))
+
+    def trying(self, function: Callable[..., Any], *given: Any, **named: Any) -> Any:
+        """Return what a function returns, or None if it raises InputError, which is collected."""
+        with self.catching():
+            return function(*given, **named)
+
+    def if_given(self, reader: Callable[..., Any], name: str, value: Any, *more: Any) -> Any:
+        """Return what a reader makes of a named value, or None without one, as in `trying`."""
+        return None if value is None else self.trying(reader, name, value, *more)
 
     def settle(self) -> None:
         """Raise InputError if there are faults so far, before costly work."""

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.bodies import cases
+from carom.bodies.case_materials import material_values, read_material
 from carom.bodies.materials import STRENGTHS
 from carom.io.labels import attributes
 from carom.quantities.refusals import heading, hint, one_of, refusal, refuse
@@ -133,8 +134,8 @@ def read_choice(name: str, value: Any) -> Choice:
     """Return a choice, or raise InputError if there is none of that name."""
     if leaf(name) == "kind":
         return Choice(one_of("kind", value, cases.KINDS), {})
-    stuff = cases.read_material(value)
-    values = cases.material_values(stuff)
+    stuff = read_material(value)
+    values = material_values(stuff)
     elastic = {key: number for key, number in values.items() if key in ELASTIC}
     unnamed = ", ".join(f"{key}={number:g}" for key, number in elastic.items())
     label = value if isinstance(value, str) else stuff.name or unnamed

@@ -15,10 +15,8 @@ from carom.bodies.strengths import NO_STRENGTH
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.io.labels import attributes, flags, spheres
 from carom.quantities.refusals import checked_type, hint, one_of, refusal, refuse
-from carom.quantities.units import not_negative
 from carom.sweeps.designs import Box, Design, Values, chunk_shape, points_in
 from carom.sweeps.inputs import (
-    BODIES,
     CODE,
     ELASTIC,
     UNREADABLE,
@@ -113,7 +111,9 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
     if "second.kind" in names:
         kinds = tuple(choice.label for choice in design._choices["second.kind"])
     inherits = second.get("material") is None and "second.material" not in names
-    fixed = {n: v for n, v in _numbers(case) if not {n, n.rpartition(".")[0]} & {*names}}
+    fixed = {
+        n: v for n, v in cases.numbers_of(case).items() if not {n, n.rpartition(".")[0]} & {*names}
+    }
     yielding = set(losses) & set(LAWS_OF_STRENGTH)
     yields = bool(yielding - {*names, *fixed})
     if yields or "flow_stress" in yielding:  # which body yields is told by the strengths
@@ -137,25 +137,6 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
     if not any("." in name for name in names):
         cases.pair_of({**case, "friction": 0.0})  # bodies that do not fit are refused at once
     return whole
-
-
-def _numbers(case: cases.Case) -> Iterator[tuple[str, float]]:
-    """Yield the numbers of a case by name, each of them checked."""
-    for name, check in {"friction": not_negative, **cases.MOTION}.items():
-        if case.get(name) is not None:
-            yield name, check(name, case[name])
-    for name in (*cases.LOSSES, cases.RATIO):
-        if case.get(name) is not None and (value := cases.read_loss(name, case[name])) is not None:
-            yield name, value
-    for body in BODIES:
-        table = case.get(body, {})
-        sizes = cases.SIZES if body == "first" else {**cases.SIZES, **cases.PLATE}
-        for name, check in sizes.items():
-            if table.get(name) is not None:
-                yield f"{body}.{name}", check(name, table[name])
-        if table.get("material") is not None:
-            for name, value in cases.material_values(table["material"]).items():
-                yield f"{body}.material.{name}", value
 
 
 def _inherit(columns: dict[str, Any], *names: str) -> None:

@@ -12,6 +12,7 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset, pure
+from carom.io.progress import advancing
 from carom.quantities.arrays import POSITIVES, Array, finite_line, refuse_where
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, refusal, refuse
@@ -178,8 +179,9 @@ def error_map(
     psis = np.linspace(0.0, top, 121) if psi_1 is None else psi_line(psi_1)
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
     met = Impacts(psis, rows, kappa_or_solid(kappa, rows))
-    exact = rebound(psis, rows, losses=losses_of(met.restitution(rule)))
-    psi_out = met.rebound(rule, steps)
+    with advancing("mapping the errors", None):
+        exact = rebound(psis, rows, losses=losses_of(met.restitution(rule)))
+        psi_out = met.rebound(rule, steps)
     if not np.any(np.isfinite(psi_out)):
         met.refuse_failure(rule, psi_out)
     error = psi_out - exact

@@ -20,7 +20,7 @@ from carom.io.progress import Progress, advancing
 from carom.plots.result import card
 from carom.quantities.arrays import Array
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, one_of, refusal, refuse
+from carom.quantities.refusals import Faults, one_of, refusal, refuse
 from carom.quantities.units import finite, positive
 from carom.verify import errors
 from carom.verify.entries import CATALOGUE, LawOrFunction, as_law, called, listed
@@ -296,21 +296,25 @@ def setting_of(
     """Return what a tuning is for, a case with angles or chi with psi_1; e is 1 by default."""
     if case is None:
         return _without_bodies(chi, kappa, start, stop, restitution)
-    for name, value in (("chi", chi), ("kappa", kappa)):
-        if value is not None:
-            raise refusal(name, value, "it follows from the case; leave it out")
-    wanted: Any = restitution
-    if restitution is None:
-        wanted = errors.constant_restitution(losses_of(case)) or 1.0
-    e = damped_restitution("restitution", wanted)
-    pair, motion = pair_of(case), motion_of(case)
-    with_friction(pair, "without friction there is nothing to tune")
+    motion = motion_of(case)
     speeds = {name: motion.get(name) for name in SPEEDS}
     moves = any(value is not None for value in speeds.values())
-    speed = approach(**speeds)[0] if moves else DEFAULT_SPEED
+    with Faults() as faults:
+        given = {name: value for name, value in (("chi", chi), ("kappa", kappa)) if value}
+        words = "it follows from the case; leave it out"
+        faults.add(*(str(refusal(name, value, words)) for name, value in given.items()))
+        wanted: Any = restitution
+        if restitution is None:
+            wanted = errors.constant_restitution(faults.trying(losses_of, case)) or 1.0
+        e = faults.trying(damped_restitution, "restitution", wanted)
+        speed = faults.trying(approach, **speeds)[0] if moves else DEFAULT_SPEED
+        first = faults.trying(slope, start)
+        end = None if stop is None else faults.trying(slope, stop)
+        pair = pair_of(case)
+        with_friction(pair, "without friction there is nothing to tune")
     per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu
-    last = 4.0 * pair.chi if stop is None else per_slope * tan(slope(stop))
-    psi = _range(per_slope * tan(slope(start)), last, start, stop)
+    last = 4.0 * pair.chi if end is None else per_slope * tan(end)
+    psi = _range(per_slope * tan(first), last, start, stop)
     duration = DURATION * pair.scales(speed).time
     return Setting(pair.chi, pair.kappa, psi, e, pair, speed, duration)
 
@@ -318,15 +322,20 @@ def setting_of(
 def _without_bodies(
     chi: str | None, kappa: str | None, start: str, stop: str | None, restitution: str | None
 ) -> Setting:
-    if chi is None:
-        raise InputError("case: missing; give a case file, or --chi, e.g. --chi 1.44")
-    if restitution is not None and damped_restitution("restitution", restitution) != 1.0:
-        allowed = "it needs a case file, as dampings depend on the bodies"
-        raise refusal("restitution", restitution, allowed)
-    ratio = positive("chi", chi)
-    last = 4.0 * ratio if stop is None else finite("psi_in", stop)
-    own = None if kappa is None else positive("kappa", kappa)
-    return Setting(ratio, own, _range(finite("psi_in", start), last, start, stop))
+    with Faults() as faults:
+        e = 1.0
+        if restitution is not None:
+            e = faults.trying(damped_restitution, "restitution", restitution) or 1.0
+        if e != 1.0:
+            allowed = "it needs a case file, as dampings depend on the bodies"
+            faults.add(str(refusal("restitution", restitution, allowed)))
+        own = faults.if_given(positive, "kappa", kappa)
+        first = faults.trying(finite, "psi_in", start)
+        last = faults.if_given(finite, "psi_in", stop)
+        if chi is None:
+            faults.add("case: missing; give a case file, or --chi, e.g. --chi 1.44")
+        ratio = faults.if_given(positive, "chi", chi)
+    return Setting(ratio, own, _range(first, 4.0 * ratio if last is None else last, start, stop))
 
 
 def _range(first: float, last: float, start: str, stop: str | None) -> Array:
