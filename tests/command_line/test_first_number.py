@@ -112,3 +112,9 @@ def test_numba_is_refused_where_it_is_not_installed():
     ask = "import carom\ntry: carom.rebound(0.5, 1.44)\nexcept carom.InputError as e: print(e)"
     ran = python(HIDDEN + ask, CAROM_KERNELS="numba")
     assert ran.stdout == f"CAROM_KERNELS: numba is not installed; {INSTALL}\n"
+
+
+def test_an_exact_impact_by_the_command_waits_for_no_boundary_elements():
+    words = "impact --radius 5mm --material steel --friction 0.2 --speed 2 --angle 0.5".split()
+    program = f"import sys; from carom.cli import main; main({words})"
+    python(f"{program}; assert not {{'carom.halfspace', 'scipy.fft'}} & set(sys.modules)")

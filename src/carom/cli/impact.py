@@ -239,16 +239,18 @@ def _peaks(hit: "ImpactResult") -> Any:
 
 
 def _method(name: str, numbers: Mapping[str, str | None]) -> Any:
+    there = {key: text for key, text in numbers.items() if text is not None}
+    if not there:
+        return one_of("method", name, METHODS)
     from carom.impacts.boundary_elements import RANGES
 
-    there = {key: text for key, text in numbers.items() if text is not None}
     with Faults() as faults:
         faults.trying(one_of, "method", name, METHODS)
         counts = {n: faults.trying(whole, n, text, *RANGES[n]) for n, text in there.items()}
         words = "it is an option of boundary elements; add --method halfspace"
         if name == "exact":
             faults.add(*(str(refusal(key, value, words)) for key, value in counts.items()))
-    return carom.BoundaryElements(**counts) if counts else name
+    return carom.BoundaryElements(**counts)
 
 
 def _store(hit: "ImpactResult", files: Mapping[str, str]) -> Iterator[Path]:
