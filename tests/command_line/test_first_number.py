@@ -117,4 +117,4 @@ def test_numba_is_refused_where_it_is_not_installed():
 def test_an_exact_impact_by_the_command_waits_for_no_boundary_elements():
     words = "impact --radius 5mm --material steel --friction 0.2 --speed 2 --angle 0.5"
     program = f"import sys; from carom.cli import main; assert main({words!r}.split()) == 0"
-    python(f"{program}; assert not {{'carom.halfspace', 'scipy.fft'}} & set(sys.modules)")
+    python(f"{program}; assert 'carom.halfspace' not in sys.modules")

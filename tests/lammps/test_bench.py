@@ -14,7 +14,7 @@ pytestmark = pytest.mark.engine
 def built(plugin, monkeypatch):
     """The plugin where LAMMPS and the bench look for it."""
     monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(plugin))
-    monkeypatch.setattr(adapter, "folder", lambda version: plugin)
+    monkeypatch.setattr(adapter, "folder", lambda: plugin)
 
 
 def test_the_exact_law_passes(built, tmp_path, capsys):
@@ -46,7 +46,7 @@ def test_only_the_wheel_has_the_plugin(built, monkeypatch):
 
 
 def test_without_the_plugin_a_line_says_what_to_do(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(adapter, "folder", lambda version: tmp_path)
+    monkeypatch.setattr(adapter, "folder", lambda: tmp_path)
     assert not plugin_supports(carom.dem.ExactContactLaw(32))
     assert main(["verify", "lammps", "--law", "carom"]) == 2
     assert "until carom lammps build has built it" in capsys.readouterr().err
