@@ -292,15 +292,16 @@ def test_a_signal_while_others_are_awaited(asked, number, there):
     if asked == "lammps":
         while not (child.exists() and child.read_text().strip()) and time.monotonic() < late:
             time.sleep(0.1)
-    else:
-        time.sleep(3.0)
+    time.sleep(3.0)  # until the command waits, too
     process.send_signal(getattr(signal, number))
     assert process.wait(timeout=20) == CODES[number]
     assert process.communicate() == ("", STOPPED if number == "SIGINT" else "")
     if asked == "lammps":
-        time.sleep(0.5)
         state = Path(f"/proc/{int(child.read_text())}/stat")
-        assert not state.exists() or state.read_text().split()[2] == "Z"
+        late = time.monotonic() + 10.0
+        while state.exists() and state.read_text().split()[2] != "Z":
+            assert time.monotonic() < late
+            time.sleep(0.1)
     assert left(there) in (before, sorted([*before, "child"]))
 
 

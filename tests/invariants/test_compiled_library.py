@@ -9,6 +9,7 @@ import carom
 from carom.dem import lattice
 from carom.dimensionless import rebound_tables
 from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
 from carom.dimensionless.rebounds import lossy_rebounds
@@ -51,6 +52,7 @@ def calls(monkeypatch):
 
         return call
 
+    viscous_loss.cache_clear()  # of other tests in this process
     for kernel in ENTRIES:
         monkeypatch.setitem(kernel.__dict__, "compiled", checked(kernel))
     return counts
