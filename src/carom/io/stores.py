@@ -8,7 +8,6 @@ This needs zarr: import it by `extra`.
 """
 
 import json
-import uuid
 import warnings
 from hashlib import sha256
 from pathlib import Path
@@ -51,10 +50,10 @@ def read_store(path: Path) -> xr.Dataset:
 
 
 class SealedStore(LocalStore):
-    """Files of a store that zarr reads, with seals at the end of chunks."""
+    """Files of a store that zarr reads, and writes, with seals at the end of chunks."""
 
-    def __init__(self, root: Path) -> None:
-        super().__init__(root, read_only=True)
+    def __init__(self, root: Path, *, read_only: bool = True) -> None:
+        super().__init__(root, read_only=read_only)
         self._frozen = _checked_list(root)
         _check_codecs(root)
 
@@ -71,17 +70,11 @@ class SealedStore(LocalStore):
     def get_sync(self, key: str, *args: Any, **options: Any) -> Buffer | None:
         return self._checked(key, super().get_sync(key, *args, **options))
 
-    def write(self, key: str, plain: bytes) -> None:
-        """Write a chunk with its seal, whole or not at all."""
-        path = self.root / key
-        path.parent.mkdir(parents=True, exist_ok=True)
-        new = path.with_suffix(f".{uuid.uuid4().hex}.partial")
-        try:
-            new.write_bytes(plain + self._seal(key, plain))
-            new.replace(path)
-        except BaseException:
-            new.unlink(missing_ok=True)
-            raise
+    async def set(self, key: str, value: Buffer) -> None:
+        await super().set(key, self._sealed(key, value))
+
+    def set_sync(self, key: str, value: Buffer) -> None:
+        super().set_sync(key, self._sealed(key, value))
 
     def _checked(self, key: str, content: Buffer | None) -> Buffer | None:
         """Return what was read, or raise InputError if it is a chunk that is not as it was."""
@@ -96,6 +89,10 @@ class SealedStore(LocalStore):
             allowed = f"{key} is damaged; --resume (resume=True) computes it again"
             raise refusal("store", str(self.root), allowed)
         return content
+
+    def _sealed(self, key: str, content: Buffer) -> Buffer:
+        plain = content.to_bytes()
+        return type(content).from_bytes(plain + self._seal(key, plain))
 
     def _has_seal(self, key: str, content: bytes) -> bool:
         return content[-SEAL_LENGTH:] == self._seal(key, content[:-SEAL_LENGTH])
