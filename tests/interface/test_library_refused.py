@@ -75,7 +75,7 @@ def test_the_best_for_this_processor_is_used(folder):
     ("levels", "used"), [("1", 1), ("1 2", 1), ("0", 0), ("", "own"), ("4 1", "own")]
 )
 def test_the_environment_limits_the_level(folder, levels, used, monkeypatch):
-    """So that all machines of a cluster compute the same bits."""
+    """So that the same machine code is run on machines of several kinds."""
     contents = json.loads((folder / CONTENTS).read_text())
     own = contents["libraries"][0]["level"]
     libraries = [contents["libraries"][0] | {"level": level} for level in (0, 1, own)]
