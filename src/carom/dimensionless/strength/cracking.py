@@ -182,7 +182,8 @@ def intensity(contacts: Contacts, poisson: float, flaw: float = inf) -> Peak:
     sqrt(R* L); otherwise as `peaks`.
     """
     peak = _FlawSearch(contacts, poisson, flaw).peak()
-    return peak if peak.value > LEAST_PULL else peak._replace(value=0.0)
+    value = peak.value if peak.value > LEAST_PULL else 0.0
+    return peak._replace(value=value, z=min(peak.z, flaw))
 
 
 def cracking_width(contacts: Contacts, poisson: float, flaw: float, wanted: float) -> float:

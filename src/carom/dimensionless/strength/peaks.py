@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.dimensionless.fields import peaks as instant
-from carom.dimensionless.fields.peaks import COSINE, DEPTH, MEASURES, RADIUS, VALUE
+from carom.dimensionless.fields.peaks import COSINE, DEPTH, GOLDEN, MEASURES, RADIUS, VALUE
 from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.fields.subsurface import Load, load_of
 from carom.dimensionless.lossy.solution import LossySolution
@@ -126,20 +126,19 @@ class Search(ABC):
 
     def _between(self, times: Array, i: int, start: Array) -> tuple[float, Array]:
         """Return the instant and the place of a peak, between the neighbours of an instant."""
-        from scipy.optimize import minimize_scalar
-
         low, time, high = times[[max(i - 1, 0), i, min(i + 1, times.size - 1)]].tolist()
-        row = self.climbed(time, start, FIRST_STEP)
-        best = [(time, row)]
-
-        def lost(instant: float) -> float:
-            best.append((float(instant), self.climbed(float(instant), row, NEXT_STEP)))
-            return -float(best[-1][1][VALUE])
-
-        if high > low:
-            options = {"xatol": INSTANT_TOLERANCE * (high - low)}
-            minimize_scalar(lost, bounds=(low, high), method="bounded", options=options)
-        return max(best, key=lambda one: one[1][VALUE])
+        first = best = self.climbed(time, start, FIRST_STEP)
+        tolerance = INSTANT_TOLERANCE * (high - low)
+        while high - low > tolerance:  # golden sections: scipy.optimize takes longer to load
+            later = high - time > time - low
+            instant = time + (1.0 - GOLDEN) * ((high if later else low) - time)
+            row = self.climbed(instant, first, NEXT_STEP)
+            if row[VALUE] > best[VALUE]:
+                low, high = (time, high) if later else (low, time)
+                time, best = instant, row
+            else:
+                low, high = (low, instant) if later else (instant, high)
+        return time, best
 
 
 def _maxima(values: Array, least: float) -> list[int]:
