@@ -15,7 +15,7 @@ from carom.plots.legends import wrapped
 from carom.plots.regime_map import group_of
 from carom.plots.regimes import REGIMES, regime_of
 from carom.plots.region_labels import SMALLEST_LABEL, find_labels, in_letters
-from carom.plots.regions import area, limits, regions
+from carom.plots.regions import limits, regions
 
 SPACES = str.maketrans({"\n": " ", "\u00a0": " "})
 
@@ -29,7 +29,6 @@ def maps():
     fine = [name for name in few.variables if name.startswith(("border_", "outline_"))]
     return {
         "many": many,
-        "old": many.drop_vars([name for name in many.variables if name.startswith("outline_")]),
         "few": few,
         "points": few.drop_vars(fine),
         "half": carom.regime_map(line(0.0, 2.0, 21), line(0.3, 0.6, 13)),
@@ -48,7 +47,7 @@ def drawn(maps):
     return cache(lambda name, width: plot_regime_map(maps[name], width=width))
 
 
-NAMES = ("many", "few", "half", "mirrored", "row", "points")  # "old" has the regions of "many"
+NAMES = ("many", "few", "half", "mirrored", "row", "points")
 
 
 @pytest.mark.slow
@@ -148,34 +147,21 @@ def test_the_borders_part_the_regimes(maps):
 
 @pytest.mark.slow
 def test_edges_are_curves_and_not_pixels(maps, drawn, regions_of, tmp_path):
-    """There is no picture in a vector file; and steps only where a dataset has no borders.
+    """There is no picture in a vector file; and steps only where a dataset has no outlines.
 
     Steps are horizontal or vertical, but for corners that are cut by at most half a cell.
     """
     stored = save_figure(drawn("many", 178.0), tmp_path / "map.svg")
     assert "<image" not in stored.read_text(encoding="utf-8")
     slopes, cells = {}, np.diff(maps["points"].psi_in.values[:2])  # as high as they are wide
-    for name in ("many", "old", "points"):
+    for name in ("many", "points"):
         rings = [ring for region in regions_of(name) for ring in region.rings]
         steps = np.concatenate([np.diff(ring, axis=0) for ring in rings])
         slopes[name] = len(np.unique(np.round(np.arctan2(steps[:, 1], steps[:, 0]), 6)))
-    assert min(slopes["many"], slopes["old"]) > 200
+    assert slopes["many"] > 200
     slanted = np.abs(steps[np.all(np.abs(steps) > 1e-9, axis=1)] / cells)
     assert slanted.size
     assert slanted.max() < 0.5 + 1e-9
-
-
-def test_maps_of_version_0_2_are_drawn_by_their_borders(maps, regions_of):
-    """As finely as with outlines: a sequence's share of the map is the same to a thousandth."""
-    share = {}
-    for name in ("many", "old"):
-        for region in regions_of(name):
-            key = name, region.name
-            share[key] = share.get(key, 0.0) + sum(area(ring) for ring in region.rings)
-    whole = np.prod([np.ptp(limits(maps["many"], axis)) for axis in ("psi_in", "chi")])
-    for name in maps["many"].sequence_met.values.tolist():
-        apart = share.get(("many", name), 0.0) - share.get(("old", name), 0.0)
-        assert abs(apart) < 1e-3 * whole, name
 
 
 def test_what_is_not_resolved_is_said_to_be(maps):

@@ -68,8 +68,7 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     The colour of a region is that of its regime, how the impact begins, the darker the more often
     slip reverses. Its label is the sequence of phases in letters, at the end of a line where it has
     no room inside, or a number that is explained below the map. Regions narrower than 0.2 mm are
-    listed there. A dataset without outlines is drawn by its borders, to a thousandth of its width,
-    if it is of version 0.2, else by its points.
+    listed there. A dataset without outlines is drawn by its points.
 
     Examples
     --------

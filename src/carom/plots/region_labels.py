@@ -1,7 +1,5 @@
 """Labels of a map's regions: sequences of phases in letters, and where each of them goes."""
 
-from collections.abc import Callable, Iterator
-from functools import cache
 from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
@@ -21,9 +19,8 @@ PIXEL, PIXELS = 0.15, 1000  # mm, and how many across a large map
 SMALLEST_LABEL = 0.2  # width in mm of a region that has a label
 APART = 0.6  # of labels and of what is around them, in mm
 LEADER, LONGEST = 2.5, 40.0  # leader lines, in mm
-SPOTS = 2400  # places for labels with leader lines that are compared
-TRIALS, SWEEPS, CHANCE, IN_THE_WAY = 8, 80, 15.0, 400.0
-NUMBER, LOST = 200.0, 1000.0  # cost of a number instead of words, and of no label, in mm
+WORDS = LONGEST, 20.0, 10.0, 0.0  # the longest to words, in turn, until each region has a label
+SPOTS = 200  # places for a label with a leader line that are compared
 ON_BORDER = 3.0  # by how much more a leader line costs where it is on a border
 BY_OTHER, CLOSE = 6.0, 0.9  # the same for a line that is close to where another begins, in mm
 DOT = 4  # pixels around the beginning of a leader line, which labels keep clear of
@@ -56,13 +53,6 @@ class Label(NamedTuple):
             return self.at
         half = 0.5 * np.array([self.block.width, self.block.height])
         return np.clip(self.start, self.at - half, self.at + half)
-
-
-class Spot(NamedTuple):
-    """A place for a label, and what it costs, in mm of leader lines."""
-
-    cost: float
-    label: Label
 
 
 class Labels(NamedTuple):
@@ -102,22 +92,10 @@ def find_labels(
     inside = {n: sheet.inside(n, _blocks(names[n])) for n in wide}
     placed = {n: label for n, label in inside.items() if label}
     for label in placed.values():
-        sheet.keep_lines_off(label)
+        sheet.keep_off_label(label)
     marked = sorted(inside.keys() - placed.keys(), key=lambda n: -poles[n][0][1])
-    anchors = np.array([poles[n][0] for n in marked]).reshape(-1, 2)
     number = _block(["0" * len(str(len(marked)))])
-    within = [sheet.inside(n, [number]) for n in marked]
-    sheet.keep_off_starts(anchors)
-    spots = [
-        [
-            *sheet.beside(anchors, k, _blocks(names[n])[:-1]),
-            *sheet.beside(anchors, k, [number], NUMBER),
-            *(Spot(NUMBER, label) for label in within[k : k + 1] if label),
-        ]
-        for k, n in enumerate(marked)
-    ]
-    chosen = dict(zip(marked, without_overlaps(spots), strict=True))
-    placed |= {n: label for n, label in chosen.items() if label}
+    placed |= _find_room(sheet, {n: poles[n][0] for n in marked}, names, number)
     short = [n for n in marked if n in placed and placed[n].block == number]
     numbered = list(dict.fromkeys(names[n] for n in short))
     for n in short:
@@ -125,6 +103,28 @@ def find_labels(
     seen = {names[n] for n in wide}
     narrow = [name for name in names if name not in seen]
     return Labels(placed, numbered, narrow, [names[n] for n in wide if n not in placed])
+
+
+def _find_room(
+    sheet: "Sheet", starts: dict[int, Array], names: list[str], number: Block
+) -> dict[int, Label]:
+    """Return labels for regions too small for their words: those on a short line, or numbers."""
+    anchors, busy = np.array([*starts.values()]).reshape(-1, 2), sheet.busy
+    sheet.keep_off_starts(anchors)
+    best: dict[int, Label] = {}
+    for longest in WORDS:
+        sheet.busy, labels = busy.copy(), dict[int, Label]()
+        for k, n in enumerate(starts):
+            label = sheet.beside(anchors, k, _blocks(names[n])[:-1], longest)
+            label = label or sheet.inside(n, [number])
+            label = label or sheet.beside(anchors, k, [number], LONGEST)
+            if label:
+                labels[n] = label
+                sheet.keep_off_label(label)
+        best = max(best, labels, key=len)
+        if len(best) == len(starts):
+            break
+    return best
 
 
 def _blocks(name: str) -> list[Block]:
@@ -158,7 +158,6 @@ class Sheet:
         around = (maximum_filter(self.owner, 3), minimum_filter(self.owner, 3))
         self.lines = np.not_equal(*around)
         self.busy = np.zeros(self.owner.shape, dtype=np.bool_)
-        self.places: dict[tuple[float, float], Array] = {}  # of labels, once nothing more is busy
 
     def keep_off(self, points: Array) -> None:
         """Keep labels off a line through points in mm."""
@@ -192,36 +191,29 @@ class Sheet:
                 return Label(block, self._place(window, best))
         return None
 
-    def beside(
-        self, anchors: Array, k: int, blocks: list[Block], extra: float = 0.0
-    ) -> Iterator[Spot]:
-        """Yield places in free room on short leaders; borders and anchors of others cost more."""
-        most = SPOTS // (3 * len(anchors))
-        start, others = anchors[k], np.delete(anchors, k, axis=0)
+    def beside(self, anchors: Array, k: int, blocks: list[Block], longest: float) -> Label | None:
+        """Place one of some blocks in free room on a short leader, off borders, others' anchors."""
+        start, others, spots = anchors[k], np.delete(anchors, k, axis=0), []
         for block in blocks:
             half = 0.5 * np.array([block.width, block.height])
             places = self._free_places(block)
             ends = np.clip(start, places - half, places + half)
             length = np.hypot(*(ends - start).T)
-            allowed = (length >= LEADER) & (length <= LONGEST)
-            for i in np.argsort(np.where(allowed, length, np.inf))[: min(most, allowed.sum())]:
+            allowed = (length >= LEADER) & (length <= longest)
+            for i in np.argsort(np.where(allowed, length, np.inf))[: min(SPOTS, allowed.sum())]:
                 line = self._along(start, ends[i])
                 if not self.busy[line].any():
-                    cost = length[i] * (1.0 + ON_BORDER * self.lines[line].mean())
                     points = np.column_stack(line[::-1]) * self.pixel
                     close = np.hypot(*(points[:, np.newaxis] - others).T).min(axis=-1) < CLOSE
-                    cost += BY_OTHER * close.sum() + extra
-                    yield Spot(cost, Label(block, places[i], start))
+                    cost = length[i] * (1.0 + ON_BORDER * self.lines[line].mean())
+                    spots.append((cost + BY_OTHER * close.sum(), Label(block, places[i], start)))
+        return min(spots, key=lambda spot: spot[0])[1] if spots else None
 
     def _free_places(self, block: Block) -> Array:
         """Return where a label could stand in free room, in mm: a lattice of places."""
-        size = block[1:3]
-        if size not in self.places:
-            stride = int(np.ceil((_block([""]).height + APART) / self.pixel / 2.0))
-            fits = self._fits(~self.busy & ~self.lines, block)[::stride, ::stride]
-            at = np.argwhere(fits)[:, ::-1] * stride + 0.5
-            self.places[size] = np.asarray(at * self.pixel, dtype=np.float64)
-        return self.places[size]
+        stride = int(np.ceil((_block([""]).height + APART) / self.pixel / 2.0))
+        fits = self._fits(~self.busy & ~self.lines, block)[::stride, ::stride]
+        return np.asarray((np.argwhere(fits)[:, ::-1] * stride + 0.5) * self.pixel)
 
     def _fits(self, free: Mask, block: Block) -> Mask:
         size = [int(np.ceil((side + APART) / self.pixel)) for side in (block.height, block.width)]
@@ -233,12 +225,14 @@ class Sheet:
         row, column = np.unravel_index(index, shape)
         return self.pixel * np.array([window[1].start + column + 0.5, window[0].start + row + 0.5])
 
-    def keep_lines_off(self, label: Label) -> None:
-        """Keep other labels and leader lines off a label."""
+    def keep_off_label(self, label: Label) -> None:
+        """Keep other labels and leader lines off a label and its own line."""
         half = 0.5 * np.array([label.block.width, label.block.height]) + 0.5 * APART
         low, high = ((label.at + side) / self.pixel for side in (-half, half))
         column, row = np.maximum(0, low).astype(int)
         self.busy[row : int(high[1]) + 1, column : int(high[0]) + 1] = True
+        if label.start is not None:
+            self.busy[self._along(label.start, label.end)] = True
 
     def _along(self, start: Array, end: Array) -> tuple[Any, Any]:
         """Return rows and columns of the pixels of a straight line."""
@@ -246,73 +240,3 @@ class Sheet:
         columns, rows = (np.linspace(start, end, count) / self.pixel).astype(int).T
         high, wide = self.owner.shape
         return np.clip(rows, 0, high - 1), np.clip(columns, 0, wide - 1)
-
-
-def without_overlaps(spots: list[list[Spot]]) -> list[Label | None]:
-    """Return a label of each list or none, no two meeting, at least cost: simulated annealing."""
-    every = [spot for choice in spots for spot in choice]
-    ends = np.cumsum([0, *map(len, spots)])
-    own = [slice(*pair) for pair in pairwise(ends) if pair[0] < pair[1]]
-    if not own:
-        return [None] * len(spots)
-    meets = _meeting([spot.label for spot in every])
-    costs, rng = np.array([spot.cost for spot in every]), np.random.default_rng(0)
-    kept = [_annealed(rng, own, costs, meets) for _ in range(TRIALS)]
-    best = min(kept, key=lambda chosen: costs[chosen].sum() - LOST * len(chosen))
-    taken = {int(np.searchsorted(ends, k, side="right")) - 1: every[k].label for k in best}
-    return [taken.get(k) for k in range(len(spots))]
-
-
-def _meeting(labels: list[Label]) -> Callable[[int], Mask]:
-    """Return what tells which labels one meets: by places, or leaders that cross a diagonal."""
-    at, end = (np.array([getattr(label, name) for label in labels]).T for name in ("at", "end"))
-    start = np.array([one.at if one.start is None else one.start for one in labels]).T
-    half = 0.5 * np.array([one.block[1:3] for one in labels]).T + 0.5 * APART
-    falling = half * np.array([[1.0], [-1.0]])
-    lines = [(start, end), (at - half, at + half), (at - falling, at + falling)]
-    begin, stop = (np.hstack(ends) for ends in zip(*lines, strict=True))
-
-    @cache
-    def meets(k: int) -> Mask:
-        own = np.s_[:, k : k + 1]
-        apart = np.abs(at - at[own]) - half - half[own]
-        meet = (apart[0] < 0.0) & (apart[1] < 0.0)
-        meet |= _crossing(start[own], end[own], begin, stop).reshape(len(lines), -1).any(axis=0)
-        for low, high in lines[1:]:
-            meet |= _crossing(low[own], high[own], start, end)
-        return np.asarray(meet)
-
-    return meets
-
-
-def _crossing(a: Array, b: Array, c: Array, d: Array) -> Mask:
-    """Tell which of the lines from c to d the line from a to b crosses."""
-    crossed = _sides(a, b, c) * _sides(a, b, d) < 0.0
-    c, d = c[:, crossed], d[:, crossed]
-    crossed[crossed] = _sides(c, d, a) * _sides(c, d, b) < 0.0
-    return crossed
-
-
-def _sides(start: Array, end: Array, points: Array) -> Array:
-    """Return on which side of lines points lie, by sign."""
-    (x, y), (u, v) = end - start, points - start
-    return np.asarray(x * v - y * u)
-
-
-def _annealed(
-    rng: np.random.Generator, own: list[slice], costs: Array, meets: Callable[[int], Mask]
-) -> list[int]:
-    """Return the spots of most labels, each among its own, of which no two meet."""
-    chosen = [part.start + int(costs[part].argmin()) for part in own]
-    hits = np.sum([meets(k) for k in chosen], axis=0)
-    for late in np.linspace(0.0, 1.0, SWEEPS):
-        chance, in_the_way = CHANCE * (1.0 - late), IN_THE_WAY * (0.2 + late)
-        for i in rng.permutation(len(own)).tolist():
-            hits -= meets(chosen[i])
-            cost = costs[own[i]] + in_the_way * hits[own[i]]
-            cost -= chance * rng.gumbel(size=cost.size)
-            chosen[i] = own[i].start + int(cost.argmin())
-            hits += meets(chosen[i])
-    while (often := np.sum([meets(k)[chosen] for k in chosen], axis=0)).max() > 1:
-        chosen.pop(int(often.argmax()))
-    return chosen

@@ -5,12 +5,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.path import Path
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import KDTree
 
-from carom.plots.outlines import changes, lattice, outlines
+from carom.plots.outlines import lattice, outlines
 from carom.quantities.arrays import Array
 
-DENSE, PIXELS = 20, 700  # points on a piece of a border, and how many across a map, of version 0.2
 WIDER = 0.05  # by which a map of a single value is wider than nothing
 
 
@@ -42,11 +40,7 @@ def limits(dataset: Any, name: str) -> tuple[float, float]:
 def regions(dataset: Any) -> list[Region]:
     """Return the regions of a map of regimes, the largest first."""
     by_number: dict[int, Region] = {}
-    read = _of_points
-    if dataset.sizes.get("outline"):
-        read = _stored
-    elif "outline_psi" not in dataset and dataset.sizes.get("border_curve"):
-        read = _of_borders
+    read = _stored if dataset.sizes.get("outline") else _of_points
     for number, name, points in read(dataset):
         by_number.setdefault(number, Region(name, [])).rings.append(points)
     return sorted(by_number.values(), key=lambda region: -area(region.rings[0]))
@@ -60,35 +54,9 @@ def area(ring: Array) -> float:
 
 def _stored(dataset: Any) -> Any:
     names = dataset["outline_sequence"].values.tolist()
-    rings = _lines(dataset, "outline")
+    points = np.column_stack([dataset["outline_psi"].values, dataset["outline_chi"].values])
+    rings = np.split(points, np.cumsum(np.bincount(dataset["outline_number"].values))[:-1])
     return zip(dataset["outline_region"].values, names, rings, strict=True)
-
-
-def _lines(dataset: Any, kind: str) -> list[Array]:
-    points = np.column_stack([dataset[f"{kind}_psi"].values, dataset[f"{kind}_chi"].values])
-    return np.split(points, np.cumsum(np.bincount(dataset[f"{kind}_number"].values))[:-1])
-
-
-def _of_borders(dataset: Any) -> Any:
-    """Return outlines of an image, by the nearest border of a map of version 0.2."""
-    low, high = np.transpose([limits(dataset, name) for name in ("psi_in", "chi")])
-    lines = [(line - low) / (high - low) for line in _lines(dataset, "border")]
-    fine = [np.asarray(Path(line).interpolated(DENSE).vertices) for line in lines]
-    points = np.concatenate([0.5 * (line[1:] + line[:-1]) for line in fine])
-    along = np.concatenate([np.diff(line, axis=0) for line in fine])
-    curve = np.repeat(np.arange(len(fine)), [len(line) - 1 for line in fine])
-    sides = [dataset[f"border_{side}"].values for side in ("right", "left")]
-    names, codes = np.unique(sides, return_inverse=True)
-    nearest, places = KDTree(points), lattice(*np.linspace((0.0, 0.0), (1.0, 1.0), PIXELS).T)
-    k = nearest.query(places[::2, ::2])[1]
-    (x, y), (u, v) = along[k].T, (places[::2, ::2] - points[k]).T
-    left = (x * v - y * u > 0.0).T.astype(np.int64)
-    labels = codes.reshape(2, -1)[left, curve[k]]
-    crossed = changes(labels) == 1
-    crossed[1::2, 1::2] = False
-    places[crossed] = points[nearest.query(places[crossed])[1]]
-    rings = outlines(labels, places * (high - low) + low)
-    return ((ring.region, names[ring.label], ring.points) for ring in rings)
 
 
 def _of_points(dataset: Any) -> Any:
