@@ -1,5 +1,7 @@
 """Storing results as NetCDF, exporting them as CSV, reading them; files are replaced whole."""
 
+import re
+import tomllib
 import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -10,6 +12,7 @@ from carom.io.extras import extra
 from carom.io.netcdf_format import read_netcdf, write_netcdf
 from carom.io.paths import accessing, checked_output, checked_path, ending_of, opened, replace_whole
 from carom.quantities.refusals import InputError, refusal, refuse
+from carom.quantities.units import finite_or_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,6 +24,7 @@ EXPORTED = (
     "one of Carom 0.2 there by carom.save(carom.read('x.csv'), 'x.nc')"
 )
 LONGEST_TEXT = 1_000_000  # characters
+DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
 FIGURES = (".png", ".pdf", ".svg")
 DOCUMENTS = (".html", ".pdf")
 ANIMATIONS = (".gif", ".mp4")
@@ -137,15 +141,23 @@ def read_dataset(source: Path) -> "xr.Dataset":
     raise refusal("file", str(source), reason)
 
 
-def read_text(what: str, path: str | Path) -> str:
-    """Return the text of a file that a user names, with line ends of Unix.
-
-    Raises InputError if it cannot be read or is too long, and UnicodeDecodeError if it is not in
-    UTF-8.
-    """
+def read_toml(what: str, path: str | Path, remedy: str = "") -> tuple[dict[str, Any], str]:
+    """Return the content of a TOML file that a user names, and its text, or raise InputError."""
     file = checked_path(what, path)
-    with accessing(what, path, "read"), opened(file, encoding="utf-8-sig") as content:
-        text: str = content.read(LONGEST_TEXT + 1)
-    long = f"it is longer than {LONGEST_TEXT} characters"
-    refuse(len(text) > LONGEST_TEXT and refusal(what, str(path), long))
-    return text
+    try:
+        with accessing(what, path, "read"), opened(file, encoding="utf-8-sig") as content:
+            text: str = content.read(LONGEST_TEXT + 1)
+        long = f"it is longer than {LONGEST_TEXT} characters"
+        refuse(len(text) > LONGEST_TEXT and refusal(what, str(path), long))
+        if DEEP.search(text):  # which takes memory with the square of the depth
+            raise RecursionError
+        return tomllib.loads(text, parse_float=finite_or_text), text
+    except InputError:
+        raise
+    except UnicodeDecodeError:
+        reason = "is not text; give a TOML file"
+    except ValueError as error:  # of tomllib; for integers of many digits Python's own
+        reason = f"is not TOML; {error}"
+    except RecursionError:
+        reason = "cannot be used; its tables are nested too deeply"
+    raise InputError(f"{what}: {str(path)!r} {reason}{remedy}")

@@ -2,14 +2,13 @@
 
 import json
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from math import isclose, pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from carom.io.files import read_text
+from carom.io.files import read_toml
 from carom.io.rows import Column
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, checked_type, heading, hint, nearest, refusal
@@ -53,13 +52,8 @@ def table_format(columns: Any, sheet: Any = None, decimal: Any = None) -> TableF
 
 def _stored(path: str | Path) -> dict[str, Any]:
     """Return what a TOML file says, or raise InputError."""
-    example = 'it must have a table [columns], e.g. "omega [rpm]" = "spin_out"'
-    try:
-        read = tomllib.loads(read_text("columns", path))
-    except UnicodeDecodeError:
-        raise refusal("columns", str(path), f"it is not text; {example}") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise refusal("columns", str(path), f"it is not TOML, {error}; {example}") from None
+    remedy = '; it must have a table [columns], e.g. "omega [rpm]" = "spin_out"'
+    read, _ = read_toml("columns", path, remedy)
     names = TableFormat._fields
     for key in filter(lambda key: key not in names, read):
         raise InputError(f"columns: {heading(key)!r} in {path} is unknown; {hint(key, names)}")
