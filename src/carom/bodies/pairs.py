@@ -15,10 +15,8 @@ from carom.bodies.smooth_body import Body
 from carom.dimensionless.ellipse import Ellipse, contact_ellipse, stiffness_ratios
 from carom.quantities.arrays import Array
 from carom.quantities.elementwise import quotient, sqrt, where
-from carom.quantities.keywords import known_keywords
-from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, checked_type, refusal, refuse
-from carom.quantities.shown import Printed
+from carom.quantities.prefixes import Printed, text
+from carom.quantities.refusals import InputError, checked_type, known_keywords, refusal, refuse
 from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup

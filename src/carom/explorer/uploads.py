@@ -24,9 +24,9 @@ from carom.fitting import Estimate, Fit, fit
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
 from carom.fitting.reading import read_measurements, read_problem, read_rebounds
+from carom.io.cells import Column
 from carom.io.heads import TableFormat, table_format
 from carom.io.remedies import Remedies, offering
-from carom.io.rows import Column
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text

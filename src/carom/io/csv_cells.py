@@ -9,8 +9,7 @@ from functools import partial
 from itertools import chain, islice
 from typing import Any, TextIO
 
-from carom.io.decimals import is_number
-from carom.io.rows import Column, is_missing
+from carom.io.cells import Column, is_missing, is_number
 from carom.io.table_rows import HEAD_ROWS, RowSource, read_rows
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import refusal

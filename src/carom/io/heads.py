@@ -8,8 +8,8 @@ from math import isclose, pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from carom.io.cells import Column
 from carom.io.files import read_toml
-from carom.io.rows import Column
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, checked_type, heading, hint, nearest, refusal
 from carom.quantities.texts import LONGEST_TEXT, UNCHANGED, is_unit

@@ -12,10 +12,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.io.decimals import Cells, is_number, sign_of
+from carom.io.cells import (
+    ERROR_CELL,
+    Cells,
+    Column,
+    is_blank,
+    is_missing,
+    is_number,
+    letter_of,
+    named,
+    sign_of,
+)
 from carom.io.heads import parts_of
 from carom.io.progress import advancing
-from carom.io.rows import ERROR_CELL, Column, is_blank, is_missing, letter_of, named
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.texts import is_unit

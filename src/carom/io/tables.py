@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from carom.io.cells import GAP, Column, is_missing
 from carom.io.csv_cells import read_csv
 from carom.io.heads import TableFormat, renamed, spelled, table_format
 from carom.io.paths import accessing, checked_path, opened
-from carom.io.rows import GAP, Column, is_missing
 from carom.io.spreadsheets import STARTS, read_spreadsheet
 from carom.io.table_rows import MOST_COLUMNS
 from carom.io.user_table import UserTable
