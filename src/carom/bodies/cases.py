@@ -190,19 +190,14 @@ def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
 
 def numbers_of(case: Mapping[str, Any]) -> dict[str, float]:
     """Return the numbers of a case of round bodies by name, or raise InputError with all faults."""
-    read: dict[str, Any] = {}
+    losses = dict.fromkeys((*LOSSES, RATIO), read_loss)
     with Faults() as faults:
-        for name, check in {"friction": not_negative, **MOTION}.items():
-            if case.get(name) is not None:
-                read[name] = faults.trying(check, name, case[name])
-        for name in (*LOSSES, RATIO):
-            if case.get(name) is not None:
-                read[name] = faults.trying(read_loss, name, case[name])
-        for body in ("first", "second"):
+        readers = {"friction": not_negative, **MOTION, **losses}
+        read = {n: faults.if_given(check, n, case.get(n)) for n, check in readers.items()}
+        for body, sizes in (("first", SIZES), ("second", {**SIZES, **PLATE})):
             table = case.get(body, {})
-            sizes = SIZES if body == "first" else {**SIZES, **PLATE}
-            for name in filter(lambda size: table.get(size) is not None, sizes):
-                read[f"{body}.{name}"] = faults.trying(sizes[name], name, table[name])
+            for name, check in sizes.items():
+                read[f"{body}.{name}"] = faults.if_given(check, name, table.get(name))
             if table.get("material") is not None:
                 known = faults.trying(material_values, table["material"]) or {}
                 read |= {f"{body}.material.{name}": value for name, value in known.items()}
@@ -211,18 +206,14 @@ def numbers_of(case: Mapping[str, Any]) -> dict[str, float]:
 
 def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
     """Return the law by which the normal motion of a case loses energy, or None."""
-    names = [name for name in LOSSES if case.get(name) is not None]
-    there = [*names, *([RATIO] if case.get(RATIO) is not None else [])]
+    there = [name for name in (*LOSSES, RATIO) if case.get(name) is not None]
+    names = [name for name in there if name != RATIO]
     with Faults() as faults:
         if len(names) > 1:
             faults.add(f"{names[1]}: give it or {names[0]}, not both; {ONE_LOSS}")
         faults.trying(refuse_half, there)
-        for name in there:
-            faults.trying(read_loss, name, case[name])
-    if not names:
-        return None
-    ratio = case.get(RATIO, 1.0)
-    return law_of(names[0], read_loss(names[0], case[names[0]]), ratio)
+        read = {name: faults.trying(read_loss, name, case[name]) for name in there}
+    return law_of(names[0], read[names[0]], read.get(RATIO, 1.0)) if names else None
 
 
 def law_of(name: str, value: Any, ratio: Any = 1.0) -> "LossLaw":

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any, cast
 
 from carom.bodies.materials import VALUES, Material, as_material, set_fields
-from carom.quantities.elementwise import sqrt
+from carom.quantities.arrays import sqrt
 from carom.quantities.prefixes import Printed, text
 from carom.quantities.refusals import Faults, known_keywords, refusal, refuse
 from carom.quantities.units import Value, not_negative, positive

@@ -6,7 +6,7 @@ columns of the file that tell have them; otherwise it is asked.
 """
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -138,7 +138,8 @@ class Cells:
     with decimal commas, too.
     """
 
-    decimal: str = ""
+    letter: str
+    decimal: str
     parts: list[Any] = field(default_factory=list)
     sure: dict[str, tuple[int, str]] = field(default_factory=dict)
     unsure: dict[str, tuple[int, str]] = field(default_factory=dict)
@@ -182,7 +183,37 @@ class Cells:
             if len(self.sure) == 2:
                 return
 
-    def with_points(self, sign: str) -> Any:
+    def column(self, head: str, told: set[str], rows: Any) -> Column:
+        """Return the column, with decimal points, or with its fault if the sign is not sure.
+
+        `told` holds the signs that are sure in columns of the file, `rows` the numbers of its rows.
+        """
+        there = self.unsure | self.sure
+        shown = {
+            sign: f"{text} in cell {self.letter}{rows[place]}"
+            for sign, (place, text) in there.items()
+        }
+        sign, fault = COMMA if COMMA in there else POINT, ""
+        open_signs = [each for each in (COMMA, POINT) if self._is_open(each, told)]
+        if self.decimal:
+            sign = self.decimal
+            wrong = sign == COMMA and POINT in there
+            fault = f"{shown[POINT]} has a decimal point, not a comma" if wrong else ""
+        elif len(there) == 2:
+            sign = POINT
+            fault = f"{shown[COMMA]} and {shown[POINT]} have different decimal signs; write one, "
+            fault += "and no separators of thousands"
+        elif open_signs:
+            sign = open_signs[0]
+            fault = _asked(shown[sign], there[sign][1], sign)
+        return Column(head, self._with_points(sign), "", fault, self.letter)
+
+    def _is_open(self, sign: str, told: set[str]) -> bool:
+        """Tell whether a sign may part thousands, as far as all columns of the file tell."""
+        asked = sign == COMMA or COMMA in told
+        return asked and sign in self.unsure and sign not in self.sure and told != {sign}
+
+    def _with_points(self, sign: str) -> Any:
         """Return all cells, an array of numbers or a list, where this sign is the decimal one."""
         if self.parts and all(isinstance(part, np.ndarray) for part in self.parts):
             return np.concatenate(self.parts)
@@ -196,27 +227,6 @@ def _with_point(cell: Any) -> Any:
     if match is None or match[2].count(COMMA) != 1:
         return cell
     return match[1] + match[2].replace(COMMA, POINT) + match[3]
-
-
-def sign_of(column: Cells, told: set[str], cell_of: Callable[[int], str]) -> tuple[str, str]:
-    """Return the decimal sign of a column, and what is wrong with it, or nothing.
-
-    `told` holds the signs that are sure in columns of the file, `cell_of` says where a place is.
-    """
-    there = column.unsure | column.sure
-    shown = {sign: f"{text} in {cell_of(place)}" for sign, (place, text) in there.items()}
-    if column.decimal:
-        wrong = column.decimal == COMMA and POINT in there
-        return column.decimal, f"{shown[POINT]} has a decimal point, not a comma" if wrong else ""
-    if len(there) == 2:
-        words = f"{shown[COMMA]} and {shown[POINT]} have different decimal signs"
-        return POINT, f"{words}; write one, and no separators of thousands"
-    for sign in (COMMA, POINT):
-        if sign in column.unsure and sign not in column.sure and told != {sign}:
-            if sign == POINT and COMMA not in told:
-                continue
-            return sign, _asked(shown[sign], there[sign][1], sign)
-    return (COMMA if COMMA in there else POINT), ""
 
 
 def _asked(shown: str, text: str, sign: str) -> str:

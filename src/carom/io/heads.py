@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from math import isclose, pi
 from pathlib import Path
@@ -78,13 +78,13 @@ def spelled(name: str) -> str:
 
 
 def renamed(
-    columns: Sequence[Column], names: Mapping[str, str], what: str, wrong: list[str]
-) -> list[tuple[str, Any]]:
-    """Return names and units of columns, users' names replaced by Carom's.
+    columns: Iterable[Column], names: Mapping[str, str], what: str, wrong: list[str]
+) -> list[tuple[str, Column]]:
+    """Return names of columns, users' names replaced by Carom's, and these with their units.
 
     Adds to what is wrong names that no column has, and a unit that is told otherwise.
     """
-    left, new = dict(names), list[tuple[str, Any]]()
+    left, new = dict(names), list[tuple[str, Column]]()
     for column in columns:
         own, unit = parts_of(column.head)
         wanted = left.pop(column.head, None) or left.pop(own, None)
@@ -94,11 +94,11 @@ def renamed(
         try:
             if wanted is not None and not is_open(name, unit, new_unit):
                 new_unit = one_unit(own, unit, new_unit)
-            new.append((name, one_unit(name, new_unit, column.unit)))
+            new_unit = one_unit(name, new_unit, column.unit)
         except InputError as error:
             wrong.append(str(error))
-            new.append((name, new_unit))
-    heads = [column.head for column in columns]
+        new.append((name, column._replace(unit=new_unit)))
+    heads = [column.head for _, column in new]
     for name in left:
         near = nearest(name, heads) or f"its columns are {', '.join(heads)}"
         wrong.append(str(refusal("columns", name, f"{what} has no column of that name; {near}")))

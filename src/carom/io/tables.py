@@ -59,10 +59,9 @@ def read_table(
             refuse(getattr(how, name) and f"{name}: only a file has it; leave it out")
         source_columns, table = _of_object(what, source)
     wrong, cells, places = list(table.wrong), dict[str, Column](), dict[str, list[str]]()
-    called = renamed(source_columns, how.columns, what, wrong)
-    for column, (name, unit) in zip(source_columns, called, strict=True):
+    for name, column in renamed(source_columns, how.columns, what, wrong):
         places.setdefault(name, []).append(column.letter)
-        cells.setdefault(name, column._replace(unit=unit))
+        cells.setdefault(name, column)
     for name, letters in places.items():
         where = f", {' and '.join(letters)}," if all(letters) else ""
         words = f"two columns{where} have this name; leave one of them out"

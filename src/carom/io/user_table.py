@@ -17,10 +17,9 @@ from carom.io.cells import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing, name
 from carom.io.heads import is_open, spelled
 from carom.io.remedies import REMEDIES
 from carom.quantities.arrays import Array, in_unit
-from carom.quantities.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY, meant
 from carom.quantities.prefixes import Printed
 from carom.quantities.refusals import Faults, InputError, clipped, heading, nearest, refuse
-from carom.quantities.symbols import meant
 from carom.quantities.texts import UNCHANGED
 from carom.quantities.units import PURE_UNITS, WHY_POSITIVE, factor_of, finite_or_text, number
 

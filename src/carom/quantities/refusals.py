@@ -12,7 +12,7 @@ from reprlib import Repr
 from typing import Any, ParamSpec, Self, TypeVar
 
 from carom.old_names import renamed
-from carom.quantities.symbols import meant, remark
+from carom.quantities.glossary import meant, remark
 
 Kind = TypeVar("Kind")
 Parameters = ParamSpec("Parameters")
