@@ -6,7 +6,7 @@ without results, merged ones; and what is hidden as the rest. So these are marke
 
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import reduce
@@ -17,11 +17,10 @@ from typing import IO, Any, NamedTuple
 from xml.etree.ElementTree import Element, fromstring, iterparse
 from zipfile import ZipFile
 
-from carom.io.cells import ERROR_CELL, Column, is_blank, is_number, letter_of, named
+from carom.io.cells import ERROR_CELL, is_blank, is_number, letter_of, named
 from carom.io.extras import extra
 from carom.io.remedies import REMEDIES
-from carom.io.table_rows import RowSource, read_rows
-from carom.io.user_table import UserTable
+from carom.io.table_rows import RowSource
 from carom.quantities.refusals import InputError, nearest, refusal, refuse
 
 OLD = b"\xd0\xcf\x11\xe0"  # begins what Excel stored before 2007, or stores with a password
@@ -34,45 +33,78 @@ LONGEST_FORMULA = 30  # that is shown
 NO_RESULT = "{} has no result; store the file in a spreadsheet program"
 
 
-def read_spreadsheet(
-    what: str, path: str, file: Any, sheet: str, fewest: int, decimal: str
-) -> tuple[list[Column], UserTable]:
-    """Return the columns of a sheet by their heads, and a table of its rows, yet without them.
+class Sheet(RowSource):
+    """The sheet of a spreadsheet that holds the table; dates and times are texts, not numbers."""
 
-    `file` is open, and gives bytes. Raises InputError if it cannot be read, or if it has several
-    sheets that may be meant and none is named.
-    """
-    calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
-    content = file.read(LARGEST + 1)
-    if len(content) > LARGEST:
-        raise refusal(what, path, f"it has more than {LARGEST} bytes; store the table as CSV")
-    if content.startswith(OLD):
-        words = "it is no spreadsheet, .xlsx or .ods, but of Excel before 2007, or has a password"
-        raise refusal(what, path, f"{words}; store it as .xlsx without one")
-    try:
-        book = calamine.CalamineWorkbook.from_filelike(io.BytesIO(content))
-        with ZipFile(io.BytesIO(content)) as archive:
-            marks = read_marks(archive)
-        sheets = {}
-        for name in _readable(calamine, book, sheet):
-            height, width = marks[name].height, marks[name].width
-            last = f"{letter_of(max(width - 1, 0))}{height}"
-            words = f"a sheet extends to {last}; delete what stands far from the table"
-            refuse(width * height > MOST_CELLS and refusal(what, path, words))
-            values = book.get_sheet_by_name(name).to_python(skip_empty_area=False)
-            sheets[name] = marks[name].put(values)
-    except InputError:
-        raise
-    except Exception as error:  # as damaged archives and their XML make the readers raise
-        raise refusal(what, path, f"it is no spreadsheet, .xlsx or .ods; {error}") from None
-    name, notes = _chosen(what, path, sheets, sheet)
-    cells = sheets[name]
-    rows = [str(i + 1) for i in _filled(marks[name].hidden_rows, cells)]
-    columns = map(letter_of, _filled(marks[name].hidden_columns, [*zip(*cells, strict=True)]))
-    hidden = [named(word, own) for word, own in (("row", rows), ("column", [*columns])) if own]
-    told = f"hidden, as by a filter, and read all the same: {' and '.join(hidden)}"
-    notes += [f"{told}; delete what is not meant"] if hidden else []
-    return read_rows(_Sheet(what, path, cells, notes), fewest, decimal)
+    word, kind = "row", "a table"
+
+    def __init__(self, what: str, path: str, file: Any, sheet: str) -> None:
+        super().__init__(what, path)
+        calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
+        content = file.read(LARGEST + 1)
+        if len(content) > LARGEST:
+            raise self.refusal(f"it has more than {LARGEST} bytes; store the table as CSV")
+        if content.startswith(OLD):
+            words = "it is no spreadsheet, .xlsx or .ods, but of Excel before 2007, or has a "
+            raise self.refusal(f"{words}password; store it as .xlsx without one")
+        try:
+            book, names = _opened(calamine, io.BytesIO(content), sheet)
+            with ZipFile(io.BytesIO(content)) as archive:
+                marks = read_marks(archive)
+            sheets = {name: self._cells(book, name, marks[name]) for name in names}
+        except InputError:
+            raise
+        except Exception as error:  # as damaged archives and their XML make the readers raise
+            raise self.refusal(f"it is no spreadsheet, .xlsx or .ods; {error}") from None
+        name = self._chosen(sheets, sheet)
+        self.cells = sheets[name]
+        rows = [str(i + 1) for i in _filled(marks[name].hidden_rows, self.cells)]
+        across = [*zip(*self.cells, strict=True)]
+        columns = [*map(letter_of, _filled(marks[name].hidden_columns, across))]
+        hidden = [named(word, own) for word, own in (("row", rows), ("column", columns)) if own]
+        told = f"hidden, as by a filter, and read all the same: {' and '.join(hidden)}"
+        self.notes += [f"{told}; delete what is not meant"] if hidden else []
+
+    def rows(self) -> Iterator[Sequence[Any]]:
+        """Yield the rows that are no comments."""
+        for number, row in enumerate(self.cells, 1):
+            cells = [cell for cell in row if not is_blank(cell)]
+            is_text = len(cells) == 1 and isinstance(cells[0], str)
+            if not (is_text and self.is_comment(cells[0])):
+                self.numbers.append(number)
+                yield [cell if isinstance(cell, str | float | int) else str(cell) for cell in row]
+
+    def _cells(self, book: Any, name: str, marks: "Marks") -> list[list[Any]]:
+        """Return the cells of a sheet with their marks, unless they are too many."""
+        last = f"{letter_of(max(marks.width - 1, 0))}{marks.height}"
+        words = f"a sheet extends to {last}; delete what stands far from the table"
+        refuse(marks.width * marks.height > MOST_CELLS and self.refusal(words))
+        return marks.put(book.get_sheet_by_name(name).to_python(skip_empty_area=False))
+
+    def _chosen(self, sheets: dict[str, list[Any]], sheet: str) -> str:
+        """Return the name of the sheet to read, and note if others have something in them.
+
+        Raises InputError if there is none of the name, or several could be meant.
+        """
+        if sheet:
+            hint = nearest(sheet, sheets) or f"its sheets are {_listed(sheets)}"
+            missing = f"{self.path} has no such sheet; {hint}"
+            refuse(sheet not in sheets and refusal("sheet", sheet, missing))
+            return sheet
+        filled = [name for name, rows in sheets.items() if not all(map(is_blank, chain(*rows)))]
+        likely = [n for n in filled if any(map(is_number, chain(*sheets[n][1:])))] or filled
+        if not likely:
+            raise self.refusal("it is empty; there must be a header and numbers")
+        if len(likely) > 1:
+            say = REMEDIES.get().sheet.format(path=self.path, sheet=likely[0])
+            raise self.refusal(f"its sheets {_listed(likely)} may be meant; {say}")
+        if others := {*filled} - {*likely}:
+            self.notes.append(f"the sheet {likely[0]!r} was read, not {_listed(others)}")
+        return likely[0]
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(map(repr, names))
 
 
 def _filled(hidden: Sequence[range], lines: Sequence[Sequence[Any]]) -> list[int]:
@@ -87,63 +119,16 @@ def sheets_of(path: Path) -> list[str]:
         if file.peek(4).startswith(STARTS):
             calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
             with suppress(calamine.CalamineError):
-                return _readable(calamine, calamine.CalamineWorkbook.from_filelike(file), "")
+                return _opened(calamine, file, "")[1]
     return []
 
 
-def _readable(calamine: Any, book: Any, sheet: str) -> list[str]:
-    """Return the names of the sheets with cells that are not hidden, and of the one asked for."""
-    return [
-        each.name
-        for each in book.sheets_metadata
-        if each.typ == calamine.SheetTypeEnum.WorkSheet
-        and (each.name == sheet or each.visible == calamine.SheetVisibleEnum.Visible)
-    ]
-
-
-def _chosen(
-    what: str, path: str, sheets: dict[str, list[Any]], sheet: str
-) -> tuple[str, list[str]]:
-    """Return the name of the sheet to read, and a note if there are others with something in them.
-
-    Raises InputError if there is none of the name, or several could be meant.
-    """
-    if sheet:
-        hint = nearest(sheet, sheets) or f"its sheets are {_listed(sheets)}"
-        refuse(sheet not in sheets and refusal("sheet", sheet, f"{path} has no such sheet; {hint}"))
-        return sheet, []
-    filled = [name for name, rows in sheets.items() if not all(map(is_blank, chain(*rows)))]
-    likely = [name for name in filled if any(map(is_number, chain(*sheets[name][1:])))] or filled
-    if not likely:
-        raise refusal(what, path, "it is empty; there must be a header and numbers")
-    if len(likely) > 1:
-        say = REMEDIES.get().sheet.format(path=path, sheet=likely[0])
-        raise refusal(what, path, f"its sheets {_listed(likely)} may be meant; {say}")
-    more = [f"the sheet {likely[0]!r} was read, not {_listed({*filled} - {*likely})}"]
-    return likely[0], more if len(filled) > 1 else []
-
-
-def _listed(names: Any) -> str:
-    return ", ".join(map(repr, names))
-
-
-class _Sheet(RowSource):
-    """The rows of a sheet; dates and times are texts, and so are no numbers."""
-
-    word, kind = "row", "a table"
-
-    def __init__(self, what: str, path: str, cells: list[list[Any]], notes: list[str]) -> None:
-        super().__init__(what, path)
-        self.notes, self.cells = notes, cells
-
-    def rows(self) -> Iterator[Sequence[Any]]:
-        """Yield the rows that are no comments."""
-        for number, row in enumerate(self.cells, 1):
-            cells = [cell for cell in row if not is_blank(cell)]
-            is_text = len(cells) == 1 and isinstance(cells[0], str)
-            if not (is_text and self.is_comment(cells[0])):
-                self.numbers.append(number)
-                yield [cell if isinstance(cell, str | float | int) else str(cell) for cell in row]
+def _opened(calamine: Any, file: Any, sheet: str) -> tuple[Any, list[str]]:
+    """Return a workbook, and the names of the sheets with cells: not hidden, or asked for."""
+    book = calamine.CalamineWorkbook.from_filelike(file)
+    visible = calamine.SheetVisibleEnum.Visible
+    sheets = [m for m in book.sheets_metadata if m.typ == calamine.SheetTypeEnum.WorkSheet]
+    return book, [m.name for m in sheets if m.name == sheet or m.visible == visible]
 
 
 class Mark(NamedTuple):

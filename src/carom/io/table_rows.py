@@ -76,44 +76,43 @@ class RowSource:
         """Return the error that refuses the file."""
         return refusal(self.what, self.path, allowed)
 
+    def read(self, fewest: int, decimal: str) -> tuple[list[Column], UserTable]:
+        """Return the columns by their heads, and a table of the rows, yet without them.
 
-def read_rows(source: RowSource, fewest: int, decimal: str) -> tuple[list[Column], UserTable]:
-    """Return the columns of a file by their heads, and a table of its rows, yet without them.
+        A column is an array where all its cells are plain numbers, else a list of texts and
+        numbers. Blank rows are left out, and so are blank columns without a name, and rows of
+        another length than most, which the table is told of.
 
-    A column is an array where all its cells are plain numbers, else a list of texts and numbers.
-    Blank rows are left out, and so are blank columns without a name, and rows of another length
-    than most, which the table is told of.
-
-    Raises InputError if there is no head, or there are fewer columns than are allowed.
-    """
-    try:
-        heads, start, width, below = _head_of(source, fewest)
-    except InputError as error:
-        raise InputError(*source.wrong, *error.faults) from None
-    columns = [Cells(letter_of(place), decimal) for place in range(len(heads))]
-    above, numbers = start, list[array[int]]()
-    odd: dict[int, list[int]] = {}
-    with advancing("reading the table", None, unit="rows") as advance:
-        while block := list(islice(below, BLOCK_ROWS)):
-            stop = start + len(block)
-            where, block = _even(source.numbers[start:stop], block, width, odd)
-            numbers.append(where)
-            if stop - above > MOST_ROWS:
-                raise source.refusal(f"it has more than {MOST_ROWS} rows")
-            for column, cells in zip(columns, zip(*block, strict=True), strict=False):
-                column.add(cells)
-            start = stop
-            advance(len(block))
-    rows = np.concatenate([np.asarray(each, np.int64) for each in numbers or [array("q")]])
-    for column in columns[width:]:  # to which no row extends
-        column.add([""] * len(rows))
-    told = {sign for column in columns for sign in column.sure}
-    names = [head or f"column {each.letter}" for head, each in zip(heads, columns, strict=True)]
-    read = [each.column(name, told, rows) for name, each in zip(names, columns, strict=True)]
-    read = [c for c, head in zip(read, heads, strict=True) if head or not c.missing.all()]
-    wrong = (*source.wrong, *_uneven(source, odd, width, len(heads)))
-    table = UserTable({}, rows, source.word, source.comments)
-    return read, replace(table, notes=tuple(source.notes), wrong=wrong)
+        Raises InputError if there is no head, or there are fewer columns than are allowed.
+        """
+        try:
+            heads, start, width, below = _head_of(self, fewest)
+        except InputError as error:
+            raise InputError(*self.wrong, *error.faults) from None
+        columns = [Cells(letter_of(place), decimal) for place in range(len(heads))]
+        above, numbers = start, list[array[int]]()
+        odd: dict[int, list[int]] = {}
+        with advancing("reading the table", None, unit="rows") as advance:
+            while block := list(islice(below, BLOCK_ROWS)):
+                stop = start + len(block)
+                where, block = _even(self.numbers[start:stop], block, width, odd)
+                numbers.append(where)
+                if stop - above > MOST_ROWS:
+                    raise self.refusal(f"it has more than {MOST_ROWS} rows")
+                for column, cells in zip(columns, zip(*block, strict=True), strict=False):
+                    column.add(cells)
+                start = stop
+                advance(len(block))
+        rows = np.concatenate([np.asarray(each, np.int64) for each in numbers or [array("q")]])
+        for column in columns[width:]:  # to which no row extends
+            column.add([""] * len(rows))
+        told = {sign for column in columns for sign in column.sure}
+        names = [head or f"column {each.letter}" for head, each in zip(heads, columns, strict=True)]
+        read = [each.column(name, told, rows) for name, each in zip(names, columns, strict=True)]
+        read = [c for c, head in zip(read, heads, strict=True) if head or not c.missing.all()]
+        wrong = (*self.wrong, *_uneven(self, odd, width, len(heads)))
+        table = UserTable({}, rows, self.word, self.comments)
+        return read, replace(table, notes=tuple(self.notes), wrong=wrong)
 
 
 def _head_of(source: RowSource, fewest: int) -> tuple[list[str], int, int, Iterator[Sequence[Any]]]:

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from carom.io.cells import GAP, Column, is_missing
-from carom.io.csv_cells import read_csv
+from carom.io.csv_cells import CsvFile
 from carom.io.heads import TableFormat, renamed, spelled, table_format
 from carom.io.paths import accessing, checked_path, opened
-from carom.io.spreadsheets import STARTS, read_spreadsheet
+from carom.io.spreadsheets import STARTS, Sheet
 from carom.io.table_rows import MOST_COLUMNS
 from carom.io.user_table import UserTable
 from carom.quantities.arrays import along_the_same, floats
@@ -83,9 +83,9 @@ def file_columns(
         path, sheet = Path(name), last
     with accessing(what, path, "read"), opened(path, "rb") as file:
         if file.peek(4).startswith(STARTS):
-            return read_spreadsheet(what, str(path), file, sheet, fewest, how.decimal)
+            return Sheet(what, str(path), file, sheet).read(fewest, how.decimal)
         refuse(sheet and refusal("sheet", sheet, f"{path} is no spreadsheet; leave it out"))
-        return read_csv(what, str(path), file, fewest, how.decimal)
+        return CsvFile(what, str(path), file).read(fewest, how.decimal)
 
 
 def _of_object(what: str, source: Any) -> tuple[list[Column], UserTable]:
