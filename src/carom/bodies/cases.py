@@ -38,23 +38,30 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
 }
 BODY = (*SIZES, "material")
 PLATE: dict[str, Callable[[str, Any], float]] = {"thickness": positive, "width": positive}
-IN_SPACE = "in_space"
-CYLINDER = ("length", "radius", "edge_radius", "angle", "inner_radius")
 SHAPE_NUMBERS = ("length", "edge_radius", "curvature_radius", "mass", "inertia", "angle")
-MADE: dict[str, tuple[Callable[..., Any], tuple[str, ...]]] = {  # by what, and from what
-    "half-space": (HalfSpace, (*PLATE,)),
-    "sphere": (Sphere, (*SIZES,)),
-    "cup": (Cup, ("radius",)),
-    "body": (Body, ("mass", "inertia", "contact", "curvature_radius", "curvatures")),
-    "rod": (solids.rod, ("length", "radius", "angle", IN_SPACE)),
-    "cylinder": (solids.cylinder, (*CYLINDER, IN_SPACE)),
-    "ellipsoid": (solids.ellipsoid, ("semi_axes", "angle", IN_SPACE)),
-    "clump": (solids.clump, ("centres", "radii", "angle", IN_SPACE)),
+MADE: dict[str, Callable[..., Any]] = {  # by what bodies are made
+    "half-space": HalfSpace,
+    "sphere": Sphere,
+    "cup": Cup,
+    "body": Body,
+    "rod": solids.rod,
+    "cylinder": solids.cylinder,
+    "ellipsoid": solids.ellipsoid,
+    "clump": solids.clump,
 }
-CALLED = {maker: kind for kind, (maker, _) in MADE.items()}
+ONLY_IN_PYTHON = ("orientation", "name")
+IS_NEEDED = {  # by kind and by what it is made from
+    kind: {
+        n: p.default is p.empty
+        for n, p in signature(maker).parameters.items()
+        if n not in ONLY_IN_PYTHON
+    }
+    for kind, maker in MADE.items()
+}
+CALLED = {maker: kind for kind, maker in MADE.items()}
 KINDS = (*MADE,)[:3]  # round ones
 SHAPES = (*MADE,)[3:]
-OF_SHAPES = tuple(dict.fromkeys(n for kind in SHAPES for n in MADE[kind][1] if n not in SIZES))
+OF_SHAPES = {n: None for kind in SHAPES for n in IS_NEEDED[kind] if n not in BODY}
 EXAMPLES = {"radius": "5 mm", "material": "steel"}  # of what has an option
 OUTPUT = ("plot", "animation", "data", "spectrum")
 SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads
@@ -139,19 +146,18 @@ def _made(
 ) -> Any:
     """Return a body, of the material of the first and for a sphere its radius if none is told."""
     kind = one_of("kind", table.get("kind", kinds[0]), kinds)
-    maker, allowed = MADE[kind]
+    needed = IS_NEEDED[kind]
     values = {n: first[n] for n in first if n == "material" or kind == "sphere"}
     values |= {n: value for n, value in table.items() if value is not None}
-    others = sorted({*values} - {"kind", "material", *allowed})
-    needed = (n for n, p in signature(maker).parameters.items() if p.default is p.empty)
-    missing = [n for n in needed if values.get(n) is None]
+    others = sorted({*values} - {"kind", *needed})
+    missing = [n for n in needed if needed[n] and values.get(n) is None]
     with Faults() as faults:
         faults.add(*(str(refusal(n, table[n], f"a {kind} has none; leave it out")) for n in others))
         faults.add(*(f"{n}: missing for {_where(name, kind, n)}" for n in missing))
         if "material" not in missing:
             values["material"] = faults.trying(read_material, values["material"]) or "steel"
-        given = {n: values[n] for n in ("material", *allowed) if n in values}
-        return None if missing else faults.trying(maker, **given)
+        given = {n: values[n] for n in needed if n in values}
+        return None if missing else faults.trying(MADE[kind], **given)
 
 
 def _where(name: str, kind: str, key: str) -> str:

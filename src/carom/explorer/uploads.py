@@ -4,7 +4,6 @@ What is shown of a fit: parameters, laws, charts with residuals, bodies, notes.
 """
 
 from base64 import b64decode
-from binascii import Error as NotBase64
 from collections.abc import Iterable, Mapping
 from math import isfinite, isnan
 from pathlib import Path
@@ -90,7 +89,7 @@ def shown_name(name: str) -> str:
 def _decoded(contents: str) -> bytes:
     try:
         content = b64decode(contents.partition(",")[2], validate=True)
-    except (NotBase64, ValueError):  # ValueError: characters beyond ASCII
+    except ValueError:  # no Base64, or characters beyond ASCII
         raise InputError("file: it did not arrive whole; choose it again") from None
     if len(content) > LARGEST_UPLOAD:
         allowed = f"must be at most {LARGEST_UPLOAD} bytes; leave out what is not needed"

@@ -29,6 +29,7 @@ EXPORTED = (
     "CSV is an export; store a dataset as .nc to read it again, "
     "one of Carom 0.2 there by carom.save(carom.read('x.csv'), 'x.nc')"
 )
+OTHER_ENDING = f"must end in .nc, or be the store of a sweep, {STORE_ENDING}"
 LONGEST_TEXT = 1_000_000  # characters
 DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
 FIGURES = (".png", ".pdf", ".svg")
@@ -143,20 +144,15 @@ def read_dataset(source: Path) -> "xr.Dataset":
     if ending == STORE_ENDING and source.is_dir():
         sweep: xr.Dataset = extra("carom.io.stores", "a store").read_store(source)
         return sweep
-    reason = f"must end in .nc, or be the store of a sweep, {STORE_ENDING}"
-    if ending == ".csv":
-        reason = EXPORTED
-    elif ending == ".nc" and not source.is_file():
-        reason = "there is no such file"
-    elif ending == ".nc":
+    reason = {".csv": EXPORTED, ".nc": "there is no such file"}.get(ending, OTHER_ENDING)
+    if ending == ".nc" and source.is_file():
+        reason = NOT_AS_STORED
         try:
-            with warnings.catch_warnings():  # of xarray and h5netcdf, at what is odd
-                warnings.simplefilter("ignore")
-                return read_netcdf(source)
+            content = source.read_bytes()
+            if content[-SEAL_LENGTH:] == _seal(memoryview(content)[:-SEAL_LENGTH]):
+                return _of_netcdf(content)
         except OSError as error:
             reason = f"cannot be read; {error.strerror or error}"
-        except InputError as error:
-            reason = str(error)
     raise refusal("file", str(source), reason)
 
 
@@ -201,17 +197,13 @@ def write_netcdf(dataset: "xr.Dataset", where: Path) -> None:
         file.write(_seal(content))
 
 
-def read_netcdf(path: Path) -> "xr.Dataset":
-    """Return the dataset that `write_netcdf` has written.
-
-    Raises InputError, without the name of the file, if it is another, or has changed since.
-    """
+def _of_netcdf(content: bytes) -> "xr.Dataset":
+    """Return the dataset that `write_netcdf` has written."""
     import xarray as xr
 
-    content = path.read_bytes()
-    if content[-SEAL_LENGTH:] != _seal(memoryview(content)[:-SEAL_LENGTH]):
-        raise InputError(NOT_AS_STORED)
-    dataset: xr.Dataset = xr.load_dataset(BytesIO(content), **AS_STORED)
+    with warnings.catch_warnings():  # of xarray and h5netcdf, at what is odd
+        warnings.simplefilter("ignore")
+        dataset: xr.Dataset = xr.load_dataset(BytesIO(content), **AS_STORED)
     dataset.attrs = {
         name: value.item() if isinstance(value, np.generic) else value
         for name, value in dataset.attrs.items()

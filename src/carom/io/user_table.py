@@ -201,10 +201,8 @@ def in_units(
     n/a stands for what was not measured: NaN, in columns of `gaps` and of their errors. A row in
     which none of these columns has a value is left out, unless the table is to stay whole.
 
-    Adds to the faults of the table, which raise InputError if nobody collects them, a cell that is
-    not a number, a value that is missing in another column, a unit that does not fit, an error that
-    has no unit where its column has one, angles that cannot be in rad, and speeds of bodies that do
-    not approach.
+    Adds to the faults of the table, which raise InputError if nobody collects them, what is no
+    number or missing elsewhere, units that do not fit or lack, and values that cannot be in them.
     """
     table, missing = table.told(table.faults), dict[str, Mask]()
     columns = {name: np.full(len(table), nan) for name in table.names}
