@@ -86,6 +86,15 @@ def test_a_key_of_another_kind_is_refused(tmp_path: Path) -> None:
             pair_of(case({**ROD, key: value}))
     with pytest.raises(carom.InputError, match="length: missing for a rod; give it in its table"):
         pair_of(case({"kind": "rod", "radius": 0.01, "material": "steel"}))
+    with pytest.raises(carom.InputError) as error:  # all that is wrong with it, at once
+        pair_of(case({**ROD, "radius": -1.0, "mass": 1.0, "material": "wax"}))
+    assert [fault.partition(":")[0] for fault in error.value.faults] == [
+        "mass",
+        "material",
+        "radius",
+    ]
+    with pytest.raises(carom.InputError, match="length: 1 cannot be used; a sphere has none"):
+        pair_of(case({"length": 1, "radius": "5 mm", "material": "steel"}))
     ball, lengths = {"radius": "5 mm", "material": "steel"}, carom.Grid({"first.length": [0.1]})
     with pytest.raises(carom.InputError, match=r"first\.length: a half-space has none"):
         carom.sweep(case(ball), lengths)

@@ -272,7 +272,7 @@ def test_how_a_file_is_read_may_be_stored(stored, tmp_path):
     for text, words in {
         "columns = 3": "columns: 3 cannot be used",
         "[column]\na = 'b'": "columns: 'column' in .* is unknown; did you mean 'columns'",
-        "w = [": "it is not TOML",
+        "w = [": "is not TOML",
         "sheet = 3": "sheet: 3 cannot be used; must be a text",
     }.items():
         path.write_text(text, encoding="utf-8")

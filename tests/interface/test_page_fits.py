@@ -302,7 +302,7 @@ def test_sheets_and_decimal_signs_are_offered_where_they_matter():
 @pytest.mark.parametrize(
     ("columns", "words"),
     [
-        ("angel", "columns: 'map.toml' cannot be used; it is not TOML"),
+        ("angel", "columns: 'map.toml' is not TOML"),
         ("colour = 1", "columns: 'colour' in map.toml is unknown"),
         ('[columns]\nx = "speed"', "file has no column of that name"),
         ('[columns]\nrun = "angle"', "'angle': two columns, A and C, have this name"),

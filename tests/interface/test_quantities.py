@@ -9,10 +9,9 @@ import xarray as xr
 import carom
 from carom.plots.style import label
 from carom.quantities import arrays, prefixes, texts, units
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import Faults, refuse
+from carom.quantities.glossary import meant
+from carom.quantities.refusals import Faults, known_keywords, refuse
 from carom.quantities.statuses import WordedStatus
-from carom.quantities.symbols import meant
 from carom.verify.tables import text_table
 
 

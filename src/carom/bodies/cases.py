@@ -1,8 +1,7 @@
 """Cases: bodies, friction, motion and losses as a TOML file or a mapping gives them."""
 
 import re
-import tomllib
-from collections.abc import Callable, Container, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,10 +12,10 @@ from carom.bodies.kinematics import READERS
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.bodies.smooth_body import Body
-from carom.io.files import read_dataset, read_text
+from carom.io.files import read_dataset, read_toml
 from carom.io.paths import checked_path
-from carom.quantities.refusals import Faults, InputError, checked_type, one_of, refusal, refuse
-from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
+from carom.quantities.refusals import Faults, InputError, checked_type, one_of, refusal
+from carom.quantities.units import finite, not_negative, number, positive
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,47 +38,45 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
 }
 BODY = (*SIZES, "material")
 PLATE: dict[str, Callable[[str, Any], float]] = {"thickness": positive, "width": positive}
-IN_SPACE = "in_space"
-CYLINDER = ("length", "radius", "edge_radius", "angle", "inner_radius")
 SHAPE_NUMBERS = ("length", "edge_radius", "curvature_radius", "mass", "inertia", "angle")
-MADE: dict[str, tuple[Callable[..., Body], tuple[str, ...]]] = {  # bodies of other shapes
-    "body": (Body, ("mass", "inertia", "contact", "curvature_radius", "curvatures")),
-    "rod": (solids.rod, ("length", "radius", "angle", IN_SPACE)),
-    "cylinder": (solids.cylinder, (*CYLINDER, IN_SPACE)),
-    "ellipsoid": (solids.ellipsoid, ("semi_axes", "angle", IN_SPACE)),
-    "clump": (solids.clump, ("centres", "radii", "angle", IN_SPACE)),
+MADE: dict[str, Callable[..., Any]] = {  # by what bodies are made
+    "half-space": HalfSpace,
+    "sphere": Sphere,
+    "cup": Cup,
+    "body": Body,
+    "rod": solids.rod,
+    "cylinder": solids.cylinder,
+    "ellipsoid": solids.ellipsoid,
+    "clump": solids.clump,
 }
-OF_SHAPES = tuple({n: None for _, names in MADE.values() for n in names if n not in SIZES})
+ONLY_IN_PYTHON = ("orientation", "name")
+IS_NEEDED = {  # by kind and by what it is made from
+    kind: {
+        n: p.default is p.empty
+        for n, p in signature(maker).parameters.items()
+        if n not in ONLY_IN_PYTHON
+    }
+    for kind, maker in MADE.items()
+}
+CALLED = {maker: kind for kind, maker in MADE.items()}
+KINDS = (*MADE,)[:3]  # round ones
+SHAPES = (*MADE,)[3:]
+OF_SHAPES = {n: None for kind in SHAPES for n in IS_NEEDED[kind] if n not in BODY}
+EXAMPLES = {"radius": "5 mm", "material": "steel"}  # of what has an option
 OUTPUT = ("plot", "animation", "data", "spectrum")
 SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads
 SWEPT = ("samples", "seed", "table", "columns", "sheet", "decimal", "outputs", "axes")
-KINDS = ("half-space", "sphere", "cup")
-OF_KINDS: dict[str, Iterable[str]] = {"half-space": PLATE, "sphere": SIZES, "cup": ("radius",)}
-SHAPES = (HalfSpace, Sphere, Cup)
 TABLES = {
     "first": ("kind", *BODY, *OF_SHAPES),
     "second": ("kind", *PLATE, *BODY, *OF_SHAPES),
     "output": OUTPUT,
     SWEEP_TABLE: SWEPT,
 }
-DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
 
 
 def read_case(path: str | Path, *, losses: bool = False) -> Case:
     """Return the content of a case file after checking its keys; `losses` as in `check_case`."""
-    try:
-        text = read_text("case file", path)
-        if DEEP.search(text):  # which takes memory with the square of the depth
-            raise RecursionError
-        case = tomllib.loads(text, parse_float=finite_or_text)
-    except InputError:
-        raise
-    except UnicodeDecodeError:
-        raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
-    except ValueError as error:  # of tomllib; for integers of many digits Python's own
-        raise InputError(f"case file: {str(path)!r} is not TOML; {error}") from None
-    except RecursionError:
-        raise refusal("case file", str(path), "its tables are nested too deeply") from None
+    case, text = read_toml("case file", path)
 
     def place(key: str, table: str) -> str:
         return f" in {path}, line {line_of(key, text, table)}"
@@ -137,56 +134,56 @@ def pair_of(case: Mapping[str, Any]) -> Pair:
             faults.add("friction: missing; give --friction, e.g. 0.2 (0 for none)")
         else:
             faults.trying(not_negative, "friction", friction)
-        first = faults.trying(_first, case.get("first", {}))
+        first = faults.trying(_made, "first", ("sphere", *SHAPES), case.get("first", {}), {})
         any_first = first or Sphere(radius=1.0, material="steel")  # to look at the second, too
-        second = faults.trying(_second, case.get("second", {}), any_first)
+        same = {name: getattr(any_first, name, None) for name in ("material", "radius")}
+        second = faults.trying(_made, "second", (*MADE,), case.get("second", {}), same)
     return Pair(first, second, friction)
 
 
-def _first(table: Mapping[str, Any]) -> Sphere | Body:
-    kind = one_of("kind", table.get("kind", "sphere"), ("sphere", *MADE))
-    return _made(kind, table) if kind in MADE else _sphere("first", "", table, {})
+def _made(
+    name: str, kinds: Sequence[str], table: Mapping[str, Any], first: Mapping[str, Any]
+) -> Any:
+    """Return a body, of the material of the first and for a sphere its radius if none is told."""
+    kind = one_of("kind", table.get("kind", kinds[0]), kinds)
+    needed = IS_NEEDED[kind]
+    values = {n: first[n] for n in first if n == "material" or kind == "sphere"}
+    values |= {n: value for n, value in table.items() if value is not None}
+    others = sorted({*values} - {"kind", *needed})
+    missing = [n for n in needed if needed[n] and values.get(n) is None]
+    with Faults() as faults:
+        faults.add(*(str(refusal(n, table[n], f"a {kind} has none; leave it out")) for n in others))
+        faults.add(*(f"{n}: missing for {_where(name, kind, n)}" for n in missing))
+        if "material" not in missing:
+            values["material"] = faults.trying(read_material, values["material"]) or "steel"
+        given = {n: values[n] for n in needed if n in values}
+        return None if missing else faults.trying(MADE[kind], **given)
+
+
+def _where(name: str, kind: str, key: str) -> str:
+    """Return for what a value is missing, and how to give it."""
+    if kind not in KINDS and key != "material":
+        return f"a {kind}; give it in its table"
+    option = f"--second-{key}" if name == "second" else f"--{key}"
+    return f"the {name} body; give {option}, e.g. '{EXAMPLES[key]}'"
 
 
 def has_shapes(case: Mapping[str, Any]) -> bool:
     """Tell whether a body of a case is neither sphere nor half-space nor cup."""
-    return any(_kind(case.get(body)) in MADE for body in ("first", "second"))
-
-
-def _kind(table: Any) -> str:
-    kind = table.get("kind") if isinstance(table, Mapping) else None
-    return kind if isinstance(kind, str) else ""
-
-
-def _made(kind: str, table: Mapping[str, Any]) -> Body:
-    maker, allowed = MADE[kind]
-    others = {*table} - {"kind", "material", *allowed}
-    needed = [n for n, p in signature(maker).parameters.items() if p.default is p.empty]
-    refuse(
-        *(refusal(n, table[n], f"a {kind} has none; leave it out") for n in sorted(others)),
-        *(f"{n}: missing for a {kind}; give it in its table" for n in needed if n not in table),
-    )
-    stuff = read_material(_needed(table, kind, "", "material", "steel"))
-    return maker(**{name: table[name] for name in allowed if name in table}, material=stuff)
+    tables = [case.get(body) for body in ("first", "second")]
+    return any(isinstance(table, Mapping) and table.get("kind") in SHAPES for table in tables)
 
 
 def case_of(pair: Pair) -> Case:
     """Return the case of a pair, plain numbers and words: what `pair_of` makes it from."""
-    return {
-        "friction": pair.friction,
-        "first": {**_kind_of(pair.first, ()), **_body_of(pair.first)},
-        "second": {**_kind_of(pair.second, SHAPES), **_body_of(pair.second)},
-    }
+    first, second = _table_of(pair.first), _table_of(pair.second)
+    if isinstance(pair.first, Sphere):
+        del first["kind"]
+    return {"friction": pair.friction, "first": first, "second": second}
 
 
-def _kind_of(body: Counterbody, shapes: tuple[type, ...]) -> Case:
-    if isinstance(body, Body):
-        return {"kind": "body"}
-    return {"kind": KINDS[shapes.index(type(body))]} if shapes else {}
-
-
-def _body_of(body: Counterbody) -> Case:
-    table = {name: value for name, value in describe(body).items() if name != "kind"}
+def _table_of(body: Counterbody) -> Case:
+    table = describe(body) | {"kind": CALLED[type(body)]}
     if body.material.is_rigid:
         table["material"]["young"] = body.material.young
     return table
@@ -199,19 +196,14 @@ def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
 
 def numbers_of(case: Mapping[str, Any]) -> dict[str, float]:
     """Return the numbers of a case of round bodies by name, or raise InputError with all faults."""
-    read: dict[str, Any] = {}
+    losses = dict.fromkeys((*LOSSES, RATIO), read_loss)
     with Faults() as faults:
-        for name, check in {"friction": not_negative, **MOTION}.items():
-            if case.get(name) is not None:
-                read[name] = faults.trying(check, name, case[name])
-        for name in (*LOSSES, RATIO):
-            if case.get(name) is not None:
-                read[name] = faults.trying(read_loss, name, case[name])
-        for body in ("first", "second"):
+        readers = {"friction": not_negative, **MOTION, **losses}
+        read = {n: faults.if_given(check, n, case.get(n)) for n, check in readers.items()}
+        for body, sizes in (("first", SIZES), ("second", {**SIZES, **PLATE})):
             table = case.get(body, {})
-            sizes = SIZES if body == "first" else {**SIZES, **PLATE}
-            for name in filter(lambda size: table.get(size) is not None, sizes):
-                read[f"{body}.{name}"] = faults.trying(sizes[name], name, table[name])
+            for name, check in sizes.items():
+                read[f"{body}.{name}"] = faults.if_given(check, name, table.get(name))
             if table.get("material") is not None:
                 known = faults.trying(material_values, table["material"]) or {}
                 read |= {f"{body}.material.{name}": value for name, value in known.items()}
@@ -220,18 +212,14 @@ def numbers_of(case: Mapping[str, Any]) -> dict[str, float]:
 
 def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
     """Return the law by which the normal motion of a case loses energy, or None."""
-    names = [name for name in LOSSES if case.get(name) is not None]
-    there = [*names, *([RATIO] if case.get(RATIO) is not None else [])]
+    there = [name for name in (*LOSSES, RATIO) if case.get(name) is not None]
+    names = [name for name in there if name != RATIO]
     with Faults() as faults:
         if len(names) > 1:
             faults.add(f"{names[1]}: give it or {names[0]}, not both; {ONE_LOSS}")
         faults.trying(refuse_half, there)
-        for name in there:
-            faults.trying(read_loss, name, case[name])
-    if not names:
-        return None
-    ratio = case.get(RATIO, 1.0)
-    return law_of(names[0], read_loss(names[0], case[names[0]]), ratio)
+        read = {name: faults.trying(read_loss, name, case[name]) for name in there}
+    return law_of(names[0], read[names[0]], read.get(RATIO, 1.0)) if names else None
 
 
 def law_of(name: str, value: Any, ratio: Any = 1.0) -> "LossLaw":
@@ -267,42 +255,6 @@ def read_loss(name: str, value: Any) -> float | None:
     read = number(name, value)
     law_of(name, read)
     return read
-
-
-def _second(table: Mapping[str, Any], first: Sphere | Body) -> Counterbody | Body:
-    kind = one_of("kind", table.get("kind", KINDS[0]), (*KINDS, *MADE))
-    if kind in MADE:
-        return _made(kind, {"material": first.material, **table})
-    foreign = [n for n in (*PLATE, *reversed(SIZES)) if n in table and n not in OF_KINDS[kind]]
-    with Faults() as faults:
-        words = f"a {kind} has none; leave it out"
-        faults.add(*(str(refusal(name, table[name], words)) for name in foreign))
-        if kind == "sphere":
-            same = {"material": first.material, "radius": getattr(first, "radius", None)}
-            return _sphere("second", "second-", table, same)
-        stuff = faults.trying(read_material, table.get("material", first.material))
-        stuff = stuff or first.material
-        if kind == "half-space":
-            return HalfSpace(material=stuff, **{name: table.get(name) for name in PLATE})
-        return Cup(radius=_needed(table, "second", "second-", "radius", "10 mm"), material=stuff)
-
-
-def _sphere(name: str, prefix: str, table: Mapping[str, Any], default: Mapping[str, Any]) -> Sphere:
-    values = {**default, **table}
-    values.pop("kind", None)
-    with Faults() as faults:
-        faults.trying(_needed, values, name, prefix, "radius", "5 mm")
-        with faults.catching():
-            stuff = read_material(_needed(values, name, prefix, "material", "steel"))
-    return Sphere(**{**values, "material": stuff})
-
-
-def _needed(table: Mapping[str, Any], body: str, prefix: str, key: str, example: str) -> Any:
-    """Return what a table must have, or raise InputError."""
-    if table.get(key) is None:
-        words = f"missing for the {body} body; give --{prefix}{key}, e.g. '{example}'"
-        raise InputError(f"{key}: {words}")
-    return table[key]
 
 
 def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":

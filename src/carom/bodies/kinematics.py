@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.quantities.elementwise import arctan2, cos, hypot, quotient, sin, where
+from carom.quantities.arrays import arctan2, cos, hypot, quotient, sin, where
 from carom.quantities.refusals import Faults, refusal, refuse
 from carom.quantities.units import APPROACH, Value, finite, positive
 

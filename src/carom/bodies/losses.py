@@ -14,8 +14,7 @@ from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.io.citations import PLATE, VISCOUS
 from carom.quantities.arrays import numbers
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal, refuse
+from carom.quantities.refusals import known_keywords, refusal, refuse
 from carom.quantities.units import Value, not_negative, positive, within
 
 SMALLEST_RESTITUTION = 1e-3

@@ -8,9 +8,16 @@ from importlib.resources import files
 from typing import Any, TypeVar
 
 from carom.quantities.glossary import listed
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import Faults, checked_type, hint, nearest, refusal, refuse
-from carom.quantities.shown import Printed
+from carom.quantities.prefixes import Printed
+from carom.quantities.refusals import (
+    Faults,
+    checked_type,
+    hint,
+    known_keywords,
+    nearest,
+    refusal,
+    refuse,
+)
 from carom.quantities.units import Value, not_negative, number, positive
 
 STRENGTHS = ("yield_strength", "tensile_strength", "fracture_toughness", "flaw_size")

@@ -13,12 +13,9 @@ from carom.bodies.materials import Material, set_fields
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.bodies.smooth_body import Body
 from carom.dimensionless.ellipse import Ellipse, contact_ellipse, stiffness_ratios
-from carom.quantities.arrays import Array
-from carom.quantities.elementwise import quotient, sqrt, where
-from carom.quantities.keywords import known_keywords
-from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError, checked_type, refusal, refuse
-from carom.quantities.shown import Printed
+from carom.quantities.arrays import Array, quotient, sqrt, where
+from carom.quantities.prefixes import Printed, text
+from carom.quantities.refusals import InputError, checked_type, known_keywords, refusal, refuse
 from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup

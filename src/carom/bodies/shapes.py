@@ -7,11 +7,9 @@ from functools import cached_property
 from typing import Any, cast
 
 from carom.bodies.materials import VALUES, Material, as_material, set_fields
-from carom.quantities.elementwise import sqrt
-from carom.quantities.keywords import known_keywords
-from carom.quantities.prefixes import text
-from carom.quantities.refusals import Faults, refusal, refuse
-from carom.quantities.shown import Printed
+from carom.quantities.arrays import sqrt
+from carom.quantities.prefixes import Printed, text
+from carom.quantities.refusals import Faults, known_keywords, refusal, refuse
 from carom.quantities.units import Value, not_negative, positive
 
 DESCRIBED = {  # of what a body is made, round ones and others

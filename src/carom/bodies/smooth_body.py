@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 from carom.bodies.materials import Material, as_material, set_fields
 from carom.bodies.shapes import Shape
 from carom.quantities.arrays import Array, numbers
-from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import Faults, checked_type, refusal
+from carom.quantities.refusals import Faults, checked_type, known_keywords, refusal
 from carom.quantities.units import Value, positive
 
 INERTIAS = "must be a positive number in kg m^2, or in space a symmetric 3 x 3 matrix of them"

@@ -14,8 +14,7 @@ from carom.bodies.materials import Material, as_material
 from carom.bodies.smooth_body import Body
 from carom.bodies.solid_shapes import SAME, body_of, clump_of, cylinder_of, ellipsoid_of
 from carom.quantities.arrays import Array, numbers, pure_numbers
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import Faults, flag, refusal, refuse
+from carom.quantities.refusals import Faults, flag, known_keywords, refusal, refuse
 from carom.quantities.units import Value, finite, not_negative, positive
 
 LEANS = "must be from -{0:g} deg to {0:g} deg; a bare angle is in radians: write e.g. '40 deg'"

@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.dimensionless.lossy.springs.metal import YIELD_PRESSURE
-from carom.quantities.elementwise import sqrt
+from carom.quantities.arrays import sqrt
 from carom.quantities.refusals import refuse
 
 NO_STRENGTH = "{}: missing; give it, or a yield_strength of a material"

@@ -19,8 +19,8 @@ from typer.core import TyperCommand, TyperGroup, TyperOption
 
 from carom.cli.cases import named_values, stored
 from carom.io.paths import checked_output, replace_whole
+from carom.quantities.glossary import meant, remark
 from carom.quantities.refusals import Faults, clipped, nearest
-from carom.quantities.symbols import meant, remark
 
 if TYPE_CHECKING:
     from carom.io.heads import TableFormat

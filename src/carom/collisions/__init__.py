@@ -19,8 +19,7 @@ from carom.laws.exact import ReboundLaw, law_of
 from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
 from carom.quantities.arrays import along_the_same
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import flag, refusal
+from carom.quantities.refusals import flag, known_keywords, refusal
 from carom.quantities.units import threads_or_none
 
 OF_NUMPY = (

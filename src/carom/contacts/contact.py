@@ -14,7 +14,7 @@ from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import now_at
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import listed
-from carom.quantities.shown import Printed
+from carom.quantities.prefixes import Printed
 
 TIME_ROUNDING = 8.0 * np.finfo(np.float64).eps  # of a time that has passed through seconds
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from carom.contacts.contact import Contact
 from carom.contacts.fields import radial_fields, stress_dataset, surface_fields
-from carom.quantities.keywords import known_keywords
+from carom.quantities.refusals import known_keywords
 from carom.quantities.units import Value, counted
 
 if TYPE_CHECKING:

@@ -22,8 +22,7 @@ from carom.io.progress import Progress, advancing
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY, aligned
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import known_keywords, refusal
 from carom.quantities.units import is_real
 
 if TYPE_CHECKING:

@@ -13,8 +13,7 @@ from carom.bodies.kinematics import Rebound, Tangential, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.arrays import Array, along_the_same, numbers, refuse_where, together
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import checked_type, heading, hint, refusal, refuse
+from carom.quantities.refusals import checked_type, heading, hint, known_keywords, refusal, refuse
 
 Quantities = Mapping[str, Any]  # arrays by name
 

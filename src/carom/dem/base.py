@@ -18,8 +18,7 @@ from carom.dem.stepping import HISTORY, MOST_DURATIONS, REMEMBERED, stepped
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import answered
 from carom.quantities.arrays import Array
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import flag, refusal
+from carom.quantities.refusals import flag, known_keywords, refusal
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
 

@@ -24,8 +24,7 @@ from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Matrix, Ve
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 from carom.quantities.arrays import along_the_same, pure_numbers, together
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import flag, refusal
+from carom.quantities.refusals import flag, known_keywords, refusal
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import threads_or_none
 

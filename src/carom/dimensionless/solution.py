@@ -22,8 +22,7 @@ from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.rebounds import LINEAR_PSI, STEP_TOLERANCE, is_elastic
 from carom.dimensionless.states import ContactState, History, Phase, SlipAngle, Trajectory
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import known_keywords, refusal
 from carom.quantities.statuses import Cause
 from carom.quantities.units import pure_number
 

@@ -13,9 +13,8 @@ from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.numerics.arrays import Array
 from carom.quantities.arrays import pure_numbers, refuse_where
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal, refuse
-from carom.quantities.shown import Printed
+from carom.quantities.prefixes import Printed
+from carom.quantities.refusals import known_keywords, refusal, refuse
 from carom.quantities.units import counted
 
 KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross slip"}

@@ -10,9 +10,8 @@ from carom.fitting.bounces import BOUNCES, base
 from carom.fitting.groups import GROUP
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.reading import FROM_SURFACE, UNSIGNED
-from carom.io.decimals import is_number
+from carom.io.cells import Column, is_number
 from carom.io.heads import ALIASES, TableFormat, parts_of
-from carom.io.rows import Column
 from carom.io.spreadsheets import sheets_of
 from carom.io.tables import file_columns
 from carom.io.user_table import entry, suggested, with_errors

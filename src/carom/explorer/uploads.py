@@ -4,7 +4,6 @@ What is shown of a fit: parameters, laws, charts with residuals, bodies, notes.
 """
 
 from base64 import b64decode
-from binascii import Error as NotBase64
 from collections.abc import Iterable, Mapping
 from math import isfinite, isnan
 from pathlib import Path
@@ -24,9 +23,9 @@ from carom.fitting import Estimate, Fit, fit
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
 from carom.fitting.reading import read_measurements, read_problem, read_rebounds
+from carom.io.cells import Column
 from carom.io.heads import TableFormat, table_format
 from carom.io.remedies import Remedies, offering
-from carom.io.rows import Column
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text
@@ -90,7 +89,7 @@ def shown_name(name: str) -> str:
 def _decoded(contents: str) -> bytes:
     try:
         content = b64decode(contents.partition(",")[2], validate=True)
-    except (NotBase64, ValueError):  # ValueError: characters beyond ASCII
+    except ValueError:  # no Base64, or characters beyond ASCII
         raise InputError("file: it did not arrive whole; choose it again") from None
     if len(content) > LARGEST_UPLOAD:
         allowed = f"must be at most {LARGEST_UPLOAD} bytes; leave out what is not needed"

@@ -24,8 +24,7 @@ from carom.fitting.repeats import with_readings
 from carom.fitting.restrictions import refuse_contradicted
 from carom.fitting.result import Fit, assembled
 from carom.io.progress import advancing
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import Faults, flag, refuse
+from carom.quantities.refusals import Faults, flag, known_keywords, refuse
 from carom.quantities.units import Value
 
 __all__ = ["Estimate", "Fit", "JointFit", "fit", "joint_fit"]

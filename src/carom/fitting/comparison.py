@@ -21,7 +21,7 @@ from carom.fitting.loss_laws import CONSTANT, ON_PLATE, elastic, laws_of_losses
 from carom.fitting.model import EXACT, OFFSET, Model
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
-from carom.io.rows import Mask
+from carom.io.cells import Mask
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import span

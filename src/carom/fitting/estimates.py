@@ -9,8 +9,7 @@ from carom.fitting.intervals import ProfiledFit
 from carom.fitting.model import KAPPA
 from carom.fitting.restrictions import elastic_bounds
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.prefixes import shared
-from carom.quantities.shown import Printed
+from carom.quantities.prefixes import Printed, shared
 from carom.quantities.units import or_none
 
 LIMITS: dict[str, tuple[float, float]] = defaultdict(lambda: (0.0, inf))  # what is possible at all

@@ -12,8 +12,8 @@ from carom.fitting import plates, problem as errors
 from carom.fitting.least_squares import DIFFERENCE_STEP, Minimum, descend, jacobian
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
+from carom.io.cells import Mask
 from carom.io.extras import extra
-from carom.io.rows import Mask
 from carom.quantities.arrays import Array
 
 WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell

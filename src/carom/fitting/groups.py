@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from carom.fitting import problem as errors
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
-from carom.io.rows import Mask
+from carom.io.cells import Mask
 from carom.io.user_table import ERROR, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY

@@ -13,8 +13,8 @@ from carom.fitting.model import OFFSET, Model, plain
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import RobustLoss
 from carom.fitting.restrictions import within_elastic_range
+from carom.io.cells import Mask
 from carom.io.remedies import REMEDIES
-from carom.io.rows import Mask
 from carom.quantities.arrays import Array
 
 TRIES = 4  # fits of which the ends are searched for, each better than the one before

@@ -14,8 +14,8 @@ from carom.dimensionless.lossy import layout
 from carom.dimensionless.rebounds import STEP_TOLERANCE, fill_motion, solved
 from carom.impacts import plates
 from carom.impacts.solve import impact
+from carom.io.cells import Mask
 from carom.io.labels import Finding
-from carom.io.rows import Mask
 from carom.quantities.arrays import Array
 
 THICKNESS, DURATION = "thickness", "duration"

@@ -13,7 +13,7 @@ from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import convert_observables
 from carom.fitting.plates import THICKNESS
-from carom.io.rows import Mask
+from carom.io.cells import Mask
 from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY

@@ -20,9 +20,8 @@ from carom.io.heads import table_format
 from carom.io.labels import labelled_dataset
 from carom.io.user_table import ERROR
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import Faults, InputError, flag, refusal, refuse
+from carom.quantities.refusals import Faults, InputError, flag, known_keywords, refusal, refuse
 from carom.quantities.units import Value, finite, or_none, positive, within
 
 if TYPE_CHECKING:

@@ -15,8 +15,7 @@ from carom.dimensionless.adhesion import STICKING, Adhering, solve_adhering
 from carom.impacts.outcome import Outcome
 from carom.io.citations import ADHESION, bibtex
 from carom.quantities.arrays import Array, numbers, refuse_where, together
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal, refuse
+from carom.quantities.refusals import known_keywords, refusal, refuse
 from carom.quantities.units import APPROACH, Value, not_negative
 
 PULL_OFF = 8.0 / 15.0 * (2.0 * pi) ** (5.0 / 3.0) * STICKING  # 7.0922

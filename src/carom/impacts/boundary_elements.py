@@ -24,8 +24,7 @@ from carom.impacts.validity import OF_BODIES, WEAK_COUPLING, judge, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Finding, Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal, refuse
+from carom.quantities.refusals import known_keywords, refusal, refuse
 from carom.quantities.units import Value, counted
 
 if TYPE_CHECKING:

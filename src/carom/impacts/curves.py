@@ -16,8 +16,7 @@ from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import POSITIVES, Array, finite_line
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import known_keywords, refusal
 
 if TYPE_CHECKING:
     import xarray as xr

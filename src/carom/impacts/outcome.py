@@ -8,7 +8,7 @@ from carom.bodies.checks import scales_fit
 from carom.bodies.kinematics import Kinematics
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Scales
-from carom.quantities.elementwise import copysign, isfinite, where
+from carom.quantities.arrays import copysign, isfinite, where
 
 FAST = 1e4  # psi_1 over 1 and the most that friction takes of it: it slips throughout
 RESULTS = (

@@ -10,7 +10,7 @@ from carom.impacts.dissipation import compressional_speed
 from carom.impacts.findings import judged
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding
-from carom.quantities.elementwise import sqrt
+from carom.quantities.arrays import sqrt
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal, refuse
 

@@ -12,8 +12,7 @@ from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import Faults, checked_type, refusal, refuse
+from carom.quantities.refusals import Faults, checked_type, known_keywords, refusal, refuse
 from carom.quantities.units import Value, finite
 
 if TYPE_CHECKING:

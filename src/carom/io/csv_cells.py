@@ -7,13 +7,11 @@ from collections import Counter
 from collections.abc import Iterator
 from functools import partial
 from itertools import chain, islice
-from typing import Any, TextIO
+from typing import Any
 
-from carom.io.decimals import is_number
-from carom.io.rows import Column, is_missing
-from carom.io.table_rows import HEAD_ROWS, RowSource, read_rows
+from carom.io.cells import Column, is_missing, is_number
+from carom.io.table_rows import HEAD_ROWS, RowSource
 from carom.io.user_table import UserTable
-from carom.quantities.refusals import refusal
 
 QUOTED = re.compile(r'"((?:[^"]|"")*)"[\s,;]*')  # by a spreadsheet, as a comment with commas is
 PERCENT = re.compile(r"%\s*[,;\t]|%\s*$")  # which is a unit
@@ -29,31 +27,25 @@ LABVIEW, LABVIEW_END = "LabVIEW Measurement", "***End_of_Header***"
 LABVIEW_PREAMBLES = 2  # of the file and of its channels
 
 
-def read_csv(
-    what: str, path: str, file: Any, fewest: int, decimal: str
-) -> tuple[list[Column], UserTable]:
-    """Return the columns of a CSV file by their heads, and a table of its lines, yet without them.
-
-    `file` is open, and gives bytes. Raises InputError, in which it is called `what`, if it is no
-    such file.
-    """
-    how = ("utf-16", "strict") if file.peek(2)[:2] in UTF16 else ("utf-8-sig", "surrogateescape")
-    with io.TextIOWrapper(file, *how) as text:
-        try:
-            return read_rows(_CsvFile(what, path, text), fewest, decimal)
-        except csv.Error as error:
-            raise refusal(what, path, f"it is not CSV; {error}") from None
-        except UnicodeError:
-            raise refusal(what, path, "it is not text; give a CSV file") from None
-
-
-class _CsvFile(RowSource):
+class CsvFile(RowSource):
     """A CSV file while it is read; the encoding is that of its first letter beyond ASCII."""
 
-    def __init__(self, what: str, path: str, text: TextIO) -> None:
+    def __init__(self, what: str, path: str, file: Any) -> None:
         super().__init__(what, path)
-        self.text = text
+        is_wide = file.peek(2)[:2] in UTF16
+        how = ("utf-16", "strict") if is_wide else ("utf-8-sig", "surrogateescape")
+        self.text = io.TextIOWrapper(file, *how)
         self.separator = self.encoding = ""
+
+    def read(self, fewest: int, decimal: str) -> tuple[list[Column], UserTable]:
+        """Return columns and table as others do, or raise InputError if it is no such file."""
+        try:
+            with self.text:
+                return super().read(fewest, decimal)
+        except csv.Error as error:
+            raise self.refusal(f"it is not CSV; {error}") from None
+        except UnicodeError:
+            raise self.refusal("it is not text; give a CSV file") from None
 
     def rows(self) -> Iterator[list[str]]:
         """Yield the cells of each line that has any, none of one that is no CSV."""

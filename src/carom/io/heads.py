@@ -2,15 +2,14 @@
 
 import json
 import re
-import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from math import isclose, pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from carom.io.files import read_text
-from carom.io.rows import Column
+from carom.io.cells import Column
+from carom.io.files import read_toml
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, checked_type, heading, hint, nearest, refusal
 from carom.quantities.texts import LONGEST_TEXT, UNCHANGED, is_unit
@@ -53,13 +52,8 @@ def table_format(columns: Any, sheet: Any = None, decimal: Any = None) -> TableF
 
 def _stored(path: str | Path) -> dict[str, Any]:
     """Return what a TOML file says, or raise InputError."""
-    example = 'it must have a table [columns], e.g. "omega [rpm]" = "spin_out"'
-    try:
-        read = tomllib.loads(read_text("columns", path))
-    except UnicodeDecodeError:
-        raise refusal("columns", str(path), f"it is not text; {example}") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise refusal("columns", str(path), f"it is not TOML, {error}; {example}") from None
+    remedy = '; it must have a table [columns], e.g. "omega [rpm]" = "spin_out"'
+    read, _ = read_toml("columns", path, remedy)
     names = TableFormat._fields
     for key in filter(lambda key: key not in names, read):
         raise InputError(f"columns: {heading(key)!r} in {path} is unknown; {hint(key, names)}")
@@ -84,13 +78,13 @@ def spelled(name: str) -> str:
 
 
 def renamed(
-    columns: Sequence[Column], names: Mapping[str, str], what: str, wrong: list[str]
-) -> list[tuple[str, Any]]:
-    """Return names and units of columns, users' names replaced by Carom's.
+    columns: Iterable[Column], names: Mapping[str, str], what: str, wrong: list[str]
+) -> list[tuple[str, Column]]:
+    """Return names of columns, users' names replaced by Carom's, and these with their units.
 
     Adds to what is wrong names that no column has, and a unit that is told otherwise.
     """
-    left, new = dict(names), list[tuple[str, Any]]()
+    left, new = dict(names), list[tuple[str, Column]]()
     for column in columns:
         own, unit = parts_of(column.head)
         wanted = left.pop(column.head, None) or left.pop(own, None)
@@ -100,11 +94,11 @@ def renamed(
         try:
             if wanted is not None and not is_open(name, unit, new_unit):
                 new_unit = one_unit(own, unit, new_unit)
-            new.append((name, one_unit(name, new_unit, column.unit)))
+            new_unit = one_unit(name, new_unit, column.unit)
         except InputError as error:
             wrong.append(str(error))
-            new.append((name, new_unit))
-    heads = [column.head for column in columns]
+        new.append((name, column._replace(unit=new_unit)))
+    heads = [column.head for _, column in new]
     for name in left:
         near = nearest(name, heads) or f"its columns are {', '.join(heads)}"
         wrong.append(str(refusal("columns", name, f"{what} has no column of that name; {near}")))

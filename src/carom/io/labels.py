@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from carom.io.version import __version__
 from carom.old_names import with_old_fields
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.shown import Printed
+from carom.quantities.prefixes import Printed
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -5,17 +5,24 @@ from array import array
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from itertools import chain, islice, zip_longest
 from operator import itemgetter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from carom.io.decimals import Cells, is_number, sign_of
+from carom.io.cells import (
+    ERROR_CELL,
+    Cells,
+    Column,
+    is_blank,
+    is_missing,
+    is_number,
+    letter_of,
+    named,
+)
 from carom.io.heads import parts_of
 from carom.io.progress import advancing
-from carom.io.rows import ERROR_CELL, Column, is_blank, is_missing, letter_of, named
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import InputError, refusal, refuse
 from carom.quantities.texts import is_unit
@@ -69,56 +76,50 @@ class RowSource:
         """Return the error that refuses the file."""
         return refusal(self.what, self.path, allowed)
 
+    def read(self, fewest: int, decimal: str) -> tuple[list[Column], UserTable]:
+        """Return the columns by their heads, and a table of the rows, yet without them.
 
-class _Head(NamedTuple):
-    """Names of columns, how many rows are above the first below, how long those are, and those."""
+        A column is an array where all its cells are plain numbers, else a list of texts and
+        numbers. Blank rows are left out, and so are blank columns without a name, and rows of
+        another length than most, which the table is told of.
 
-    heads: list[str]
-    above: int
-    width: int
-    rows: Iterator[Sequence[Any]]
-
-
-def read_rows(source: RowSource, fewest: int, decimal: str) -> tuple[list[Column], UserTable]:
-    """Return the columns of a file by their heads, and a table of its rows, yet without them.
-
-    A column is an array where all its cells are plain numbers, else a list of texts and numbers.
-    Blank rows are left out, and so are blank columns without a name, and rows of another length
-    than most, which the table is told of.
-
-    Raises InputError if there is no head, or there are fewer columns than are allowed.
-    """
-    try:
-        head = _head_of(source, fewest)
-    except InputError as error:
-        raise InputError(*source.wrong, *error.faults) from None
-    columns, start = [Cells(decimal) for _ in head.heads], head.above
-    numbers: list[array[int]] = []
-    odd: dict[int, list[int]] = {}
-    with advancing("reading the table", None, unit="rows") as advance:
-        while block := list(islice(head.rows, BLOCK_ROWS)):
-            stop = start + len(block)
-            where, block = _even(source.numbers[start:stop], block, head.width, odd)
-            numbers.append(where)
-            if stop - head.above > MOST_ROWS:
-                raise source.refusal(f"it has more than {MOST_ROWS} rows")
-            for column, cells in zip(columns, zip(*block, strict=True), strict=False):
-                column.add(cells)
-            start = stop
-            advance(len(block))
-    rows = np.concatenate([np.asarray(each, np.int64) for each in numbers or [array("q")]])
-    for column in columns[head.width :]:  # to which no row extends
-        column.add([""] * len(rows))
-    read = _with_signs(head.heads, columns, rows)
-    wrong = (*source.wrong, *_uneven(source, odd, head))
-    table = UserTable({}, rows, source.word, source.comments)
-    return read, replace(table, notes=tuple(source.notes), wrong=wrong)
+        Raises InputError if there is no head, or there are fewer columns than are allowed.
+        """
+        try:
+            heads, start, width, below = _head_of(self, fewest)
+        except InputError as error:
+            raise InputError(*self.wrong, *error.faults) from None
+        columns = [Cells(letter_of(place), decimal) for place in range(len(heads))]
+        above, numbers = start, list[array[int]]()
+        odd: dict[int, list[int]] = {}
+        with advancing("reading the table", None, unit="rows") as advance:
+            while block := list(islice(below, BLOCK_ROWS)):
+                stop = start + len(block)
+                where, block = _even(self.numbers[start:stop], block, width, odd)
+                numbers.append(where)
+                if stop - above > MOST_ROWS:
+                    raise self.refusal(f"it has more than {MOST_ROWS} rows")
+                for column, cells in zip(columns, zip(*block, strict=True), strict=False):
+                    column.add(cells)
+                start = stop
+                advance(len(block))
+        rows = np.concatenate([np.asarray(each, np.int64) for each in numbers or [array("q")]])
+        for column in columns[width:]:  # to which no row extends
+            column.add([""] * len(rows))
+        told = {sign for column in columns for sign in column.sure}
+        names = [head or f"column {each.letter}" for head, each in zip(heads, columns, strict=True)]
+        read = [each.column(name, told, rows) for name, each in zip(names, columns, strict=True)]
+        read = [c for c, head in zip(read, heads, strict=True) if head or not c.missing.all()]
+        wrong = (*self.wrong, *_uneven(self, odd, width, len(heads)))
+        table = UserTable({}, rows, self.word, self.comments)
+        return read, replace(table, notes=tuple(self.notes), wrong=wrong)
 
 
-def _head_of(source: RowSource, fewest: int) -> _Head:
-    """Return the head: the first row that is not blank, no title, and holds no numbers.
+def _head_of(source: RowSource, fewest: int) -> tuple[list[str], int, int, Iterator[Sequence[Any]]]:
+    """Return the head, how many rows end with it, the length of those below, and these.
 
-    Raises InputError if there is none, or too few or too many names are in it.
+    It is the first row that is not blank, no title, and holds no numbers. Raises InputError if
+    there is none, or too few or too many names are in it.
     """
     rows = source.rows()
     first = list(islice(rows, HEAD_ROWS))
@@ -142,7 +143,7 @@ def _head_of(source: RowSource, fewest: int) -> _Head:
     refuse(count < fewest and source.refusal(few), count > MOST_COLUMNS and source.refusal(many))
     lengths = Counter(len(row) for row in first[above:] if not all(map(is_blank, row)))
     width = min(lengths.most_common(1)[0][0], len(heads)) if lengths else 0
-    return _Head(heads, above, width, chain(first[above:], rows))
+    return heads, above, width, chain(first[above:], rows)
 
 
 def _of_points(rows: Sequence[Sequence[Any]]) -> tuple[list[str], int]:
@@ -210,30 +211,12 @@ def _even(
     return kept, even
 
 
-def _uneven(source: RowSource, odd: dict[int, list[int]], head: _Head) -> list[str]:
+def _uneven(source: RowSource, odd: dict[int, list[int]], width: int, names: int) -> list[str]:
     """Return what is wrong with rows of another length, if there are any."""
     lengths = [
         f"{named(source.word, numbers)} {'has' if len(numbers) == 1 else 'have'} {length} values"
         for length, numbers in odd.items()
     ]
-    names = len(head.heads)
-    others = f"the others have {head.width}" if names in odd else f"the header has {names} names"
+    others = f"the others have {width}" if names in odd else f"the header has {names} names"
     words = f"it is not {source.kind}; {', '.join([*lengths, others])}"
     return [str(source.refusal(words))] if odd else []
-
-
-def _with_signs(heads: list[str], columns: list[Cells], rows: Any) -> list[Column]:
-    """Return the columns with decimal points; without a name they are called by their letters."""
-    told = {sign for column in columns for sign in column.sure}
-    read = []
-    for place, (head, column) in enumerate(zip(heads, columns, strict=True)):
-        letter = letter_of(place)
-        sign, fault = sign_of(column, told, partial(_cell, letter, rows))
-        cells = column.with_points(sign)
-        if head or not all(map(is_missing, cells)):
-            read.append(Column(head or f"column {letter}", cells, "", fault, letter))
-    return read
-
-
-def _cell(letter: str, rows: Any, place: int) -> str:
-    return f"cell {letter}{rows[place]}"

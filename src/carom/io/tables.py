@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from carom.io.csv_cells import read_csv
+from carom.io.cells import GAP, Column, is_missing
+from carom.io.csv_cells import CsvFile
 from carom.io.heads import TableFormat, renamed, spelled, table_format
 from carom.io.paths import accessing, checked_path, opened
-from carom.io.rows import GAP, Column, is_missing
-from carom.io.spreadsheets import STARTS, read_spreadsheet
+from carom.io.spreadsheets import STARTS, Sheet
 from carom.io.table_rows import MOST_COLUMNS
 from carom.io.user_table import UserTable
 from carom.quantities.arrays import along_the_same, floats
@@ -59,10 +59,9 @@ def read_table(
             refuse(getattr(how, name) and f"{name}: only a file has it; leave it out")
         source_columns, table = _of_object(what, source)
     wrong, cells, places = list(table.wrong), dict[str, Column](), dict[str, list[str]]()
-    called = renamed(source_columns, how.columns, what, wrong)
-    for column, (name, unit) in zip(source_columns, called, strict=True):
+    for name, column in renamed(source_columns, how.columns, what, wrong):
         places.setdefault(name, []).append(column.letter)
-        cells.setdefault(name, column._replace(unit=unit))
+        cells.setdefault(name, column)
     for name, letters in places.items():
         where = f", {' and '.join(letters)}," if all(letters) else ""
         words = f"two columns{where} have this name; leave one of them out"
@@ -84,9 +83,9 @@ def file_columns(
         path, sheet = Path(name), last
     with accessing(what, path, "read"), opened(path, "rb") as file:
         if file.peek(4).startswith(STARTS):
-            return read_spreadsheet(what, str(path), file, sheet, fewest, how.decimal)
+            return Sheet(what, str(path), file, sheet).read(fewest, how.decimal)
         refuse(sheet and refusal("sheet", sheet, f"{path} is no spreadsheet; leave it out"))
-        return read_csv(what, str(path), file, fewest, how.decimal)
+        return CsvFile(what, str(path), file).read(fewest, how.decimal)
 
 
 def _of_object(what: str, source: Any) -> tuple[list[Column], UserTable]:

@@ -13,14 +13,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.io.cells import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing, named
 from carom.io.heads import is_open, spelled
 from carom.io.remedies import REMEDIES
-from carom.io.rows import MOST_NAMED_ROWS, Column, Mask, Rows, is_missing, named
 from carom.quantities.arrays import Array, in_unit
-from carom.quantities.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY, meant
+from carom.quantities.prefixes import Printed
 from carom.quantities.refusals import Faults, InputError, clipped, heading, nearest, refuse
-from carom.quantities.shown import Printed
-from carom.quantities.symbols import meant
 from carom.quantities.texts import UNCHANGED
 from carom.quantities.units import PURE_UNITS, WHY_POSITIVE, factor_of, finite_or_text, number
 
@@ -202,10 +201,8 @@ def in_units(
     n/a stands for what was not measured: NaN, in columns of `gaps` and of their errors. A row in
     which none of these columns has a value is left out, unless the table is to stay whole.
 
-    Adds to the faults of the table, which raise InputError if nobody collects them, a cell that is
-    not a number, a value that is missing in another column, a unit that does not fit, an error that
-    has no unit where its column has one, angles that cannot be in rad, and speeds of bodies that do
-    not approach.
+    Adds to the faults of the table, which raise InputError if nobody collects them, what is no
+    number or missing elsewhere, units that do not fit or lack, and values that cannot be in them.
     """
     table, missing = table.told(table.faults), dict[str, Mask]()
     columns = {name: np.full(len(table), nan) for name in table.names}

@@ -25,8 +25,7 @@ from carom.io.progress import advancing
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
 from carom.quantities.arrays import Array, pure_numbers
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, known_keywords, refusal
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import positive
 

@@ -1,7 +1,12 @@
-"""Reading arrays that users give: numbers, points, the lines of a grid."""
+"""Arrays that users give, read: numbers, points, the lines of a grid; and formulas of arrays.
+
+With `sqrt` and the like a formula is written once, for one impact and for a block of many, and is
+annotated as that of one: a number in gives a plain float, not a NumPy one. What has no value is NaN
+or infinite, as in IEEE arithmetic, and nothing is raised.
+"""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import prod
 from typing import Any, NamedTuple
 
@@ -238,3 +243,23 @@ def places(
     at = np.stack([columns.get(name, zero) for name in space], axis=-1)
     coords = {name: lines.get(name, 0.0) for name in space}
     return Places(tuple(reversed(lines)), coords, at)
+
+
+def _elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
+    def of_numbers_or_arrays(*arguments: Any) -> Any:
+        with np.errstate(all="ignore"):
+            result = function(*arguments)
+        return result if np.ndim(result) else result.item()
+
+    return of_numbers_or_arrays
+
+
+isfinite: Callable[[float], bool] = _elementwise(np.isfinite)
+sqrt: Callable[[float], float] = _elementwise(np.sqrt)
+cos: Callable[[float], float] = _elementwise(np.cos)
+sin: Callable[[float], float] = _elementwise(np.sin)
+copysign: Callable[[float, float], float] = _elementwise(np.copysign)
+hypot: Callable[[float, float], float] = _elementwise(np.hypot)
+arctan2: Callable[[float, float], float] = _elementwise(np.arctan2)
+quotient: Callable[[float, float], float] = _elementwise(np.divide)
+where: Callable[[bool, float, float], float] = _elementwise(np.where)

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from functools import lru_cache
+from html import escape
 from math import degrees, isfinite, isnan
 from typing import TYPE_CHECKING
 
@@ -124,3 +125,10 @@ def _number(value: float, power: int = 0, digits: int = DIGITS) -> str:
     decades = int(exponent) - power
     places = max(digits, decades + 1) if decades <= MOST_DECADES else digits  # 750, not 7.5e+02
     return f"{float(f'{mantissa}e{decades}'):.{places}g}"
+
+
+class Printed:
+    """An object that a notebook shows as `print` does."""
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"

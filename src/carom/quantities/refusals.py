@@ -6,12 +6,17 @@ Of a file, a command line or the inputs of a call all faults are said in one mes
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
+from functools import wraps
+from inspect import Parameter, signature
 from reprlib import Repr
-from typing import Any, Self, TypeVar
+from typing import Any, ParamSpec, Self, TypeVar
 
-from carom.quantities.symbols import meant, remark
+from carom.old_names import renamed
+from carom.quantities.glossary import meant, remark
 
 Kind = TypeVar("Kind")
+Parameters = ParamSpec("Parameters")
+Result = TypeVar("Result")
 
 LONGEST_SHOWN = 120  # characters of a value that a refusal shows
 MOST_LISTED = 12  # faults in one message
@@ -157,3 +162,33 @@ class Faults:
     def settle(self) -> None:
         """Raise InputError if there are faults so far, before costly work."""
         refuse(*self._messages)
+
+
+def known_keywords(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    """Return a function that refuses keywords it does not know, and values without their name."""
+    parameters = signature(function).parameters.values()
+    keywords = [each.name for each in parameters if each.kind is not Parameter.POSITIONAL_ONLY]
+    named = [each.name for each in parameters if each.kind is Parameter.KEYWORD_ONLY]
+    most = sum(each.kind is Parameter.POSITIONAL_OR_KEYWORD for each in parameters)
+    title = function.__qualname__.removesuffix(".__init__").removesuffix(".__call__")
+    title = title.rpartition(".")[2]
+
+    @wraps(function)
+    def called(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
+        for name in list(kwargs):
+            new = renamed(name, title, keywords)
+            if new not in keywords:
+                words = hint(name, [word for word in keywords if word != "self"])
+                raise InputError(f"{name}: no keyword of {title}; {words}")
+            if new != name and new in kwargs:
+                raise InputError(
+                    f"{name}: the old name of {new}, which is given as well; leave it out"
+                )
+            kwargs[new] = kwargs.pop(name)
+        if most < len(args) <= most + len(named):
+            nameless = zip(named, args[most:], strict=False)
+            cure = ", ".join(f"{name}={value!r}" for name, value in nameless)
+            raise InputError(f"{title}: takes these by name; write {cure}")
+        return function(*args, **kwargs)
+
+    return called

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from carom.io.extras import extra
 from carom.io.progress import Progress, advancing
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import flag, refuse
+from carom.quantities.refusals import flag, known_keywords, refuse
 from carom.sweeps.any_shape import problem_of
 from carom.sweeps.designs import Design, points_in
 from carom.sweeps.records import MemoryRecord, SweepStopped

@@ -11,8 +11,8 @@ from carom.bodies import cases
 from carom.bodies.case_materials import material_values, read_material
 from carom.bodies.materials import STRENGTHS
 from carom.io.labels import attributes
+from carom.quantities.glossary import meant, remark
 from carom.quantities.refusals import heading, hint, one_of, refusal, refuse
-from carom.quantities.symbols import meant, remark
 
 CODE = np.int8
 

@@ -14,8 +14,7 @@ from carom.bodies.pairs import Pair
 from carom.impacts.peaks import UNCOUPLED
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.progress import Progress
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError
+from carom.quantities.refusals import InputError, known_keywords
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
 from carom.sweeps.points import BEARABLE, WANTED, needed_by

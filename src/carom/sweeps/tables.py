@@ -13,8 +13,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from carom.bodies.cases import SWEEP_TABLE, Case
+from carom.io.cells import is_missing
 from carom.io.heads import TableFormat, table_format
-from carom.io.rows import is_missing
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, column_in_si
 from carom.quantities.glossary import GLOSSARY

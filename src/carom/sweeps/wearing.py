@@ -19,8 +19,7 @@ from carom.impacts.wear import MOST_RADII, PER_LOAD, largest, rubbed, rubbed_at
 from carom.io.labels import flags, labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, along_the_same, numbers, together
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import known_keywords, refusal
 from carom.quantities.units import Value, counted, not_negative, positive
 from carom.sweeps import points
 from carom.sweeps.points import PointStatus

@@ -16,8 +16,7 @@ from carom.io.progress import Progress, advancing
 from carom.io.user_table import CASE
 from carom.old_names import with_old_fields
 from carom.quantities.arrays import finite_line
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import checked_type, refusal, refuse
+from carom.quantities.refusals import checked_type, known_keywords, refusal, refuse
 from carom.verify import errors
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run

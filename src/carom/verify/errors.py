@@ -14,8 +14,7 @@ from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import advancing
 from carom.quantities.arrays import POSITIVES, Array, finite_line, refuse_where
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, refusal, refuse
+from carom.quantities.refusals import InputError, known_keywords, refusal, refuse
 from carom.quantities.units import counted, finite, positive
 from carom.verify.entries import LawOrFunction, as_law, parameters
 

@@ -16,7 +16,7 @@ from carom.io.progress import Progress, advancing
 from carom.old_names import with_old_fields
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
-from carom.quantities.keywords import known_keywords
+from carom.quantities.refusals import known_keywords
 from carom.quantities.units import or_none
 from carom.verify import errors
 from carom.verify.entries import CATALOGUE, Entry, LawOrFunction, as_entry, damped, listed

@@ -19,8 +19,7 @@ from carom.dimensionless.numerics.hertz import DURATION
 from carom.io.progress import Progress, advancing
 from carom.plots.result import card
 from carom.quantities.arrays import Array
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import Faults, one_of, refusal, refuse
+from carom.quantities.refusals import Faults, known_keywords, one_of, refusal, refuse
 from carom.quantities.units import finite, positive
 from carom.verify import errors
 from carom.verify.entries import CATALOGUE, LawOrFunction, as_law, called, listed

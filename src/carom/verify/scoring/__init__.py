@@ -12,13 +12,12 @@ import numpy as np
 from carom.bodies.pairs import Pair
 from carom.dem.base import Law
 from carom.impacts.exact import Impact
+from carom.io.cells import is_nan
 from carom.io.heads import spelled
-from carom.io.rows import is_nan
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, in_units, others
 from carom.quantities.arrays import Array
-from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import Faults, InputError, nearest, refusal, refuse
+from carom.quantities.refusals import Faults, InputError, known_keywords, nearest, refusal, refuse
 from carom.quantities.units import positive
 from carom.verify.entries import is_function
 from carom.verify.scoring import points as scored

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics import hertz
 from carom.impacts.exact import Impact
+from carom.io.cells import Mask
 from carom.io.labels import Finding, labelled, labelled_dataset
-from carom.io.rows import Mask
 from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text

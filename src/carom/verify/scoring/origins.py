@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.rows import GAP, Column
+from carom.io.cells import GAP, Column
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import refusal
 
