@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.fitting.comparison import FitRecord
-from carom.fitting.estimation import Best, information
+from carom.fitting.estimation import Best, weighed
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import NORMAL, FitProblem, RobustLoss, gaussian_mean
 from carom.impacts.curves import REGIMES
@@ -126,8 +126,8 @@ def _candidates(best: Best) -> tuple[Array, list[str]]:
     model = replace(best.model, problem=_impacts(seen))
     sigma = np.array([np.median(s[p]) for s, p in zip(best.sigma.T, seen.present.T, strict=True)])
     everywhere = np.broadcast_to(sigma, model.problem.measured.shape)
-    weights = model.weights(best.at, everywhere, best.scale)
-    slopes = information(model, best.at, weights, RobustLoss(inf)).slopes
+    planned = weighed(model, RobustLoss(inf), best.at, everywhere, best.scale)
+    slopes = planned.information.slopes
     per_value = gaussian_mean(np.gradient(best.loss.root(NORMAL), NORMAL) ** 2)  # of one more value
     return np.sqrt(per_value) * slopes, [REGIMES[index] for index in model.regimes(best.at)]
 

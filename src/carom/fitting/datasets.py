@@ -7,7 +7,6 @@ import numpy as np
 
 from carom.fitting.comparison import FitRecord, LossComparison
 from carom.fitting.estimation import Best
-from carom.fitting.intervals import rise_of
 from carom.fitting.least_squares import jacobian
 from carom.fitting.model import half_ratio
 from carom.fitting.problem import OUTLIER, FitProblem, IncomingMotion
@@ -145,8 +144,7 @@ def _band(fit: FitRecord, motion: IncomingMotion) -> Array:
     at = best.at[np.newaxis]
     slopes = jacobian(lines, at, lines(at), model.bounds)[0]
     variance = np.einsum("mp,pq,mq->m", slopes, best.information.covariance, slopes)
-    rise = float((best.caution * rise_of(fit.confidence, best.freedom)).max())
-    half_width = np.sqrt(best.spread * rise * variance)
+    half_width = np.sqrt(best.rises(fit.confidence).max() * variance)
     return np.asarray(half_width.reshape(-1, len(model.problem.responses)))
 
 
@@ -178,13 +176,12 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     best = fit._best
     refuse(best.elsewhere is not None and "posterior: not of sets that share parameters; fit alone")
     low, high = best.model.bounds
-    residuals = best.model.residuals(best.weights, best.loss)
     stopped: list[BaseException] = []
 
     def log_probability(at: Array) -> Array:
         try:
             inside = np.all((at >= low) & (at <= high), axis=1)
-            values = residuals(np.clip(at, low, high))
+            values = best.roots(np.clip(at, low, high))
             loss = np.einsum("bm,bm->b", values, values)
             return np.where(inside, -0.5 * loss / best.spread, -np.inf)
         except BaseException as error:  # which emcee would print, Ctrl-C as well

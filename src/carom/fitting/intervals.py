@@ -1,14 +1,12 @@
 """Intervals by profile likelihood, and which parameters the data do not determine."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import ndtri, stdtrit
 
 from carom.dimensionless.rebounds import THROUGHOUT
 from carom.fitting.estimation import WEAK, Best, Information, estimate
-from carom.fitting.least_squares import descend
 from carom.fitting.model import OFFSET, Model, plain
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import RobustLoss
@@ -46,19 +44,12 @@ def profiled(best: Best, confidence: float) -> ProfiledFit:
     with the parameters so that better fits never end, the last one counts.
     """
     for last in range(TRIES):
-        rises = best.spread * (best.caution * rise_of(confidence, best.freedom))
-        profile, better = _profile(best, np.repeat(rises, 2), whatever=last == TRIES - 1)
+        rises = np.repeat(best.rises(confidence), 2)
+        profile, better = _profile(best, rises, whatever=last == TRIES - 1)
         if better is None:
             break
         best = estimate(best.model, best.loss, better[np.newaxis])
     return profile
-
-
-def rise_of(confidence: float, freedom: Array) -> Array:
-    """Return the square of Student's t, a quantile of F(1, freedom); of chi squared if infinite."""
-    level = 0.5 + 0.5 * confidence
-    bounded = np.where(np.isfinite(freedom), freedom, 1.0)
-    return np.asarray(np.where(np.isfinite(freedom), stdtrit(bounded, level), ndtri(level)) ** 2)
 
 
 def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Array | None]:
@@ -68,7 +59,6 @@ def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Arr
     `whatever` tells to go on beyond a better fit.
     """
     (low, high), count = best.model.bounds, len(best.at)
-    residuals = best.model.residuals(best.weights, best.loss)
     which, sides = np.repeat(np.arange(count), 2), np.tile([-1.0, 1.0], count)
     own, place = best.at[which], (np.arange(2 * count), which)
     limits = np.where(sides < 0.0, low[which], high[which])
@@ -85,7 +75,7 @@ def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Arr
         target = np.clip(own + sides * width, low[which], high[which])
         start = at + directions * (target - at[place])[:, np.newaxis]
         start[place] = target
-        at, sums = descend(residuals, start, best.model.bounds, others)
+        at, sums = best.descended(start, others)
         excess = (sums - best.sum) / rises
         if np.any(excess < -0.02) and not whatever:
             better = at[np.argmin(excess)]
@@ -121,21 +111,25 @@ def _next_distance(inner: Array, outer: Array) -> Array:
 class Settled:
     """The best fit of what the data tell, and the groups of parameters that they do not tell.
 
-    Of each group the first parameter is held; `whole` is the fit before anything was held, and
-    `unbounded` that with any kappa.
+    Of each group the first parameter is held, at a value from `start`; `whole` is the fit before
+    that, and `unbounded` that with any kappa. `taken` notes what was taken for granted.
     """
 
     best: Best
     groups: tuple[tuple[str, ...], ...]
     whole: Best
     unbounded: Best
+    start: Mapping[str, float]
+    taken: tuple[str, ...] = ()
 
 
-def settle(model: Model, loss: RobustLoss, start: Mapping[str, float]) -> Settled:
+def settle(
+    model: Model, loss: RobustLoss, start: Mapping[str, float], taken: tuple[str, ...] = ()
+) -> Settled:
     """Fit, and hold one parameter after the other until the data tell all that are free."""
     unbounded = estimate(model, loss)
     whole = within_elastic_range(unbounded)
-    return Settled(*without_weak(whole, start), whole, unbounded)
+    return Settled(*without_weak(whole, start), whole, unbounded, start, taken)
 
 
 def without_weak(
@@ -175,12 +169,11 @@ def _held(best: Best, group: tuple[str, ...], start: float) -> Best:
     """
     name = group[0]
     others = best.at[np.newaxis, [each != name for each in best.model.free]]
-    model = best.model.holding(name, start)
-    residuals = model.residuals(best.weights, best.loss)
-    at = others if len(group) == 1 else descend(residuals, others, model.bounds).at
-    rise = float(np.square(residuals(at)).sum()) - best.sum
+    held = replace(best, model=best.model.holding(name, start))
+    at = others if len(group) == 1 else held.descended(others).at
+    rise = float(np.square(held.roots(at)).sum()) - best.sum
     if rise < WORSE * best.spread:
-        return estimate(model, best.loss, at)
+        return estimate(held.model, best.loss, at)
     return estimate(best.model.holding(name, best.values[name]), best.loss, others)
 
 

@@ -13,9 +13,9 @@ from carom.bodies.pairs import Pair
 from carom.dimensionless.rebound_tables import STORED_CHI, STORED_E, psi_out, stored
 from carom.dimensionless.rebounds import regime_borders
 from carom.fitting import plates
-from carom.fitting.least_squares import BoxBounds, Residuals
+from carom.fitting.least_squares import BoxBounds
 from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.problem import FitProblem, IncomingMotion, RobustLoss, Weights, shared_readings
+from carom.fitting.problem import FitProblem, IncomingMotion, Weights, shared_readings
 from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # by name: of parameters (batch, 1), of restitutions (batch, rows)
@@ -271,15 +271,6 @@ class Model:
             own = slice(drop[0], drop[-1] + 1)
             across[own, own] = np.linalg.inv(np.linalg.cholesky(rows[own, own]))
         return Weights(factors / larger[:, np.newaxis, np.newaxis], across)
-
-    def residuals(self, weights: Weights, loss: RobustLoss) -> Residuals:
-        """Return the function whose sum of squares is to be least."""
-
-        def of(at: Array) -> Array:
-            roots = loss.root(weights.whitened(self.problem, self.expected(at)))
-            return roots.reshape(len(at), self.problem.measured.size)
-
-        return of
 
     def regimes(self, point: Array) -> NDArray[np.int8]:
         """Return the place in `carom.impacts.curves.REGIMES` of each row, by the exact law."""

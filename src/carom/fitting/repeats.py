@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import fdtrc
 
-from carom.fitting.estimation import Best, estimate, likelihood
+from carom.fitting.estimation import Best, estimate
 from carom.fitting.groups import FEWEST
 from carom.fitting.model import Model
 from carom.fitting.problem import RobustLoss
@@ -30,7 +30,7 @@ def with_readings(model: Model, loss: RobustLoss) -> Model:
     for share in SHARES:
         shared = replace(problem, bounces=problem.bounces._replace(share=share))
         best = estimate(replace(model, problem=shared), loss, start)
-        tried[share] = likelihood(best) + float(np.linalg.slogdet(best.information.matrix)[1])
+        tried[share] = best.deviance + float(np.linalg.slogdet(best.information.matrix)[1])
     share = min(each for each in SHARES if tried[each] <= min(tried.values()) + SLIGHTLY)
     words = (
         f"{problem.responses[0]}: {100.0 * share:.0f} % of the variance of successive bounces "

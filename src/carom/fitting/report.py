@@ -11,7 +11,7 @@ import numpy as np
 from carom.fitting import plates
 from carom.fitting.comparison import FitRecord
 from carom.fitting.estimates import LIMITS, Estimate
-from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
+from carom.fitting.estimation import Best, estimate, rough_minima
 from carom.fitting.intervals import ProfiledFit, Settled
 from carom.fitting.model import KAPPA, Model
 from carom.fitting.plates import THICKNESS
@@ -194,8 +194,8 @@ def _tried(best: Best, trial: Trial) -> tuple[float, str] | None:
     few = kept.sum() * log(max(instead, 1e-300) / max(chi2, 1e-300)) < FAR
     few |= instead - chi2 < FAR or chi2 > PART * instead
     changed = 2.0 * float((present.sum(axis=0) * np.log(np.abs(trial.factors))).sum())
-    against = likelihood(other) - changed
-    if kept.sum() < LEAST * present.sum() or (few and likelihood(best) - against < trial.enough):
+    against = other.deviance - changed
+    if kept.sum() < LEAST * present.sum() or (few and best.deviance - against < trial.enough):
         return None
     words = f"these data fit as {trial.words}: chi-square {chi2:.3g} instead of {instead:.3g}"
     return against, f"{words}, with {_shown(other, other.values)}"

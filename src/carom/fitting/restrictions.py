@@ -5,7 +5,7 @@ from math import log
 
 from scipy.special import chdtri
 
-from carom.fitting.estimation import Best, estimate, likelihood
+from carom.fitting.estimation import Best, estimate
 from carom.fitting.model import KAPPA, RESTITUTION, Model, ranged
 from carom.io.remedies import REMEDIES
 from carom.quantities.refusals import InputError
@@ -44,7 +44,7 @@ def within_elastic_range(best: Best) -> Best:
     if low <= best.values[KAPPA.name] <= high:
         return replace(best, model=bounded)
     inside = estimate(bounded, best.loss)
-    return inside if likelihood(inside) - likelihood(best) < CLEAR else best
+    return inside if inside.deviance - best.deviance < CLEAR else best
 
 
 def refuse_contradicted(best: Best) -> None:
@@ -56,7 +56,7 @@ def refuse_contradicted(best: Best) -> None:
     if best.model.problem.count <= len(best.model.free) + 1:  # too few to tell
         return
     freed = estimate(best.model.freeing([name]), best.loss)
-    if likelihood(best) - likelihood(freed) > CONTRADICTED:
+    if best.deviance - freed.deviance > CONTRADICTED:
         said = round(freed.values[name], 2)
         fix = REMEDIES.get().fix.format(name=name, value=said)
         words = f"it would be held at 1, but the data say about {said}"

@@ -236,16 +236,8 @@ class Fit(FitRecord, Reported):
         return "\n".join([as_text(self), *([str(self.losses)] if self.losses else [])])
 
 
-def assembled(
-    settled: Settled,
-    confidence: float,
-    taken: tuple[str, ...] = (),
-    profile: ProfiledFit | None = None,
-) -> Fit:
-    """Return the result of a fit: intervals, what is not determined, regimes, notes.
-
-    `taken` are notes on what was taken for granted, `profile` the intervals if they are known.
-    """
+def assembled(settled: Settled, confidence: float, profile: ProfiledFit | None = None) -> Fit:
+    """Return the result of a fit: intervals, which may be known, regimes, notes."""
     profile = profile or profiled(settled.best, confidence)
     best, model = profile.best, profile.best.model
     estimates = {name: estimate_of(profile, name) for name in best.values}
@@ -263,7 +255,7 @@ def assembled(
     for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
         estimates[name] = replace(estimates[name], elastic=elastic)
     ordered = {name: estimates[name] for name in NAMES if name in estimates}
-    lines = (*taken, *notes(profile, settled, ordered))
+    lines = (*settled.taken, *notes(profile, settled, ordered))
     return Fit(ordered, confidence, regimes, lines, best)
 
 
