@@ -7,15 +7,13 @@ from typing import Any
 
 from carom.bodies.pairs import Pair
 from carom.fitting.estimates import Estimate
-from carom.fitting.groups import by_groups
-from carom.fitting.intervals import Settled, settle
+from carom.fitting.groups import by_groups, with_readings
+from carom.fitting.intervals import Settled, refuse_contradicted, settle
 from carom.fitting.joint_result import JointFit, jointly_assembled, named_sets
 from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
 from carom.fitting.options import check_count, checked_confidence, read_options, read_shared
 from carom.fitting.problem import RobustLoss
 from carom.fitting.reading import read_problem, read_rebounds
-from carom.fitting.repeats import with_readings
-from carom.fitting.restrictions import refuse_contradicted
 from carom.fitting.result import Fit, assembled
 from carom.io.progress import advancing
 from carom.quantities.keywords import known_keywords

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from math import floor, inf, isfinite, isnan, log10, nan
 from typing import Any
 
-from carom.fitting.intervals import ProfiledFit
+from carom.fitting.intervals import ProfiledFit, elastic_bounds
 from carom.fitting.model import KAPPA
-from carom.fitting.restrictions import elastic_bounds
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
 from carom.quantities.shown import Printed

@@ -3,14 +3,15 @@
 import re
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from carom.fitting.bounces import BOUNCES
-from carom.fitting.budget import budget
 from carom.fitting.comparison import FitRecord
+from carom.fitting.estimation import Best
 from carom.fitting.problem import FitProblem
 from carom.fitting.report import summary
 from carom.impacts.solve import impact
@@ -20,9 +21,12 @@ from carom.io.paths import checked_output
 from carom.io.user_table import ERROR
 from carom.io.version import __version__
 from carom.plots.result import Result, Section
+from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import checked_type
 
+ELSEWHERE = "the other data"
+NEAR_ZERO = 1e-6  # of a residual, below which its root loss is taken to be linear
 TITLE = "Parameters from measured rebounds"
 AIR = "no correction is made for drag; a note tells of it where heights show what it takes"
 ROWS = "Measured values with their standard deviations, and what the fit gives; below, the rest."
@@ -194,3 +198,51 @@ def _sentence(fit: FitRecord) -> str:
         f"({100.0 * fit.confidence:g} % intervals by profile likelihood in brackets; "
         f"Carom {__version__}). {verdict}".split()
     )
+
+
+@dataclass(frozen=True, eq=False)
+class Budget:
+    """`shares`, of shape (quantities, parameters): parts of the variance of each parameter."""
+
+    quantities: tuple[str, ...]
+    parameters: tuple[str, ...]
+    shares: Array
+
+
+def budget(best: Best) -> Budget:
+    """Return the parts that the errors of each column have in the variances of a fit.
+
+    To first order an error v of a row, in the unit of the responses, moves the coordinates by
+    C S^T D W v: W makes residuals independent, D is the slope of the root of the loss, S that of
+    the roots over the coordinates, and C = (S^T S)^-1. The covariance of a row is the sum of v v^T
+    over the columns (`Model.weights`), so that the parts are those of a sum of squares. Readings
+    that are after one bounce and before the next are one quantity.
+    """
+    if best.weights.across is not None:
+        whole = np.ones((1, len(best.model.free)))
+        return Budget(best.model.problem.responses, best.model.free, whole)
+    r = np.where(np.abs(best.residuals) > NEAR_ZERO, best.residuals, NEAR_ZERO)
+    slope = best.loss.influence(r) / best.loss.root(r)  # of the root, least for outliers
+    gain = best.information.slopes @ best.information.covariance
+    names, squares = [], []
+    for name, errors in _errors_by_column(best):
+        whitened = slope * np.einsum("rij,rj->ri", best.weights.factors, errors)
+        names.append(name)
+        squares.append(np.square(np.einsum("rj,rjp->rp", whitened, gain)).sum(axis=0))
+    if best.elsewhere is not None:
+        names.append(ELSEWHERE)
+        squares.append(np.square(best.elsewhere @ best.information.covariance).sum(axis=0))
+    parts = np.reshape(squares, (len(names), len(best.model.free)))
+    return Budget(tuple(names), best.model.free, parts / parts.sum(axis=0))
+
+
+def _errors_by_column(best: Best) -> Iterator[tuple[str, Array]]:
+    """Yield each uncertain column, and what one standard deviation of it does to the responses."""
+    problem, at = best.model.problem, best.at[np.newaxis]
+    for name, (up, down) in zip(problem.before_errors, problem.shaken, strict=True):
+        change = 0.5 * (best.model.expected(at, up)[0] - best.model.expected(at, down)[0])
+        yield name, np.where(problem.present, best.scale * change, 0.0)
+    for place, name in enumerate(problem.responses):
+        own = np.zeros(problem.measured.shape)
+        own[:, place] = np.where(problem.present, best.scale * best.sigma, 0.0)[:, place]
+        yield name, own

@@ -255,8 +255,7 @@ def assembled(settled: Settled, confidence: float, profile: ProfiledFit | None =
     for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
         estimates[name] = replace(estimates[name], elastic=elastic)
     ordered = {name: estimates[name] for name in NAMES if name in estimates}
-    lines = (*settled.taken, *notes(profile, settled, ordered))
-    return Fit(ordered, confidence, regimes, lines, best)
+    return Fit(ordered, confidence, regimes, tuple(notes(profile, settled, ordered)), best)
 
 
 def _on_plate(model: Model, thickness: Estimate | None) -> Estimate:
