@@ -1,11 +1,12 @@
 """What a fit found: parameters with intervals, or why there is none."""
 
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import floor, inf, isfinite, isnan, log10, nan
 from typing import Any
 
-from carom.fitting.intervals import ProfiledFit, elastic_bounds
+from carom.fitting.intervals import ProfiledFit, elastic_bounds, reason
 from carom.fitting.model import KAPPA
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
@@ -55,6 +56,11 @@ class Estimate(Printed):
         lowest, highest = self.limits
         return self.determined and (self.low == lowest or self.high == highest)
 
+    def mapped(self, name: str, function: Callable[[float], float]) -> "Estimate":
+        """Return the estimate of another parameter, which grows with this one."""
+        value, low, high = map(function, (self.value, self.low, self.high))
+        return Estimate(name, value, low, high, self.reason)
+
     def to_dict(self) -> dict[str, Any]:
         """Return value, ends and reason as plain numbers and texts; what is open is None."""
         names = ("value", "low", "high", *(() if isnan(self.elastic) else ("elastic",)))
@@ -87,15 +93,14 @@ class Estimate(Printed):
 
 
 def estimate_of(fit: ProfiledFit, name: str) -> Estimate:
-    """Return the estimate of a parameter; without a reason if it has no end."""
-    model = fit.best.model
-    value = fit.best.values[name]
-    place = model.free.index(name) if name in model.free else None
-    if place is None:
+    """Return the estimate of a parameter, with the reason if it was fitted and has no end."""
+    best, model, value = fit.best, fit.best.model, fit.best.values[name]
+    if name not in model.free:
         return Estimate(name, value)
+    place = model.free.index(name)
     bounds = elastic_bounds(model) if name == KAPPA.name else None
     if fit.open[place].all() and bounds is None:
-        return Estimate(name, value)
+        return Estimate(name, value, reason=reason((name,), best))
     ends = model.values(fit.ends[place])[name][:, 0]
     limits = zip(ends, bounds or LIMITS[name], fit.open[place], strict=True)
     low, high = (float(limit if is_open else end) for end, limit, is_open in limits)

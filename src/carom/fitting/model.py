@@ -59,25 +59,18 @@ def constant(pair: Pair, normal_speed: Array, values: Values) -> Array:
     return values["restitution"] + 0.0 * normal_speed
 
 
-def unmoved(pair: Pair, normal_speed: Array, values: Values) -> Array:
-    """Return the speed of the centres as the surfaces turn: none, but for plates."""
-    return np.zeros(normal_speed.shape)
-
-
 @dataclass(frozen=True)
 class FittedLaw:
     """A law of rebound: `contact_velocity_out` is V_x' of V_n, V_x, and what can be varied.
 
     V_n and V_x have the shape (rows,), V_x' and e have (batch, rows). Besides `parameters` an
-    offset of the spin can be varied. On a plate e, the contact time, and w as the surfaces turn
-    depend on V_n.
+    offset of the spin can be varied. On a plate e depends on V_n.
     """
 
     name: str
     parameters: tuple[Parameter, ...]
     contact_velocity_out: OutgoingVelocity
     restitution: OfNormalSpeed = constant
-    turning: OfNormalSpeed = unmoved
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -179,8 +172,7 @@ def suited(law: FittedLaw, problem: FitProblem) -> FittedLaw:
     thickness = () if THICKNESS in problem.before else (THICK,)
     others = (each for each in law.parameters if each.name != RESTITUTION.name)
     out = exact_on_plate if law.contact_velocity_out is exact else law.contact_velocity_out
-    of_speed = plates.restitution, plates.turning
-    return FittedLaw(law.name, (*others, *thickness), out, *of_speed)
+    return FittedLaw(law.name, (*others, *thickness), out, plates.restitution)
 
 
 def ranged(parameter: Parameter, problem: FitProblem) -> Parameter:
@@ -284,10 +276,9 @@ class Model:
         """Return the |psi_1| at which the regime changes, of shape (rows, 3)."""
         pair, values = self.problem.pair, self.values(point[np.newaxis])
         arguments = pair, motion.normal_speed, of_rows(motion, values)
-        e, turning = self.law.restitution(*arguments), self.law.turning(*arguments)
-        chi = half_ratio(pair) * float(values["kappa"][0, 0])
-        rows = (np.atleast_2d(each)[0] for each in (e, turning))
-        return regime_borders(chi, *rows)
+        e = self.law.restitution(*arguments)[0]
+        turning = plates.turning(*arguments)[0] if self.problem.on_plate else 0.0
+        return regime_borders(half_ratio(pair) * float(values["kappa"][0, 0]), e, turning)
 
     def holding(self, name: str, value: float) -> "Model":
         """Return the model with one of the free parameters held."""

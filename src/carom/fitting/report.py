@@ -1,6 +1,6 @@
 """The result of a fit in words, with usual mistakes in tables that would explain a bad one."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import combinations
 from math import inf, isnan, log, pi
@@ -32,13 +32,14 @@ NAMES = {  # and responses: of the centre, of the contact point, its negative
     "tangential_restitution": ("contact_restitution", "contact_beta"),
 }
 RPM, DEGREE = pi / 30.0, pi / 180.0
-SPIN_UNITS = {"rpm": RPM, "rev/s": 2.0 * pi}
-SCALES = {  # of spins; a radius only matters beside them
-    "spins of the other sign": -1.0,
-    "spins in rad/s, not in rpm": 1.0 / RPM,
-    "those of half the radius (is the radius a diameter?)": 0.5,
-    "those of twice the radius (is the radius half of it?)": 2.0,
-}
+OF_SPINS = (  # with the factor, and the unit that it stands for; a radius only matters beside them
+    ("spins of the other sign", -1.0, ""),
+    ("spins in rad/s, not in rpm", 1.0 / RPM, ""),
+    ("those of half the radius (is the radius a diameter?)", 0.5, ""),
+    ("those of twice the radius (is the radius half of it?)", 2.0, ""),
+    ("spins in rpm", RPM, "rpm"),
+    ("spins in rev/s", 2.0 * pi, "rev/s"),
+)
 ROUGH = 0.1  # of the range of a response, which scatter does not exceed where a law fits
 FAR, PART = 20.0, 0.25  # by how much and to which part chi squared must fall
 HOPEFUL = 0.9  # of the scatter as given: a rough fit must leave less, in one response at least
@@ -104,19 +105,17 @@ def _turned(problem: FitProblem) -> Iterator[Trial]:
     if all(np.min(values) > 0.0 for values in before) and _columns(problem, ANGLES):
         turned = {*FROM_SURFACE} & {*problem.rows.columns}
         words = f"angles from the {'normal' if turned else 'surface'}"
-        yield _changed(words, problem, ANGLES, lambda a: pi / 2.0 - a)._replace(enough=LIKELIER)
+        yield _changed(words, problem, ANGLES, -1.0, shift=0.5 * pi)._replace(enough=LIKELIER)
 
 
 def _trials(problem: FitProblem) -> Iterator[Trial]:
     """Yield what else may have been mistaken in the columns that there are."""
     angles = _columns(problem, ANGLES)
     if angles and all(np.nanmax(np.abs(v)) < 0.5 * pi * DEGREE for v in angles):
-        yield _scaled("angles in radians", problem, ANGLES, 1.0 / DEGREE)
+        yield _changed("angles in radians", problem, ANGLES, 1.0 / DEGREE)
     if _columns(problem, SPINS):
-        for words, factor in SCALES.items():
-            yield _scaled(words, problem, SPINS, factor)
-        for unit, factor in SPIN_UNITS.items():
-            yield _scaled(f"spins in {unit}", problem, SPINS, factor)._replace(unit=unit)
+        for words, factor, unit in OF_SPINS:
+            yield _changed(words, problem, SPINS, factor)._replace(unit=unit)
     yield from _swapped(problem)
     for place, name in enumerate(problem.responses):
         for other in set(NAMES.get(name, ())) - set(problem.responses):
@@ -132,29 +131,21 @@ def _columns(problem: FitProblem, names: tuple[str, ...]) -> list[Array]:
 
 
 def _changed(
-    words: str,
-    problem: FitProblem,
-    names: tuple[str, ...],
-    change: Callable[[Array], Array],
-    factor: float = 1.0,
+    words: str, problem: FitProblem, names: tuple[str, ...], factor: float, shift: float = 0.0
 ) -> Trial:
-    """Return the trial with columns changed, and their errors multiplied by a factor."""
+    """Return the trial with columns, and their errors, multiplied by a factor, and shifted."""
     chosen = np.array([name in names for name in problem.responses])
-    before = {n: change(v) if n in names else v for n, v in problem.before.items()}
-    errors = {n: v * abs(factor) if n in names else v for n, v in problem.before_errors.items()}
     factors = np.where(chosen, factor, 1.0)
+    before = {n: shift + factor * v if n in names else v for n, v in problem.before.items()}
+    given = problem.before_errors.items()
     changed = replace(
         problem,
         before=before,
-        before_errors=errors,
-        measured=np.where(chosen, change(problem.measured), problem.measured),
+        before_errors={n: v * abs(factor) if n in names else v for n, v in given},
+        measured=np.where(chosen, shift + factor * problem.measured, problem.measured),
         errors=problem.errors * np.abs(factors),
     )
     return Trial(words, changed, factors)
-
-
-def _scaled(words: str, problem: FitProblem, names: tuple[str, ...], factor: float) -> Trial:
-    return _changed(words, problem, names, lambda values: factor * values, factor)
 
 
 def _swapped(problem: FitProblem) -> Iterator[Trial]:

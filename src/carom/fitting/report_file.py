@@ -3,7 +3,6 @@
 import re
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -113,16 +112,12 @@ def sections_of(fit: FitRecord, draw: Callable[..., Any]) -> Iterator[Section]:
 
 
 def _budget(fit: FitRecord) -> Iterator[Section]:
-    costs = budget(fit._best)
-    known = [i for i, name in enumerate(costs.parameters) if fit.estimates[name].determined]
-    if not known:
-        return
-    head = ("quantity", *(costs.parameters[i] for i in known))
-    rows = [
-        (name, *(f"{100.0 * shares[i]:.1f} %" for i in known))
-        for name, shares in zip(costs.quantities, costs.shares, strict=True)
-    ]
-    yield Section("What the uncertainty comes from", (SHARES,), [head, *rows])
+    free = enumerate(fit._best.model.free)
+    known = {name: i for i, name in free if fit.estimates[name].determined}
+    if known:
+        shares = budget(fit._best).items()
+        rows = ((n, *(f"{100.0 * each[i]:.1f} %" for i in known.values())) for n, each in shares)
+        yield Section("What the uncertainty comes from", (SHARES,), [("quantity", *known), *rows])
 
 
 def _columns(problem: FitProblem, fit: FitRecord) -> Iterator[tuple[str, ...]]:
@@ -200,17 +195,8 @@ def _sentence(fit: FitRecord) -> str:
     )
 
 
-@dataclass(frozen=True, eq=False)
-class Budget:
-    """`shares`, of shape (quantities, parameters): parts of the variance of each parameter."""
-
-    quantities: tuple[str, ...]
-    parameters: tuple[str, ...]
-    shares: Array
-
-
-def budget(best: Best) -> Budget:
-    """Return the parts that the errors of each column have in the variances of a fit.
+def budget(best: Best) -> dict[str, Array]:
+    """Return the parts that the errors of each column have in the variances of the parameters.
 
     To first order an error v of a row, in the unit of the responses, moves the coordinates by
     C S^T D W v: W makes residuals independent, D is the slope of the root of the loss, S that of
@@ -219,21 +205,17 @@ def budget(best: Best) -> Budget:
     that are after one bounce and before the next are one quantity.
     """
     if best.weights.across is not None:
-        whole = np.ones((1, len(best.model.free)))
-        return Budget(best.model.problem.responses, best.model.free, whole)
+        return {best.model.problem.responses[0]: np.ones(len(best.model.free))}
     r = np.where(np.abs(best.residuals) > NEAR_ZERO, best.residuals, NEAR_ZERO)
     slope = best.loss.influence(r) / best.loss.root(r)  # of the root, least for outliers
     gain = best.information.slopes @ best.information.covariance
-    names, squares = [], []
+    squares = {}
     for name, errors in _errors_by_column(best):
         whitened = slope * np.einsum("rij,rj->ri", best.weights.factors, errors)
-        names.append(name)
-        squares.append(np.square(np.einsum("rj,rjp->rp", whitened, gain)).sum(axis=0))
+        squares[name] = np.square(np.einsum("rj,rjp->rp", whitened, gain)).sum(axis=0)
     if best.elsewhere is not None:
-        names.append(ELSEWHERE)
-        squares.append(np.square(best.elsewhere @ best.information.covariance).sum(axis=0))
-    parts = np.reshape(squares, (len(names), len(best.model.free)))
-    return Budget(tuple(names), best.model.free, parts / parts.sum(axis=0))
+        squares[ELSEWHERE] = np.square(best.elsewhere @ best.information.covariance).sum(axis=0)
+    return {name: each / sum(squares.values()) for name, each in squares.items()}
 
 
 def _errors_by_column(best: Best) -> Iterator[tuple[str, Array]]:
