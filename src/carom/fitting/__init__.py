@@ -6,9 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from carom.bodies.pairs import Pair
-from carom.fitting.estimates import Estimate
 from carom.fitting.groups import by_groups, with_readings
-from carom.fitting.intervals import Settled, refuse_contradicted, settle
+from carom.fitting.intervals import Estimate, Settled, refuse_contradicted, settle
 from carom.fitting.joint_result import JointFit, jointly_assembled, named_sets
 from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
 from carom.fitting.options import check_count, checked_confidence, read_options, read_shared

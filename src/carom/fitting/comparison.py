@@ -13,9 +13,8 @@ from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw, Metal
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import NORMAL
 from carom.fitting import model as laws, plates
-from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.estimation import Best, estimate, polished, scan, weighed
-from carom.fitting.intervals import profiled, settle
+from carom.fitting.intervals import Estimate, estimate_of, profiled, settle
 from carom.fitting.loss_laws import CONSTANT, ON_PLATE, elastic, laws_of_losses
 from carom.fitting.model import EXACT, OFFSET, Model
 from carom.fitting.plates import THICKNESS

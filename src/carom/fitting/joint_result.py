@@ -7,9 +7,8 @@ from math import inf, isfinite, sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.fitting.estimates import Estimate
 from carom.fitting.estimation import Best
-from carom.fitting.intervals import Settled
+from carom.fitting.intervals import Estimate, Settled
 from carom.fitting.joint import settle_jointly
 from carom.fitting.options import NAMES
 from carom.fitting.report_file import Reported

@@ -10,10 +10,16 @@ import numpy as np
 
 from carom.fitting import plates
 from carom.fitting.comparison import FitRecord
-from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate, rough_minima
 from carom.fitting.groups import about_repeats
-from carom.fitting.intervals import ELASTIC_KAPPA, ProfiledFit, Settled, elastic_bounds
+from carom.fitting.intervals import (
+    ELASTIC_KAPPA,
+    LIMITS,
+    Estimate,
+    ProfiledFit,
+    Settled,
+    elastic_bounds,
+)
 from carom.fitting.model import KAPPA, Model
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation

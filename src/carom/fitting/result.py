@@ -11,8 +11,7 @@ from carom.fitting import plates
 from carom.fitting.advice import Advice, advise
 from carom.fitting.comparison import FitRecord
 from carom.fitting.datasets import fit_dataset, sample
-from carom.fitting.estimates import Estimate, estimate_of
-from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
+from carom.fitting.intervals import Estimate, ProfiledFit, Settled, estimate_of, profiled, reason
 from carom.fitting.model import half_ratio
 from carom.fitting.options import NAMES
 from carom.fitting.plates import THICKNESS

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from scipy.special import fdtrc
 
-from carom.fitting.estimates import significant
+from carom.fitting.intervals import significant
 from carom.fitting.track_files import Frames, read_track
 from carom.impacts.validity import GRAVITY
 from carom.io.heads import table_format
