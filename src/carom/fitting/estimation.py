@@ -11,7 +11,7 @@ from scipy.special import ndtri, stdtrit
 
 from carom.fitting import plates, problem as errors
 from carom.fitting.least_squares import DIFFERENCE_STEP, Minimum, descend, jacobian
-from carom.fitting.model import Model
+from carom.fitting.model import Model, Parameter
 from carom.fitting.problem import FitProblem, Weights
 from carom.io.extras import extra
 from carom.io.rows import Mask
@@ -194,14 +194,7 @@ def weighed(model: Model, loss: errors.RobustLoss, at: Array, sigma: Array, scal
 
 
 STARTS = 6  # starting points that are followed to the end
-LEVELS = {  # of the scan
-    "friction": 25,
-    "kappa": 12,
-    "tangential_restitution": 9,
-    "loss_time": 40,
-    "yield_velocity": 40,
-    "flow_stress": 40,
-}
+LIKELY_FRICTION = np.log([5e-3, 3.0])  # range of the scan
 TURNS = 8  # times that errors are estimated and the fit is made anew
 FOLLOWED = 3  # minima that are followed with errors of their own
 HOPELESS = 20.0  # of -2 log likelihood behind the best, after two turns
@@ -307,9 +300,10 @@ def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
 
     Valleys along one parameter, the others following, come first: there may be other minima.
     """
-    levels = [_levels(model, name) for name in model.free]
+    problem = model.problem
+    levels = [_levels(each, problem) for each in model.parameters]
     grid = np.array(list(product(*levels)))
-    inverse = 1.0 / np.where(model.problem.present, sigma, 1.0)
+    inverse = 1.0 / np.where(problem.present, sigma, 1.0)
     weights = Weights(inverse[:, :, np.newaxis] * np.eye(sigma.shape[1]))
     roots = Best(model, grid[0], weights, loss, sigma, np.ones(sigma.shape[1])).roots(grid)
     sums = np.square(roots).sum(axis=1)
@@ -340,18 +334,16 @@ def _valleys(sums: Array) -> Mask:
     return valleys
 
 
-def _levels(model: Model, name: str) -> Array:
+def _levels(parameter: Parameter, problem: FitProblem) -> Array:
     """Return the coordinates of a parameter in the scan."""
-    if name == "restitution":
-        return _likely_restitutions(model.problem, 0.35)
-    low, high = (float(end[model.free.index(name)]) for end in model.bounds)
-    if name == plates.THICKNESS:
-        return np.clip(-plates.give_of(_likely_restitutions(model.problem, 0.02)), low, high)
-    if name not in LEVELS:
-        return np.zeros(1)
-    if name == "friction":
-        low, high = np.log(5e-3), np.log(3.0)
-    return np.linspace(low, high, LEVELS[name] + 2)[1:-1]
+    if parameter.name == "restitution":
+        return _likely_restitutions(problem, 0.35)
+    low, high = map(parameter.coordinate, (parameter.low, parameter.high))
+    if parameter.name == plates.THICKNESS:
+        return np.clip(-plates.give_of(_likely_restitutions(problem, 0.02)), low, high)
+    if parameter.name == "friction":
+        low, high = LIKELY_FRICTION
+    return np.linspace(low, high, parameter.levels + 2)[1:-1]
 
 
 def _likely_restitutions(problem: FitProblem, least: float) -> Array:

@@ -7,7 +7,6 @@ from itertools import pairwise
 from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import null_space
 from scipy.special import fdtrc
 
@@ -128,12 +127,6 @@ class JointModel(Model):
                 across = np.eye(len(sigma)) if across is None else across
                 across[rows, rows] = own.across
         return Weights(factors, across)
-
-    def regimes(self, point: Array) -> NDArray[np.int8]:
-        """Return the regime of each row of all sets."""
-        at = point[np.newaxis]
-        own = [part.regimes(self.of_part(i, at)[0]) for i, part in enumerate(self.parts)]
-        return np.concatenate(own)
 
     def holding(self, name: str, value: float) -> "JointModel":
         """Return the model with one of the free parameters held, in all sets that have it."""

@@ -26,12 +26,16 @@ ROUNDING = 1e-9
 
 
 class Parameter(NamedTuple):
-    """A parameter with its range; what is varied is its logarithm, or it in units of a scale."""
+    """A parameter with its range; what is varied is its logarithm, or it in units of a scale.
+
+    A fit begins with a scan of so many `levels` of it.
+    """
 
     name: str
     low: float
     high: float
     scale: float | None = 1.0  # None: logarithmic
+    levels: int = 1
 
     def coordinate(self, value: Any) -> Any:
         """Return what is varied in place of a value, or of an array of them."""
@@ -149,11 +153,11 @@ def rigid(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
     return velocity - np.copysign(np.minimum(stuck * np.abs(velocity), bound), velocity)
 
 
-FRICTION = Parameter("friction", 1e-3, 10.0, None)
-KAPPA = Parameter("kappa", 0.1, 4.0, None)
+FRICTION = Parameter("friction", 1e-3, 10.0, None, 25)
+KAPPA = Parameter("kappa", 0.1, 4.0, None, 12)
 RESTITUTION = Parameter("restitution", *STORED_E)
 THICK = Thickness(THICKNESS, 0.0, np.inf)  # its range depends on the speeds
-BETA = Parameter("tangential_restitution", -1.0, 1.0)
+BETA = Parameter("tangential_restitution", -1.0, 1.0, levels=9)
 
 ANY_RESTITUTION = RESTITUTION._replace(low=1e-3)  # where the table of psi_2 is not asked
 
