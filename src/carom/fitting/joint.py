@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import cast
 
 import numpy as np
-from scipy.linalg import null_space
+from scipy.linalg import block_diag, null_space
 from scipy.special import fdtrc
 
 from carom.fitting.estimation import Best, estimate, polished, weighed
@@ -51,24 +51,15 @@ class JointProblem(FitProblem):
         """Whether plates are struck, which are solved row by row."""
         return any(part.on_plate for part in self.parts)
 
-    def filled(self, arrays: Sequence[Array], empty: float) -> Array:
-        """Return arrays of the sets, each (rows, responses), in their places."""
-        whole = np.full((self.blocks[-1][0].stop, self.blocks[-1][1].stop), empty)
-        for place, array in zip(self.blocks, arrays, strict=True):
-            whole[place] = array
-        return whole
-
 
 def joined(parts: Sequence[FitProblem]) -> JointProblem:
     """Return several sets of data as one."""
     names = tuple(name for part in parts for name in part.responses)
-    first, nothing = parts[0], np.empty((0, 0))
-    whole = JointProblem(first.pair, {}, {}, names, nothing, nothing, first.rows, parts=(*parts,))
-    measured, errors = (
-        whole.filled([getattr(part, name) for part in parts], np.nan)
-        for name in ("measured", "errors")
-    )
-    return replace(whole, measured=measured, errors=errors)
+    inside = block_diag(*(np.ones(part.measured.shape) for part in parts)) > 0.0
+    tables = [part.measured for part in parts], [part.errors for part in parts]
+    measured, errors = (np.where(inside, block_diag(*table), np.nan) for table in tables)
+    first = parts[0]
+    return JointProblem(first.pair, {}, {}, names, measured, errors, first.rows, parts=(*parts,))
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,8 +209,7 @@ def _agreement(model: JointModel, alone: Sequence[Settled], whole: Best) -> floa
     """
     apart = joint_model(model.parts, ())
     singles = [each.whole for each in alone]
-    problem = model.problem
-    sigma = problem.filled([each.sigma for each in singles], 1.0)
+    sigma = block_diag(*(each.sigma for each in singles))
     scale = np.concatenate([each.scale for each in singles])
     start = apart.coordinates(apart.together([each.values for each in singles]))
     best = polished(weighed(apart, whole.loss, np.clip(start, *apart.bounds), sigma, scale))
