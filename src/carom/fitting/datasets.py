@@ -31,13 +31,11 @@ WIDE, ALONG = ("row", "response"), ("curve", "response")
 def fit_dataset(fit: FitRecord) -> "xr.Dataset":
     """Return a fit as a dataset, as `Fit.to_dataset`."""
     problem, losses = fit._best.model.problem, fit.losses
-    variables = {**_rows(fit._best), **_curves(fit), **_parameters(fit)}
-    coords: dict[str, Any] = {}
-    if losses is not None:
-        laws = [each.law for each in losses.standings]
-        coords["loss_law"] = _named("loss_law", laws, "law of losses")
-        variables |= _losses(losses)
-    coords |= {
+    variables = {
+        **_rows(fit._best),
+        **_curves(fit),
+        **_parameters(fit),
+        **({} if losses is None else _losses(losses)),
         "row": _named("row", problem.rows.rows, f"{problem.rows.word} of the data"),
         "response": _named("response", list(problem.responses), "what was measured"),
         "law": _named("law", [each.law for each in fit.comparison], "law of rebound"),
@@ -51,7 +49,7 @@ def fit_dataset(fit: FitRecord) -> "xr.Dataset":
         "verdict": fit.comparison.verdict,
         "spinning": int(np.any(problem.motion.spin) or np.any(problem.motion.spin2)),
     }
-    return labelled_dataset(variables, coords, attrs)
+    return labelled_dataset(variables, {}, attrs)
 
 
 def _named(
@@ -87,8 +85,9 @@ def _losses(losses: LossComparison) -> dict[str, Any]:
     speeds = np.geomspace(losses.speeds.min(), losses.speeds.max(), CURVE_POINTS)
     lines = [each.restitution(speeds) for each in losses.standings]
     errors = np.where(np.isfinite(losses.measured), losses.errors, np.nan)
-    excess = [each.excess for each in losses.standings]
+    laws, excess = zip(*((each.law, each.excess) for each in losses), strict=True)
     return {
+        "loss_law": _named("loss_law", laws, "law of losses"),
         "normal_speed": _named("row", losses.speeds, "normal speed before", "m/s"),
         "restitution": _named("row", losses.measured, "normal restitution", "1"),
         "restitution_error": _named("row", errors, "standard deviation of restitution", "1"),

@@ -108,16 +108,15 @@ class JointModel(Model):
 
     def weights(self, point: Array, sigma: Array, scale: Array) -> Weights:
         """Return the weights at coordinates, those of each set in its place."""
-        factors = np.broadcast_to(np.eye(len(scale)), (len(sigma), len(scale), len(scale))).copy()
-        across = None
+        factors, across = np.tile(np.eye(len(scale)), (len(sigma), 1, 1)), np.eye(len(sigma))
+        share = False
         for place, (rows, columns) in enumerate(self.problem.blocks):
             at = self.of_part(place, point[np.newaxis])[0]
             own = self.parts[place].weights(at, sigma[rows, columns], scale[columns])
             factors[rows, columns, columns] = own.factors
             if own.across is not None:
-                across = np.eye(len(sigma)) if across is None else across
-                across[rows, rows] = own.across
-        return Weights(factors, across)
+                across[rows, rows], share = own.across, True
+        return Weights(factors, across if share else None)
 
     def holding(self, name: str, value: float) -> "JointModel":
         """Return the model with one of the free parameters held, in all sets that have it."""

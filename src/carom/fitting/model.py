@@ -123,17 +123,9 @@ def exact(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
 def exact_on_plate(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
     """Return the same on a plate, by the solver: e, and psi_2 for its sake, depend on V_n."""
     unit = values["friction"] * normal_speed / values["kappa"]
-    shape = np.broadcast_shapes(velocity.shape, unit.shape, values["restitution"].shape)
-    psi, chi, gives, e = (
-        np.broadcast_to(each, shape)
-        for each in (
-            velocity / unit,
-            half_ratio(pair) * values["kappa"],
-            plates.give(pair, normal_speed, values),
-            values["restitution"],
-        )
-    )
-    return unit * plates.rebounds(psi, chi, gives, e)
+    chi, gives = half_ratio(pair) * values["kappa"], plates.give(pair, normal_speed, values)
+    rows = np.broadcast_arrays(velocity / unit, chi, gives, values["restitution"])
+    return unit * plates.rebounds(*rows)
 
 
 def untouched(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:

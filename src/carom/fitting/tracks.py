@@ -215,17 +215,14 @@ def _spins(
     if min((seen & first).sum(), (seen & ~first).sum()) < FEWEST:
         few = "in too few frames" if seen.any() else "at all"
         return {}, [f"spin: no mark is seen {few}; a fit takes the spin before as zero"]
-    lines, squares, freedom, largest, step = [], 0.0, 0, 0.0, 0.0
-    for side in (seen & first, seen & ~first):
-        t, angle = frames.time[side], np.unwrap(mark[side])
-        slope, at = np.polyfit(t - t.mean(), angle, 1)
-        residual = angle - at - slope * (t - t.mean())
-        lines.append((float(slope), float(np.square(t - t.mean()).sum())))
-        squares, freedom = squares + float(np.square(residual).sum()), freedom + len(t) - 2
-        largest = max(largest, float(np.abs(np.diff(angle)).max()))
-        step = max(step, float(np.diff(t).max()))
-    sigma = np.sqrt(squares / freedom)
-    spins = {n: (s, float(sigma / np.sqrt(w))) for n, (s, w) in zip(SPINS, lines, strict=True)}
+    sides = [(frames.time[side], np.unwrap(mark[side])) for side in (seen & first, seen & ~first)]
+    fits = [np.polyfit(t - t.mean(), angle, 1, full=True)[:2] for t, angle in sides]
+    sigma = np.sqrt(np.sum([squares for _, squares in fits]) / (seen.sum() - 4))
+    spins = {}
+    for name, (t, _), (line, _) in zip(SPINS, sides, fits, strict=True):
+        spins[name] = float(line[0]), float(sigma / np.linalg.norm(t - t.mean()))
+    largest = max(float(np.abs(np.diff(angle)).max()) for _, angle in sides)
+    step = max(float(np.diff(t).max()) for t, _ in sides)
     limit = GLOSSARY["spin"].text(np.pi / step, 3)
     if largest <= DOUBTFUL:
         return spins, [f"spin: right below {limit}, half a turn of the mark from frame to frame"]
