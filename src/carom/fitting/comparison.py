@@ -67,7 +67,7 @@ Kind = TypeVar("Kind", bound=Standing)
 
 @dataclass(frozen=True, eq=False)
 class Standings(Generic[Kind]):
-    """Laws by Akaike's criterion on the same data, corrected for few values (AICc)."""
+    """Standings of laws by Akaike's criterion on the same data, corrected for few values (AICc)."""
 
     standings: tuple[Kind, ...]
 
@@ -101,7 +101,9 @@ class LawFit(Standing):
 
 @dataclass(frozen=True, eq=False)
 class Comparison(Standings[LawFit]):
-    """Laws of rebound, the exact one first."""
+    """Standings of laws of rebound, the exact one first, by Akaike's criterion (AICc)."""
+
+    standings: tuple[LawFit, ...]
 
     @property
     def verdict(self) -> str:
@@ -287,11 +289,12 @@ class LossFit(Standing):
 
 @dataclass(frozen=True, eq=False)
 class LossComparison(Standings[LossFit]):
-    """Laws of losses, the likeliest first: speeds, measured restitutions, errors.
+    """Standings of laws of losses, the likeliest first: speeds, measured restitutions, errors.
 
     Outliers are among them; of several responses the first counts.
     """
 
+    standings: tuple[LossFit, ...]
     speeds: Array
     measured: Array
     errors: Array

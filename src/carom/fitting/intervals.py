@@ -297,11 +297,6 @@ class Estimate(Printed):
         lowest, highest = self.limits
         return self.determined and (self.low == lowest or self.high == highest)
 
-    def mapped(self, name: str, function: Callable[[float], float]) -> "Estimate":
-        """Return the estimate of another parameter, which grows with this one."""
-        value, low, high = map(function, (self.value, self.low, self.high))
-        return Estimate(name, value, low, high, self.reason)
-
     def to_dict(self) -> dict[str, Any]:
         """Return value, ends and reason as plain numbers and texts; what is open is None."""
         names = ("value", "low", "high", *(() if isnan(self.elastic) else ("elastic",)))
@@ -346,6 +341,12 @@ def estimate_of(fit: ProfiledFit, name: str) -> Estimate:
     limits = zip(ends, bounds or LIMITS[name], fit.open[place], strict=True)
     low, high = (float(limit if is_open else end) for end, limit, is_open in limits)
     return Estimate(name, value, low, high)
+
+
+def mapped(each: Estimate, name: str, function: Callable[[float], float]) -> Estimate:
+    """Return the estimate of another parameter, which grows with one."""
+    value, low, high = map(function, (each.value, each.low, each.high))
+    return Estimate(name, value, low, high, each.reason)
 
 
 def significant(value: float, width: float) -> int:

@@ -11,7 +11,15 @@ from carom.fitting import plates
 from carom.fitting.advice import Advice, advise
 from carom.fitting.comparison import FitRecord
 from carom.fitting.datasets import fit_dataset, sample
-from carom.fitting.intervals import Estimate, ProfiledFit, Settled, estimate_of, profiled, reason
+from carom.fitting.intervals import (
+    Estimate,
+    ProfiledFit,
+    Settled,
+    estimate_of,
+    mapped,
+    profiled,
+    reason,
+)
 from carom.fitting.model import half_ratio
 from carom.fitting.options import NAMES
 from carom.fitting.plates import THICKNESS
@@ -242,7 +250,7 @@ def assembled(settled: Settled, confidence: float, profile: ProfiledFit | None =
     best, problem, pair = profile.best, profile.best.model.problem, profile.best.model.problem.pair
     estimates = {name: estimate_of(profile, name) for name in best.values}
     estimates |= _undetermined(settled, profile, estimates, confidence)
-    estimates["chi"] = estimates["kappa"].mapped("chi", lambda kappa: half_ratio(pair) * kappa)
+    estimates["chi"] = mapped(estimates["kappa"], "chi", lambda kappa: half_ratio(pair) * kappa)
     if problem.on_plate:
         estimates["restitution"] = _on_plate(problem, estimates.get(THICKNESS))
     for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
@@ -263,7 +271,7 @@ def _on_plate(problem: FitProblem, thickness: Estimate | None) -> Estimate:
 
     if thickness is None:
         return Estimate("restitution", median(problem.motion.thickness))
-    return thickness.mapped("restitution", median)
+    return mapped(thickness, "restitution", median)
 
 
 def _undetermined(
