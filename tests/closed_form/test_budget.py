@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.fitting.budget import budget
+from carom.fitting.report_file import budget
 
 BALL = carom.Sphere(radius="10 mm", material="bearing steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="bearing steel"), friction=0.12)
@@ -42,9 +42,9 @@ def test_shares_are_those_of_fits_to_shifted_values(table):
         squares.append(total)
     best = carom.fit(table, pair=PAIR, robust=False)._best
     costs = budget(best)
-    assert costs.quantities == tuple(ERRORS)
-    assert costs.parameters == ("friction", "kappa", "restitution")
-    np.testing.assert_allclose(costs.shares, squares / np.sum(squares, axis=0), atol=5e-4)
+    assert tuple(costs) == tuple(ERRORS)
+    assert best.model.free == ("friction", "kappa", "restitution")
+    np.testing.assert_allclose([*costs.values()], squares / np.sum(squares, axis=0), atol=5e-4)
     np.testing.assert_allclose(
         np.sum(squares, axis=0), np.diag(best.information.covariance), rtol=2e-3
     )
@@ -54,7 +54,7 @@ def test_shares_of_a_robust_fit_add_up_and_leave_an_outlier_out(table):
     """A wild spin adds nothing: its influence hardly changes with its value."""
     spins = np.where(np.arange(6) == 3, -300.0, table["spin_out"])
     wild, clean = (
-        budget(carom.fit(data, pair=PAIR)._best).shares
+        np.array([*budget(carom.fit(data, pair=PAIR)._best).values()])
         for data in ({**table, "spin_out": spins}, table)
     )
     np.testing.assert_allclose(wild.sum(axis=0), 1.0, rtol=1e-12)

@@ -158,5 +158,5 @@ def test_without_lmfit_one_line_says_what_to_install(data, monkeypatch):
 def test_a_verdict_changes_at_2_and_at_10(gap, words):
     """Akaike's criterion: a lead of 2 is a hint, one of 10 is clear (Burnham & Anderson 2002)."""
     laws = (("exact", 5.0), ("Walton", 5.0 + gap))
-    standings = tuple(LawFit(law, value, 0.5, None, value) for law, value in laws)
+    standings = tuple(LawFit(law, value, value, 0.5, None) for law, value in laws)
     assert Comparison(standings).verdict == words

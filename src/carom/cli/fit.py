@@ -138,14 +138,21 @@ def fit_command(
         inputs = {**_numbered("data", sources), **_numbered("case", [*dict.fromkeys(cases)])}
         faults.trying(check_outputs, outputs, **inputs)
         how = faults.trying(table_format_of, given)
-        options = {"vary": None if vary is None else _names(vary), "robust": not squares}
+        options: dict[str, Any] = {"robust": not squares}
+        options["vary"] = None if vary is None else _names(vary)
         options["fixed"] = faults.trying(named_values, "fix", fix, "restitution=0.98")
         options["confidence"] = faults.trying(checked_confidence, confidence)
         alone = {"advice": advice, "posterior": posterior}
         faults.trying(_check_count, len(sources), cases, share, alone)
-        pairs = faults.trying(_pairs, sources, cases, thickness, how)
+        sets = faults.trying(_sets, sources) or {}
+        pairs = faults.trying(_pairs, sets, cases, thickness, how)
         faults.settle()
-        fit = _fitted(sources, pairs, _names(share or ""), how._asdict() | options)
+        options |= how._asdict()
+        fit: Any = (
+            carom.joint_fit(sets, share=_names(share or ""), pair=pairs, **options)
+            if len(sets) > 1
+            else carom.fit(sources[0], pair=pairs[0], **options)
+        )
         count, sampling = numbers
         advised = None if count is None else fit.advice(count, about)
     store_format(how, given["save_columns"])
@@ -207,14 +214,14 @@ def _check_count(
 
 
 def _pairs(
-    sources: Sequence[str | Path], cases: Sequence[str], thickness: str | None, how: "TableFormat"
+    sets: Mapping[str, Any], cases: Sequence[str], thickness: str | None, how: "TableFormat"
 ) -> list["Pair | None"]:
     """Return the bodies of each file."""
     own: list[str | None] = [*cases] or [None]
-    own = own if len(own) == len(sources) else own[:1] * len(sources)
+    own = own if len(own) == len(sets) else own[:1] * len(sets)
     with Faults() as faults:
         pairs = []
-        for (name, source), case in zip(_sets(sources).items(), own, strict=True):
+        for (name, source), case in zip(sets.items(), own, strict=True):
             with faults.catching(name):
                 pairs.append(_pair(case, thickness, source, how))
     return pairs
@@ -227,17 +234,6 @@ def _sets(sources: Sequence[str | Path]) -> dict[str, Any]:
     if len(sources) > 1:
         return named_sets(sources)
     return dict(zip([""], sources, strict=False))
-
-
-def _fitted(
-    sources: Sequence[str | Path],
-    pairs: Sequence["Pair | None"],
-    share: Sequence[str],
-    options: Mapping[str, Any],
-) -> Any:
-    if len(sources) == 1:
-        return carom.fit(sources[0], pair=pairs[0], **options)
-    return carom.joint_fit(_sets(sources), share=share, pair=pairs, **options)
 
 
 def _tell_template(source: str | None, as_json: bool) -> None:

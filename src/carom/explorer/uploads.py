@@ -21,7 +21,7 @@ from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View, in_words
 from carom.fitting import Estimate, Fit, fit
 from carom.fitting.comparison import LawFit
-from carom.fitting.estimates import significant
+from carom.fitting.intervals import significant
 from carom.fitting.reading import read_measurements, read_problem, read_rebounds
 from carom.io.cells import Column
 from carom.io.heads import TableFormat, table_format

@@ -6,22 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from carom.bodies.pairs import Pair
-from carom.fitting.estimates import Estimate
-from carom.fitting.groups import by_groups
-from carom.fitting.intervals import Settled, settle
+from carom.fitting.groups import by_groups, with_readings
+from carom.fitting.intervals import Estimate, Settled, refuse_contradicted, settle
 from carom.fitting.joint_result import JointFit, jointly_assembled, named_sets
 from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
-from carom.fitting.options import (
-    Options,
-    check_count,
-    checked_confidence,
-    read_options,
-    read_shared,
-)
+from carom.fitting.options import check_count, checked_confidence, read_options, read_shared
 from carom.fitting.problem import RobustLoss
 from carom.fitting.reading import read_problem, read_rebounds
-from carom.fitting.repeats import with_readings
-from carom.fitting.restrictions import refuse_contradicted
 from carom.fitting.result import Fit, assembled
 from carom.io.progress import advancing
 from carom.quantities.refusals import Faults, flag, known_keywords, refuse
@@ -137,8 +128,7 @@ def fit(
         level = faults.trying(checked_confidence, confidence)
         limited = faults.trying(flag, "robust", robust)
         found = faults.trying(_settled, data, pair, vary, fixed, limited, how)
-    settled, options = found
-    return assembled(settled, level, options.taken)
+    return assembled(found, level)
 
 
 @known_keywords
@@ -197,12 +187,13 @@ def joint_fit(
     pairs = list(pair) if isinstance(pair, Sequence) else [pair] * len(sets)
     refuse(len(pairs) != len(sets) and f"pair: {len(pairs)} of {len(sets)}; give one for each set")
     how = {"columns": columns, "sheet": sheet, "decimal": decimal}
-    alone: list[tuple[Settled, Options]] = []
+    alone: dict[str, Settled] = {}
     with Faults() as faults:
         for (name, each), own in zip(sets.items(), pairs, strict=True):
             with faults.catching(name):
-                alone.append(_settled(each, own, vary, fixed, limited, how))
-    return jointly_assembled([*sets], alone, read_shared(share, [o.free for _, o in alone]), level)
+                alone[name] = _settled(each, own, vary, fixed, limited, how)
+    common = read_shared(share, [each.whole.model.free for each in alone.values()])
+    return jointly_assembled(alone, common, level)
 
 
 def _settled(
@@ -212,8 +203,8 @@ def _settled(
     fixed: Mapping[str, Any] | None,
     limited: bool,
     how: Mapping[str, Any],
-) -> tuple[Settled, Options]:
-    """Return the best fit of one set of data, and what was varied."""
+) -> Settled:
+    """Return the best fit of one set of data."""
     loss = RobustLoss() if limited else RobustLoss(inf)
     problem = by_groups(read_problem(read_rebounds(data, **how), pair), loss)
     options = read_options(problem, vary, fixed)
@@ -222,7 +213,7 @@ def _settled(
     law = STRAIGHT if problem.is_normal and not turns else EXACT
     model = Model(suited(law, problem), problem, (), options.start).freeing(options.free)
     with advancing("fitting", None):
-        settled = settle(with_readings(model, loss), loss, options.start)
+        settled = settle(with_readings(model, loss), loss, options.start, options.taken)
     if options.taken:
         refuse_contradicted(settled.whole)
-    return settled, options
+    return settled

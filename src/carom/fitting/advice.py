@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.fitting.comparison import FitRecord
-from carom.fitting.estimation import Best, information
+from carom.fitting.estimation import Best, weighed
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import NORMAL, FitProblem, RobustLoss, gaussian_mean
 from carom.impacts.curves import REGIMES
@@ -36,11 +36,9 @@ class Incidence:
 
 @dataclass(frozen=True)
 class Advice:
-    """Which incidences to measure next for a parameter, and what is to be expected of that.
+    """Which incidences to measure next for a parameter, as `Fit.advice` tells.
 
-    `places` in the order in which they help most, each given the ones before; `best` is the single
-    incidence that halves the interval with the fewest measurements; `shorter` is the width of the
-    interval after all of `places`, in units of the present one.
+    `places` are in the order in which they help most, each given the ones before.
     """
 
     parameter: str
@@ -126,25 +124,25 @@ def _candidates(best: Best) -> tuple[Array, list[str]]:
     model = replace(best.model, problem=_impacts(seen))
     sigma = np.array([np.median(s[p]) for s, p in zip(best.sigma.T, seen.present.T, strict=True)])
     everywhere = np.broadcast_to(sigma, model.problem.measured.shape)
-    weights = model.weights(best.at, everywhere, best.scale)
-    slopes = information(model, best.at, weights, RobustLoss(inf)).slopes
+    planned = weighed(model, RobustLoss(inf), best.at, everywhere, best.scale)
+    slopes = planned.information.slopes
     per_value = gaussian_mean(np.gradient(best.loss.root(NORMAL), NORMAL) ** 2)  # of one more value
     return np.sqrt(per_value) * slopes, [REGIMES[index] for index in model.regimes(best.at)]
 
 
 def _impacts(problem: FitProblem) -> FitProblem:
     """Return impacts at all incidences that are considered, as usual otherwise."""
-    motion, count = problem.motion, len(ANGLES)
-    speed = float(np.median(np.hypot(motion.normal_speed, motion.tangential_speed)))
-    before = {"angle": np.radians(ANGLES), "speed": np.full(count, speed)}
-    for name in ("spin", "spin2", THICKNESS):
-        if name in problem.before:
-            before[name] = np.full(count, float(np.median(problem.before[name])))
-    given = {name: each for name, each in problem.before_errors.items() if name in before}
-    errors = {name: np.full(count, float(np.median(each))) for name, each in given.items()}
-    nothing = np.zeros((count, len(problem.responses)))
-    known: dict[str, Any] = {"before": before, "before_errors": errors, "measured": nothing}
-    return replace(problem, **known, errors=nothing + np.nan, bounces=None)
+
+    def usual(values: Array) -> Array:
+        return np.full(len(ANGLES), np.median(values))
+
+    own = {name: problem.before.get(name) for name in ("spin", "spin2", THICKNESS)}
+    before = {name: usual(each) for name, each in own.items() if each is not None}
+    before |= {"angle": np.radians(ANGLES), "speed": usual(np.hypot(*problem.motion[:2]))}
+    errors = {name: usual(e) for name, e in problem.before_errors.items() if name in before}
+    none = np.zeros((len(ANGLES), len(problem.responses)))
+    planned = replace(problem, before=before, before_errors=errors, measured=none)
+    return replace(planned, errors=none + np.nan, bounces=None)
 
 
 def _joined(root: Array, slopes: Array) -> Array:

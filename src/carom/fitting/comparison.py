@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, isfinite, nan
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from scipy.special import stdtrit
@@ -13,10 +13,8 @@ from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw, Metal
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import NORMAL
 from carom.fitting import model as laws, plates
-from carom.fitting.estimates import Estimate, estimate_of
-from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan
-from carom.fitting.intervals import profiled, settle
-from carom.fitting.least_squares import descend
+from carom.fitting.estimation import Best, estimate, polished, scan, weighed
+from carom.fitting.intervals import Estimate, estimate_of, profiled, settle
 from carom.fitting.loss_laws import CONSTANT, ON_PLATE, elastic, laws_of_losses
 from carom.fitting.model import EXACT, OFFSET, Model
 from carom.fitting.plates import THICKNESS
@@ -45,9 +43,10 @@ LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """A law fitted: the excess of its criterion over the least, and Akaike's weight, or NaN."""
+    """A law fitted: its criterion, by how much that exceeds the least, and Akaike's weight."""
 
     law: str
+    criterion: float
     excess: float
     weight: float
     _best: Best = field(repr=False)
@@ -63,11 +62,29 @@ class Standing:
         return {"excess": or_none(self.excess), "weight": or_none(self.weight)}
 
 
+Kind = TypeVar("Kind", bound=Standing)
+
+
+@dataclass(frozen=True, eq=False)
+class Standings(Generic[Kind]):
+    """Standings of laws by Akaike's criterion on the same data, corrected for few values (AICc)."""
+
+    standings: tuple[Kind, ...]
+
+    def __getitem__(self, law: str) -> Kind:
+        return {each.law: each for each in self.standings}[law]
+
+    def __iter__(self) -> Iterator[Kind]:
+        return iter(self.standings)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the comparison as plain numbers, by law; what cannot be computed is None."""
+        return {each.law: each.to_dict() for each in self.standings}
+
+
 @dataclass(frozen=True, eq=False)
 class LawFit(Standing):
-    """A law of rebound fitted, with its criterion."""
-
-    criterion: float
+    """A law of rebound fitted."""
 
     @property
     def values(self) -> dict[str, float]:
@@ -76,18 +93,17 @@ class LawFit(Standing):
         values = self._best.values
         return {name: values[name] for name in (*self._best.model.law.names, *offset)}
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return criterion, excess, weight, how much was fitted, and the parameters."""
+        fitted = {"free": _free(self._best), "parameters": self.values}
+        return {"aicc": or_none(self.criterion), **super().to_dict(), **fitted}
+
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
-    """Standings of laws by Akaike's criterion on the same data, corrected for few values (AICc)."""
+class Comparison(Standings[LawFit]):
+    """Standings of laws of rebound, the exact one first, by Akaike's criterion (AICc)."""
 
     standings: tuple[LawFit, ...]
-
-    def __getitem__(self, law: str) -> LawFit:
-        return {each.law: each for each in self.standings}[law]
-
-    def __iter__(self) -> Iterator[LawFit]:
-        return iter(self.standings)
 
     @property
     def verdict(self) -> str:
@@ -98,18 +114,6 @@ class Comparison:
             words = next((each for least, each in VERDICTS if gap >= least), TOO_FEW)
             parts += [words.format(rival.law)] if rival is not exact else []
         return "; ".join(parts)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the comparison as plain numbers, by law; what cannot be computed is None."""
-        return {
-            each.law: {
-                "aicc": or_none(each.criterion),
-                **each.to_dict(),
-                "free": _free(each._best),
-                "parameters": each.values,
-            }
-            for each in self.standings
-        }
 
     @property
     def rows(self) -> list[tuple[str, ...]]:
@@ -137,21 +141,17 @@ def compare(best: Best) -> Comparison:
     for law in (laws.suited(law, problem) for law in laws.RIVALS):
         free = tuple(name for name in (*law.names, OFFSET) if name not in held)
         fits.append(settle(Model(law, problem, free, held), best.loss, START | best.values).best)
-    criteria, anew = on_common_ground(fits)
-    names = (each.model.law.name for each in fits)
-    numbers = *weighed(criteria), [best, *anew[1:]], criteria.tolist()
-    return Comparison(tuple(map(LawFit, names, *numbers)))
+    numbers, anew = on_common_ground(fits)
+    standings = zip(numbers, [best, *anew[1:]], strict=True)
+    return Comparison(tuple(LawFit(each.model.law.name, *n, each) for n, each in standings))
 
 
-def weighed(criteria: Array) -> tuple[list[float], list[float]]:
-    """Return by how much each exceeds the least, and Akaike's weights; NaN where there is none."""
-    least = np.nanmin(criteria) if np.isfinite(criteria).any() else nan
-    weights = np.exp(-0.5 * (criteria - least))
-    return (criteria - least).tolist(), (weights / np.nansum(weights)).tolist()
+def on_common_ground(fits: Sequence[Best]) -> tuple[list[tuple[float, float, float]], list[Best]]:
+    """Return laws fitted anew without the outliers of one of them, by its errors.
 
-
-def on_common_ground(fits: Sequence[Best]) -> tuple[Array, list[Best]]:
-    """Return laws fitted anew without the outliers of one of them, by its errors, and criteria."""
+    Before them come their criteria, what these exceed the least by, and Akaike's weights; all are
+    NaN where there are too few values.
+    """
     reference = min(fits, key=criterion)
     problem = reference.model.problem
     kept = replace(problem, measured=np.where(_far(reference), nan, problem.measured))
@@ -162,7 +162,11 @@ def on_common_ground(fits: Sequence[Best]) -> tuple[Array, list[Best]]:
     left = [estimate(model, each.loss, each.at[np.newaxis]) for model, each in pairs]
     best = min(left, key=criterion)
     anew = [_refitted(each.model, each.at, best) for each in left]
-    return np.array([criterion(each) for each in anew]), anew
+    criteria = np.array([criterion(each) for each in anew])
+    least = np.nanmin(criteria) if np.isfinite(criteria).any() else nan
+    weights = np.exp(-0.5 * (criteria - least))
+    columns = criteria, criteria - least, weights / np.nansum(weights)
+    return [*zip(*(column.tolist() for column in columns), strict=True)], anew
 
 
 def _far(best: Best) -> Mask:
@@ -188,17 +192,17 @@ def _far(best: Best) -> Mask:
 
 def _refitted(model: Model, at: Array, common: Best) -> Best:
     """Return least squares of a law with the errors of another one: no outliers are left."""
-    weights = model.weights(at, common.sigma, common.scale)
     starts = np.concatenate([at[np.newaxis], scan(model, SQUARES, common.sigma)])
-    minima = descend(model.residuals(weights, SQUARES), starts, model.bounds)
-    return fitted(model, SQUARES, minima.at[np.argmin(minima.sums)], common.sigma, common.scale)
+    minima = weighed(model, SQUARES, at, common.sigma, common.scale).descended(starts)
+    lowest = minima.at[np.argmin(minima.sums)]
+    return polished(weighed(model, SQUARES, lowest, common.sigma, common.scale))
 
 
 def criterion(best: Best) -> float:
     """Return AICc = -2 log L + 2 k n/(n - k - 1) (Hurvich & Tsai 1989); NaN for few values."""
     free, values = _free(best), best.model.problem.count
     price = 2.0 * free * values / (values - free - 1) if values > free + 1 else nan
-    return likelihood(best) + price
+    return best.deviance + price
 
 
 def _free(best: Best) -> int:
@@ -278,10 +282,14 @@ class LossFit(Standing):
         values = model.values(self._best.at[np.newaxis])
         return np.asarray(model.law.restitution(model.problem.pair, normal_speed, values)[0])
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return excess, weight, and the parameter by its name."""
+        return {**super().to_dict(), self.parameter.name: self.parameter.to_dict()}
+
 
 @dataclass(frozen=True, eq=False)
-class LossComparison:
-    """Standings of laws of losses by Akaike's criterion: speeds, measured restitutions, errors.
+class LossComparison(Standings[LossFit]):
+    """Standings of laws of losses, the likeliest first: speeds, measured restitutions, errors.
 
     Outliers are among them; of several responses the first counts.
     """
@@ -290,9 +298,6 @@ class LossComparison:
     speeds: Array
     measured: Array
     errors: Array
-
-    def __getitem__(self, law: str) -> LossFit:
-        return {each.law: each for each in self.standings}[law]
 
     @property
     def verdict(self) -> str:
@@ -308,13 +313,6 @@ class LossComparison:
         varies = f"depends on the speed as in {first.law}"
         behaviour = "is the same at all speeds" if first.law == CONSTANT else varies
         return f"the restitution {behaviour}; {how.format(others[0].law)}"
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the comparison as plain numbers, by law; what cannot be computed is None."""
-        return {
-            each.law: {**each.to_dict(), each.parameter.name: each.parameter.to_dict()}
-            for each in self.standings
-        }
 
     @property
     def range(self) -> str:
@@ -349,14 +347,13 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
         settle(Model(law, problem, law.names, {OFFSET: 0.0}), best.loss, elastic(law)).best
         for law in laws_of_losses(problem)
     ]
-    criteria, fits = on_common_ground(own)
-    excess, weights = weighed(criteria)
+    numbers, fits = on_common_ground(own)
     standings = []
-    for place in np.argsort(criteria):
+    for place in map(int, np.argsort([criterion for criterion, *_ in numbers])):
         profile = profiled(fits[place], confidence)
         law = profile.best.model.law
         parameter = estimate_of(profile, law.names[0])
-        standings.append(LossFit(law.name, excess[place], weights[place], profile.best, parameter))
+        standings.append(LossFit(law.name, *numbers[place], profile.best, parameter))
     speeds, best = problem.motion.normal_speed, standings[0]._best
     scale = 1.0 / speeds if problem.responses[0] == "normal_speed_out" else 1.0
     errors = scale * best.sigma[:, 0] * best.scale[0]

@@ -7,7 +7,6 @@ import numpy as np
 
 from carom.fitting.comparison import FitRecord, LossComparison
 from carom.fitting.estimation import Best
-from carom.fitting.intervals import rise_of
 from carom.fitting.least_squares import jacobian
 from carom.fitting.model import half_ratio
 from carom.fitting.problem import OUTLIER, FitProblem, IncomingMotion
@@ -32,13 +31,11 @@ WIDE, ALONG = ("row", "response"), ("curve", "response")
 def fit_dataset(fit: FitRecord) -> "xr.Dataset":
     """Return a fit as a dataset, as `Fit.to_dataset`."""
     problem, losses = fit._best.model.problem, fit.losses
-    variables = {**_rows(fit._best), **_curves(fit), **_parameters(fit)}
-    coords: dict[str, Any] = {}
-    if losses is not None:
-        laws = [each.law for each in losses.standings]
-        coords["loss_law"] = _named("loss_law", laws, "law of losses")
-        variables |= _losses(losses)
-    coords |= {
+    variables = {
+        **_rows(fit._best),
+        **_curves(fit),
+        **_parameters(fit),
+        **({} if losses is None else _losses(losses)),
         "row": _named("row", problem.rows.rows, f"{problem.rows.word} of the data"),
         "response": _named("response", list(problem.responses), "what was measured"),
         "law": _named("law", [each.law for each in fit.comparison], "law of rebound"),
@@ -52,7 +49,7 @@ def fit_dataset(fit: FitRecord) -> "xr.Dataset":
         "verdict": fit.comparison.verdict,
         "spinning": int(np.any(problem.motion.spin) or np.any(problem.motion.spin2)),
     }
-    return labelled_dataset(variables, coords, attrs)
+    return labelled_dataset(variables, {}, attrs)
 
 
 def _named(
@@ -88,8 +85,9 @@ def _losses(losses: LossComparison) -> dict[str, Any]:
     speeds = np.geomspace(losses.speeds.min(), losses.speeds.max(), CURVE_POINTS)
     lines = [each.restitution(speeds) for each in losses.standings]
     errors = np.where(np.isfinite(losses.measured), losses.errors, np.nan)
-    excess = [each.excess for each in losses.standings]
+    laws, excess = zip(*((each.law, each.excess) for each in losses), strict=True)
     return {
+        "loss_law": _named("loss_law", laws, "law of losses"),
         "normal_speed": _named("row", losses.speeds, "normal speed before", "m/s"),
         "restitution": _named("row", losses.measured, "normal restitution", "1"),
         "restitution_error": _named("row", errors, "standard deviation of restitution", "1"),
@@ -145,8 +143,7 @@ def _band(fit: FitRecord, motion: IncomingMotion) -> Array:
     at = best.at[np.newaxis]
     slopes = jacobian(lines, at, lines(at), model.bounds)[0]
     variance = np.einsum("mp,pq,mq->m", slopes, best.information.covariance, slopes)
-    rise = float((best.caution * rise_of(fit.confidence, best.freedom)).max())
-    half_width = np.sqrt(best.spread * rise * variance)
+    half_width = np.sqrt(best.rises(fit.confidence).max() * variance)
     return np.asarray(half_width.reshape(-1, len(model.problem.responses)))
 
 
@@ -178,13 +175,12 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     best = fit._best
     refuse(best.elsewhere is not None and "posterior: not of sets that share parameters; fit alone")
     low, high = best.model.bounds
-    residuals = best.model.residuals(best.weights, best.loss)
     stopped: list[BaseException] = []
 
     def log_probability(at: Array) -> Array:
         try:
             inside = np.all((at >= low) & (at <= high), axis=1)
-            values = residuals(np.clip(at, low, high))
+            values = best.roots(np.clip(at, low, high))
             loss = np.einsum("bm,bm->b", values, values)
             return np.where(inside, -0.5 * loss / best.spread, -np.inf)
         except BaseException as error:  # which emcee would print, Ctrl-C as well

@@ -4,14 +4,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
+from scipy.special import ndtri, stdtrit
 
 from carom.fitting import plates, problem as errors
 from carom.fitting.least_squares import DIFFERENCE_STEP, Minimum, descend, jacobian
-from carom.fitting.model import Model
-from carom.fitting.problem import FitProblem
+from carom.fitting.model import Model, Parameter
+from carom.fitting.problem import FitProblem, Weights
 from carom.io.cells import Mask
 from carom.io.extras import extra
 from carom.quantities.arrays import Array
@@ -65,34 +66,21 @@ class Information:
         return np.asarray(np.square(gains).sum(axis=1))
 
 
-def information(
-    model: Model, at: Array, weights: errors.Weights, loss: errors.RobustLoss
-) -> Information:
-    """Return what the values tell at coordinates of shape (parameters,)."""
-    residuals = model.residuals(weights, loss)
-    start = at[np.newaxis]
-    slopes = jacobian(residuals, start, residuals(start), model.bounds)[0]
-    return Information(slopes.reshape(*model.problem.measured.shape, -1))
-
-
 @dataclass(frozen=True, eq=False)
 class Best:
-    """A model fitted: coordinates, loss there, and the errors that were used.
+    """A model at coordinates, the best ones after a fit, with the loss and errors that count there.
 
-    `estimated` tells of which responses the errors come from the scatter, `scale` by how much
-    errors that were given had to be made larger, `others` where descents from other starts ended,
-    `elsewhere` what other data tell (`Information`).
+    `scale` tells by how much errors that were given had to be made larger, `others` where descents
+    from other starts ended, `result` what lmfit returns, `elsewhere` what other data tell.
     """
 
     model: Model
     at: Array
-    sum: float
-    weights: errors.Weights
+    weights: Weights
     loss: errors.RobustLoss
     sigma: Array
     scale: Array
-    estimated: Mask
-    others: Array
+    others: tuple[Array, ...] = ()
     result: Any = None
     elsewhere: Array | None = None
 
@@ -102,6 +90,11 @@ class Best:
         return self.model.values_at(self.at)
 
     @property
+    def estimated(self) -> Mask:
+        """Of which responses the errors come from the scatter."""
+        return np.asarray(self.model.problem.unknown.any(axis=0))
+
+    @cached_property
     def expected(self) -> Array:
         """The responses that the fit gives, of shape (rows, responses)."""
         return np.asarray(self.model.expected(self.at[np.newaxis])[0])
@@ -111,27 +104,49 @@ class Best:
         """Residuals in standard deviations, of shape (rows, responses), 0 where not measured."""
         return np.asarray(self.weights.whitened(self.model.problem, self.expected[np.newaxis])[0])
 
+    def roots(self, at: Array) -> Array:
+        """Return what has the loss as its sum of squares, of shape (batch, values)."""
+        roots = self.loss.root(self.weights.whitened(self.model.problem, self.model.expected(at)))
+        return roots.reshape(len(at), self.model.problem.measured.size)
+
+    @cached_property
+    def sum(self) -> float:
+        """The loss."""
+        return float(np.square(self.loss.root(self.residuals)).sum())
+
+    @property
+    def deviance(self) -> float:
+        """-2 log likelihood."""
+        problem = self.model.problem
+        return self.sum + self.weights.sizes(problem.present) + problem.count * self.loss.size
+
+    def descended(self, starts: Array, movable: Mask | None = None) -> Minimum:
+        """Return minima of the loss from a batch of starting points."""
+        return descend(self.roots, starts, self.model.bounds, movable)
+
     @cached_property
     def rivals(self) -> Minimum:
         """Minima found from other starts."""
-        residuals = self.model.residuals(self.weights, self.loss)
-        return descend(residuals, self.others, self.model.bounds)
+        return self.descended(np.reshape(self.others, (len(self.others), len(self.at))))
 
     @cached_property
     def information(self) -> Information:
         """What the values tell of the free parameters."""
-        own = information(self.model, self.at, self.weights, self.loss)
-        return replace(own, elsewhere=self.elsewhere)
+        base = self.loss.root(self.residuals).reshape(1, -1)
+        slopes = jacobian(self.roots, self.at[np.newaxis], base, self.model.bounds)[0]
+        return Information(slopes.reshape(*self.residuals.shape, -1), self.elsewhere)
 
-    @property
-    def freedom(self) -> Array:
-        """Degrees of freedom of the error of each parameter."""
-        return self.reliability(np.eye(len(self.at)))[0]
+    def rises(self, confidence: float) -> Array:
+        """Return by how much the loss rises to the ends of the interval of each parameter.
 
-    @property
-    def caution(self) -> Array:
-        """What weights from the scatter add to the variance of each parameter."""
-        return self.reliability(np.eye(len(self.at)))[1]
+        In units of chi squared: the square of Student's t, a quantile of F(1, freedom); or of chi
+        squared if that is infinite.
+        """
+        level = 0.5 + 0.5 * confidence
+        freedom, caution = self.reliability(np.eye(len(self.at)))
+        bounded = np.where(np.isfinite(freedom), freedom, 1.0)
+        t = np.where(np.isfinite(freedom), stdtrit(bounded, level), ndtri(level))
+        return np.asarray(self.spread * (caution * t**2))
 
     def reliability(self, sums: Array) -> tuple[Array, Array]:
         """Return how well variances of sums are known, these of shape (sums, parameters).
@@ -140,11 +155,11 @@ class Best:
         Satterthwaite 1946-47); and what weights from the scatter, uncertain themselves, add to a
         variance: 1 + 4 sum p (1 - p)/nu (Meier 1953).
         """
-        shares = self.information.shares(sums)
+        shares, doubts = self.information.shares(sums), self._doubts
         parts = shares / np.maximum(shares.sum(axis=1, keepdims=True), 1e-300)
         with np.errstate(divide="ignore"):
-            freedom = 1.0 / (parts**2 * self._doubts).sum(axis=1)
-        return freedom, 1.0 + 4.0 * (parts * (1.0 - parts) * self._doubts).sum(axis=1)
+            freedom = 1.0 / (parts**2 * doubts).sum(axis=1)
+        return freedom, 1.0 + 4.0 * (parts * (1.0 - parts) * doubts).sum(axis=1)
 
     @property
     def _doubts(self) -> Array:
@@ -173,41 +188,18 @@ class Best:
         return max(normal, ratio(lambda f: errors.mean_over(deviations, f, used)))
 
 
-def likelihood(best: Best) -> float:
-    """Return -2 log likelihood."""
-    return best.sum + normalization(best.model, best.weights, best.loss)
-
-
-def normalization(model: Model, weights: errors.Weights, loss: errors.RobustLoss) -> float:
-    """Return -2 log likelihood of residuals of zero."""
-    problem = model.problem
-    return weights.sizes(problem.present) + problem.count * loss.size
+def weighed(model: Model, loss: errors.RobustLoss, at: Array, sigma: Array, scale: Array) -> Best:
+    """Return a model at coordinates with the weights that it has there."""
+    return Best(model, at, model.weights(at, sigma, scale), loss, sigma, scale)
 
 
 STARTS = 6  # starting points that are followed to the end
-LEVELS = {  # of the scan
-    "friction": 25,
-    "kappa": 12,
-    "tangential_restitution": 9,
-    "loss_time": 40,
-    "yield_velocity": 40,
-    "flow_stress": 40,
-}
+LIKELY_FRICTION = np.log([5e-3, 3.0])  # range of the scan
 TURNS = 8  # times that errors are estimated and the fit is made anew
 FOLLOWED = 3  # minima that are followed with errors of their own
 HOPELESS = 20.0  # of -2 log likelihood behind the best, after two turns
 MOST_SOLVED = 300  # times that all rows are solved, where parameters act only together
 SAME = 0.02  # of a coordinate between ends of descents that are one minimum
-
-
-class _Settling(NamedTuple):
-    """Coordinates, the errors there, and what the data say against them: -2 log likelihood."""
-
-    at: Array
-    loss: errors.RobustLoss
-    sigma: Array
-    scale: Array
-    against: float
 
 
 def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) -> Best:
@@ -217,21 +209,18 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
     itself, with errors of its own: the likeliest is the best.
     """
     problem = model.problem
-    unknown = problem.present & ~np.isfinite(problem.errors)
-    estimated = np.asarray(unknown.any(axis=0))
-    sigma = np.where(unknown, errors.first_errors(problem), errors.usable_errors(problem))
-    minima = rough_minima(model, loss, start)
-    begun = [_followed(model, loss, each, sigma, estimated, 2) for each in minima[:FOLLOWED]]
-    least = min(each.against for each in begun)
+    first, given = errors.first_errors(problem), errors.usable_errors(problem)
+    sigma, minima = np.where(problem.unknown, first, given), rough_minima(model, loss, start)
+    begun = [_followed(model, loss, each, sigma, 2) for each in minima[:FOLLOWED]]
+    least = min(each.deviance for each in begun)
     followed = [
-        _followed(model, each.loss, each.at, each.sigma, estimated, TURNS)
+        _followed(model, each.loss, each.at, each.sigma, TURNS)
         for each in begun
-        if each.against <= least + HOPELESS
+        if each.deviance <= least + HOPELESS
     ]
-    best = min(followed, key=lambda each: each.against)
-    others = [each.at for each in (*followed, *begun) if each is not best]
-    elsewhere = np.array([*others, *minima[FOLLOWED:]])
-    return fitted(model, best.loss, best.at, best.sigma, best.scale, elsewhere)
+    best = min(followed, key=lambda each: each.deviance)
+    others = (each.at for each in (*followed, *begun) if each is not best)
+    return replace(polished(best), others=(*others, *minima[FOLLOWED:]))
 
 
 def rough_minima(model: Model, loss: errors.RobustLoss, start: Array | None = None) -> Array:
@@ -240,27 +229,8 @@ def rough_minima(model: Model, loss: errors.RobustLoss, start: Array | None = No
     rough = errors.first_errors(problem)
     wide = np.fmax(errors.usable_errors(problem), rough)
     at = scan(model, loss, wide) if start is None else start
-    weights = model.weights(at[0], wide, np.ones(len(problem.responses)))
-    first = descend(model.residuals(weights, loss), at, model.bounds)
+    first = weighed(model, loss, at[0], wide, np.ones(len(problem.responses))).descended(at)
     return distinct(first.at[np.argsort(first.sums)])
-
-
-def fitted(
-    model: Model,
-    loss: errors.RobustLoss,
-    at: Array,
-    sigma: Array,
-    scale: Array,
-    others: Array | None = None,
-) -> Best:
-    """Return the best fit from a point on, with these errors."""
-    unknown = model.problem.present & ~np.isfinite(model.problem.errors)
-    weights = model.weights(at, sigma, scale)
-    best, result = polished(model, weights, loss, at)
-    total = float(np.square(model.residuals(weights, loss)(best[np.newaxis])).sum())
-    elsewhere = np.empty((0, len(at))) if others is None or not len(others) else others
-    errors_used = weights, loss, sigma, scale, np.asarray(unknown.any(axis=0))
-    return Best(model, best, total, *errors_used, elsewhere, result)
 
 
 def distinct(points: Array) -> Array:
@@ -272,61 +242,57 @@ def distinct(points: Array) -> Array:
     return np.array(kept)
 
 
-def _followed(
-    model: Model, loss: errors.RobustLoss, at: Array, sigma: Array, estimated: Mask, turns: int
-) -> _Settling:
+def _followed(model: Model, loss: errors.RobustLoss, at: Array, sigma: Array, turns: int) -> Best:
     """Estimate the errors from the scatter and descend, in turns."""
-    problem, scale = model.problem, np.ones(len(estimated))
+    best = weighed(model, loss, at, sigma, np.ones(sigma.shape[1]))
     for turn in range(turns):
-        weights, before = model.weights(at, sigma, scale), (sigma, scale)
-        expected = model.expected(at[np.newaxis])
-        residuals = weights.whitened(problem, expected)[0]
-        if not loss.is_square:
-            loss = errors.likeliest(residuals[problem.present])
-        used = information(model, at, weights, loss).used
-        scattered = errors.scattered(problem, residuals * sigma, expected[0], used, loss)
-        factors = scale * errors.scatter(residuals, problem.present, used, loss)
-        widened = np.where(estimated, 1.0, np.maximum(factors, 1.0))
-        common = scale * errors.typical_deviation(residuals, problem.present)
-        scale = np.where(errors.too_small(problem.present, widened, common), widened, 1.0)
-        sigma = np.where(estimated, scattered, sigma)
-        residual = model.residuals(model.weights(at, sigma, scale), loss)
-        at = descend(residual, at[np.newaxis], model.bounds).at[0]
-        changes = zip((sigma, scale), before, strict=True)
-        if turn and all(np.nanmax(np.abs(now / then - 1.0)) < 1e-3 for now, then in changes):
+        now = _with_errors(best)
+        at = now.descended(best.at[np.newaxis]).at[0]
+        changes = (now.sigma, best.sigma), (now.scale, best.scale)
+        best = weighed(model, now.loss, at, now.sigma, now.scale)
+        if turn and all(np.nanmax(np.abs(new / old - 1.0)) < 1e-3 for new, old in changes):
             break
-    weights = model.weights(at, sigma, scale)
-    total = float(np.square(model.residuals(weights, loss)(at[np.newaxis])).sum())
-    return _Settling(at, loss, sigma, scale, total + normalization(model, weights, loss))
+    return best
 
 
-def polished(
-    model: Model, weights: errors.Weights, loss: errors.RobustLoss, at: Array
-) -> tuple[Array, Any]:
-    """Return the minimum that lmfit finds from here, and its result.
+def _with_errors(best: Best) -> Best:
+    """Return the same with the loss, and errors, that the scatter there makes likeliest."""
+    problem, loss, residuals = best.model.problem, best.loss, best.residuals
+    if not loss.is_square:
+        loss = errors.likeliest(residuals[problem.present])
+    used = replace(best, loss=loss).information.used
+    scattered = errors.scattered(problem, residuals * best.sigma, best.expected, used, loss)
+    factors = best.scale * errors.scatter(residuals, problem.present, used, loss)
+    widened = np.where(best.estimated, 1.0, np.maximum(factors, 1.0))
+    common = best.scale * errors.typical_deviation(residuals, problem.present)
+    scale = np.where(errors.too_small(problem.present, widened, common), widened, 1.0)
+    sigma = np.where(best.estimated, scattered, best.sigma)
+    return weighed(best.model, loss, best.at, sigma, scale)
+
+
+def polished(best: Best) -> Best:
+    """Return the minimum that lmfit finds from here, with its result.
 
     It needs as many values as parameters; with fewer, or with none free, the point stays.
     """
-    lmfit = extra("lmfit", "fit", "fit")
-    if not 0 < len(at) <= model.problem.count:
-        return at, None
+    lmfit, model = extra("lmfit", "fit", "fit"), best.model
+    if not 0 < len(best.at) <= model.problem.count:
+        return best
     parameters = lmfit.Parameters()
-    for name, value, low, high in zip(model.free, at, *model.bounds, strict=True):
+    for name, value, low, high in zip(model.free, best.at, *model.bounds, strict=True):
         parameters.add(name, value=float(value), min=float(low), max=float(high))
-    residuals = model.residuals(weights, loss)
     present = model.problem.present.ravel()
 
     def of(point: Any) -> Array:
-        at = np.array([list(point.valuesdict().values())])
-        return np.asarray(residuals(at)[0][present])
+        return np.asarray(best.roots(np.array([list(point.valuesdict().values())]))[0][present])
 
     ends: dict[str, float] = {"xtol": 1e-9, "ftol": 1e-10}
     if model.problem.on_plate:  # psi_2 is that of the solver, slower and less smooth than a table
         ends |= {"epsfcn": DIFFERENCE_STEP**2, "max_nfev": MOST_SOLVED}
     result = lmfit.minimize(of, parameters, method="leastsq", **ends)
     lowest = np.array(list(result.params.valuesdict().values()))
-    before, after = np.square(of(parameters)).sum(), np.square(residuals(lowest[None])).sum()
-    return (lowest if after <= before else at), result
+    before, after = np.square(of(parameters)).sum(), np.square(best.roots(lowest[None])).sum()
+    return replace(best, at=lowest if after <= before else best.at, result=result)
 
 
 def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
@@ -334,11 +300,13 @@ def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
 
     Valleys along one parameter, the others following, come first: there may be other minima.
     """
-    levels = [_levels(model, name) for name in model.free]
+    problem = model.problem
+    levels = [_levels(each, problem) for each in model.parameters]
     grid = np.array(list(product(*levels)))
-    inverse = 1.0 / np.where(model.problem.present, sigma, 1.0)
-    weights = errors.Weights(inverse[:, :, np.newaxis] * np.eye(sigma.shape[1]))
-    sums = np.square(model.residuals(weights, loss)(grid)).sum(axis=1)
+    inverse = 1.0 / np.where(problem.present, sigma, 1.0)
+    weights = Weights(inverse[:, :, np.newaxis] * np.eye(sigma.shape[1]))
+    roots = Best(model, grid[0], weights, loss, sigma, np.ones(sigma.shape[1])).roots(grid)
+    sums = np.square(roots).sum(axis=1)
     chosen: list[int] = []
     apart = np.array([max(np.ptp(column), 1e-9) for column in grid.T]) / 8.0
     valley = _valleys(sums.reshape([len(each) for each in levels]))
@@ -366,18 +334,16 @@ def _valleys(sums: Array) -> Mask:
     return valleys
 
 
-def _levels(model: Model, name: str) -> Array:
+def _levels(parameter: Parameter, problem: FitProblem) -> Array:
     """Return the coordinates of a parameter in the scan."""
-    if name == "restitution":
-        return _likely_restitutions(model.problem, 0.35)
-    low, high = (float(end[model.free.index(name)]) for end in model.bounds)
-    if name == plates.THICKNESS:
-        return np.clip(-plates.give_of(_likely_restitutions(model.problem, 0.02)), low, high)
-    if name not in LEVELS:
-        return np.zeros(1)
-    if name == "friction":
-        low, high = np.log(5e-3), np.log(3.0)
-    return np.linspace(low, high, LEVELS[name] + 2)[1:-1]
+    if parameter.name == "restitution":
+        return _likely_restitutions(problem, 0.35)
+    low, high = map(parameter.coordinate, (parameter.low, parameter.high))
+    if parameter.name == plates.THICKNESS:
+        return np.clip(-plates.give_of(_likely_restitutions(problem, 0.02)), low, high)
+    if parameter.name == "friction":
+        low, high = LIKELY_FRICTION
+    return np.linspace(low, high, parameter.levels + 2)[1:-1]
 
 
 def _likely_restitutions(problem: FitProblem, least: float) -> Array:

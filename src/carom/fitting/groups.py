@@ -1,12 +1,16 @@
-"""Groups: rows that a column says to repeat one setting become one row, their means and errors."""
+"""Rows that are not independent: trials of one setting, in groups or not, and bounces of a drop."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import fdtrc
 
 from carom.fitting import problem as errors
+from carom.fitting.estimation import Best, estimate
+from carom.fitting.model import Model
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.io.cells import Mask
 from carom.io.user_table import ERROR, UserTable
@@ -14,6 +18,9 @@ from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError
 
+ODD = 1e-3  # chance of a scatter between groups that is called too large
+SHARES = (0.0, 0.5, 1.0)  # of readings in the scatter of successive bounces
+SLIGHTLY = 2.0  # of -2 log likelihood: by which a smaller share may be less likely
 GROUP = "group"  # a column of texts or numbers
 FEWEST = 4  # degrees of freedom from which a scatter is told
 TURNS = 20  # times that means, and the scatter about them, are estimated
@@ -132,3 +139,62 @@ def _assumed(problem: FitProblem) -> list[str]:
         words = f"errors of the means come from the scatter between the groups, {missing}"
         return [f"{GROUP}: {words}, which a group has in common"]
     return [f"{GROUP}: {' and '.join(exact)} taken as exact, {missing}"] if exact else []
+
+
+def with_readings(model: Model, loss: RobustLoss) -> Model:
+    """Return the model with the share of readings in the scatter of bounces, where it is unknown.
+
+    It is the smallest that is nearly as likely as any, which makes the longest intervals; by
+    restricted likelihood (Patterson & Thompson 1971).
+    """
+    problem = model.problem
+    if problem.bounces is None or problem.all_errors_known:
+        return model
+    tried: dict[float, float] = {}
+    start = estimate(model, loss).at[np.newaxis]
+    for share in SHARES:
+        shared = replace(problem, bounces=problem.bounces._replace(share=share))
+        best = estimate(replace(model, problem=shared), loss, start)
+        tried[share] = best.deviance + float(np.linalg.slogdet(best.information.matrix)[1])
+    share = min(each for each in SHARES if tried[each] <= min(tried.values()) + SLIGHTLY)
+    words = (
+        f"{problem.responses[0]}: {100.0 * share:.0f} % of the variance of successive bounces "
+        "counts as that of readings, which two bounces have in common"
+    )
+    bounces = problem.bounces._replace(share=share)
+    told = replace(problem, bounces=bounces, remarks=(*problem.remarks, words))
+    return replace(model, problem=told)
+
+
+def about_repeats(best: Best) -> Iterator[str]:
+    """Yield how much each response scatters in repeated trials, and if the law leaves more.
+
+    That is the analysis of variance for lack of fit: the squares of what the law leaves of the
+    means of the groups, over the variance within these.
+    """
+    problem, used = best.model.problem, best.information.used
+    before = np.column_stack([*problem.before.values()])
+    groups = np.unique(before, axis=0, return_inverse=True)[1].ravel()
+    for place, name in enumerate(problem.responses):
+        there = problem.present[:, place]
+        values, own = problem.measured[there, place], groups[there]
+        left = values - best.expected[there, place]
+        counts = np.bincount(own)
+        means = np.bincount(own, weights=values) / np.maximum(counts, 1)
+        within, repeated = float(np.square(values - means[own]).sum()), int((counts > 1).sum())
+        freedom = len(values) - np.count_nonzero(counts)
+        if freedom < FEWEST or within == 0.0:
+            continue
+        size = GLOSSARY[name].text(float(np.sqrt(within / freedom)), 2)
+        line = (
+            f"{name}: in {repeated} group{'s' * (repeated > 1)} of repeated trials it scatters by "
+            f"{size}, with {freedom} degrees of freedom"
+        )
+        more = float(np.count_nonzero(counts) - used[place])
+        ratio = (float(np.square(left).sum()) - within) / within * freedom / max(more, 1.0)
+        if more >= 1.0 and ratio > 0.0 and fdtrc(more, freedom, ratio) < ODD:
+            line += (
+                f"; from group to group the fit is off by {np.sqrt(ratio):.1f} times what that "
+                "allows, so that the intervals may be too short"
+            )
+        yield line

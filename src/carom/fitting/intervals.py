@@ -1,22 +1,39 @@
-"""Intervals by profile likelihood, and which parameters the data do not determine."""
+"""Intervals by profile likelihood; what data do not determine, and what is taken for granted."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from math import floor, inf, isfinite, isnan, log, log10, nan
+from typing import Any
 
 import numpy as np
-from scipy.special import ndtri, stdtrit
+from scipy.special import chdtri
 
 from carom.dimensionless.rebounds import THROUGHOUT
 from carom.fitting.estimation import WEAK, Best, Information, estimate
-from carom.fitting.least_squares import descend
-from carom.fitting.model import OFFSET, Model, plain
+from carom.fitting.model import KAPPA, OFFSET, RESTITUTION, Model, plain, ranged
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import RobustLoss
-from carom.fitting.restrictions import within_elastic_range
 from carom.io.cells import Mask
 from carom.io.remedies import REMEDIES
 from carom.quantities.arrays import Array
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import Printed, shared
+from carom.quantities.refusals import InputError
+from carom.quantities.units import or_none
 
+ELASTIC_KAPPA = (2.0 / 3.0, 1.0)  # for Poisson's ratios from 1/2 to 0
+AUXETIC_KAPPA = 4.0 / 3.0  # for a Poisson's ratio of -1
+CLEAR = 2.0 * log(1000.0)  # of -2 log likelihood, by which the data contradict a bound
+CONTRADICTED = float(chdtri(1.0, 0.01))  # by one parameter more, by chance once in 100
+
+ELASTIC_TAKEN = (
+    "restitution: taken as 1, since it is neither varied nor fixed; from rows that slip throughout "
+    "only friction (1 + restitution) follows"
+)
+LIMITS: dict[str, tuple[float, float]] = defaultdict(lambda: (0.0, inf))  # what is possible at all
+LIMITS |= {"restitution": (0.0, 1.0), "tangential_restitution": (-1.0, 1.0)}
+LIMITS["spin_offset"] = (-inf, inf)
 TRIES = 4  # fits of which the ends are searched for, each better than the one before
 FIRST = 4.0  # parts of the range in which an open side is searched for, at first
 ROUNDS, CLOSE = 16, 2e-3  # at most; of the distance at which the loss has risen enough
@@ -46,19 +63,12 @@ def profiled(best: Best, confidence: float) -> ProfiledFit:
     with the parameters so that better fits never end, the last one counts.
     """
     for last in range(TRIES):
-        rises = best.spread * (best.caution * rise_of(confidence, best.freedom))
-        profile, better = _profile(best, np.repeat(rises, 2), whatever=last == TRIES - 1)
+        rises = np.repeat(best.rises(confidence), 2)
+        profile, better = _profile(best, rises, whatever=last == TRIES - 1)
         if better is None:
             break
         best = estimate(best.model, best.loss, better[np.newaxis])
     return profile
-
-
-def rise_of(confidence: float, freedom: Array) -> Array:
-    """Return the square of Student's t, a quantile of F(1, freedom); of chi squared if infinite."""
-    level = 0.5 + 0.5 * confidence
-    bounded = np.where(np.isfinite(freedom), freedom, 1.0)
-    return np.asarray(np.where(np.isfinite(freedom), stdtrit(bounded, level), ndtri(level)) ** 2)
 
 
 def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Array | None]:
@@ -68,7 +78,6 @@ def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Arr
     `whatever` tells to go on beyond a better fit.
     """
     (low, high), count = best.model.bounds, len(best.at)
-    residuals = best.model.residuals(best.weights, best.loss)
     which, sides = np.repeat(np.arange(count), 2), np.tile([-1.0, 1.0], count)
     own, place = best.at[which], (np.arange(2 * count), which)
     limits = np.where(sides < 0.0, low[which], high[which])
@@ -85,7 +94,7 @@ def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Arr
         target = np.clip(own + sides * width, low[which], high[which])
         start = at + directions * (target - at[place])[:, np.newaxis]
         start[place] = target
-        at, sums = descend(residuals, start, best.model.bounds, others)
+        at, sums = best.descended(start, others)
         excess = (sums - best.sum) / rises
         if np.any(excess < -0.02) and not whatever:
             better = at[np.argmin(excess)]
@@ -121,21 +130,25 @@ def _next_distance(inner: Array, outer: Array) -> Array:
 class Settled:
     """The best fit of what the data tell, and the groups of parameters that they do not tell.
 
-    Of each group the first parameter is held; `whole` is the fit before anything was held, and
-    `unbounded` that with any kappa.
+    Of each group the first parameter is held, at a value from `start`; `whole` is the fit before
+    that, and `unbounded` that with any kappa. `taken` notes what was taken for granted.
     """
 
     best: Best
     groups: tuple[tuple[str, ...], ...]
     whole: Best
     unbounded: Best
+    start: Mapping[str, float]
+    taken: tuple[str, ...] = ()
 
 
-def settle(model: Model, loss: RobustLoss, start: Mapping[str, float]) -> Settled:
+def settle(
+    model: Model, loss: RobustLoss, start: Mapping[str, float], taken: tuple[str, ...] = ()
+) -> Settled:
     """Fit, and hold one parameter after the other until the data tell all that are free."""
     unbounded = estimate(model, loss)
     whole = within_elastic_range(unbounded)
-    return Settled(*without_weak(whole, start), whole, unbounded)
+    return Settled(*without_weak(whole, start), whole, unbounded, start, taken)
 
 
 def without_weak(
@@ -175,12 +188,11 @@ def _held(best: Best, group: tuple[str, ...], start: float) -> Best:
     """
     name = group[0]
     others = best.at[np.newaxis, [each != name for each in best.model.free]]
-    model = best.model.holding(name, start)
-    residuals = model.residuals(best.weights, best.loss)
-    at = others if len(group) == 1 else descend(residuals, others, model.bounds).at
-    rise = float(np.square(residuals(at)).sum()) - best.sum
+    held = replace(best, model=best.model.holding(name, start))
+    at = others if len(group) == 1 else held.descended(others).at
+    rise = float(np.square(held.roots(at)).sum()) - best.sum
     if rise < WORSE * best.spread:
-        return estimate(model, best.loss, at)
+        return estimate(held.model, best.loss, at)
     return estimate(best.model.holding(name, best.values[name]), best.loss, others)
 
 
@@ -202,3 +214,142 @@ def reason(group: tuple[str, ...], best: Best) -> str:
     if name == "restitution":
         return "nothing that was measured depends on it; measure normal_restitution, too"
     return "over its whole range it changes the values by less than their scatter"
+
+
+def elastic_bounds(model: Model) -> tuple[float, float] | None:
+    """Return the range of elastic bodies, if kappa is kept in it."""
+    own = next((each for each in model.law.parameters if each.name == KAPPA.name), KAPPA)
+    return None if own == KAPPA else ranged(own, model.problem)[1:3]
+
+
+def within_elastic_range(best: Best) -> Best:
+    """Return the fit with kappa in the range of elastic bodies, unless the data contradict that.
+
+    The kappa of like bodies is 2 (1 - nu)/(2 - nu); that of unlike ones lies between those of each.
+    """
+    if KAPPA.name not in best.model.free:
+        return best
+    low, high = ELASTIC_KAPPA
+    if best.model.problem.pair.kappa > high:
+        high = AUXETIC_KAPPA
+    inner = KAPPA._replace(low=low, high=high)
+    law = best.model.law
+    parameters = tuple(inner if each == KAPPA else each for each in law.parameters)
+    bounded = replace(best.model, law=replace(law, parameters=parameters))
+    if low <= best.values[KAPPA.name] <= high:
+        return replace(best, model=bounded)
+    inside = estimate(bounded, best.loss)
+    return inside if inside.deviance - best.deviance < CLEAR else best
+
+
+def refuse_contradicted(best: Best) -> None:
+    """Raise InputError if the data contradict the restitution of 1 that nobody has given.
+
+    They do if a restitution of its own makes them likelier than chance does in one of 100 sets.
+    """
+    name = RESTITUTION.name
+    if best.model.problem.count <= len(best.model.free) + 1:  # too few to tell
+        return
+    freed = estimate(best.model.freeing([name]), best.loss)
+    if best.deviance - freed.deviance > CONTRADICTED:
+        said = round(freed.values[name], 2)
+        fix = REMEDIES.get().fix.format(name=name, value=said)
+        words = f"it would be held at 1, but the data say about {said}"
+        raise InputError(f"{name}: {words}; add it to vary, or fix it, e.g. {fix}")
+
+
+@dataclass(frozen=True)
+class Estimate(Printed):
+    """A fitted parameter: name, value, interval from low to high, or the reason why it has none.
+
+    An end of the interval that the data leave open is the end of the possible values: 0, 1 or
+    infinity. If the data do not determine a parameter, its ends are NaN, `reason` says why, and its
+    value is what was assumed. If a parameter was not varied, its ends are NaN and there is no
+    reason. `elastic` is what the elastic constants of the bodies give for kappa and chi.
+
+    Examples
+    --------
+    >>> str(Estimate("friction", 0.0921, 0.0914, 0.0928))
+    '0.0921 (0.0914 to 0.0928)'
+    """
+
+    name: str
+    value: float
+    low: float = nan
+    high: float = nan
+    reason: str = ""
+    elastic: float = nan
+
+    @property
+    def determined(self) -> bool:
+        """Whether there is an interval, also one with an open end."""
+        return not isnan(self.low)
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """The least and the largest value that is possible at all."""
+        return LIMITS[self.name]
+
+    @property
+    def open(self) -> bool:
+        """Whether an end of the interval is open."""
+        lowest, highest = self.limits
+        return self.determined and (self.low == lowest or self.high == highest)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return value, ends and reason as plain numbers and texts; what is open is None."""
+        names = ("value", "low", "high", *(() if isnan(self.elastic) else ("elastic",)))
+        numbers = {name: or_none(getattr(self, name)) for name in names}
+        return {**numbers, "determined": self.determined, "reason": self.reason}
+
+    @property
+    def cells(self) -> tuple[str, str]:
+        """The value, and from where to where its interval goes or why there is none."""
+        (lowest, highest), quantity = self.limits, GLOSSARY[self.name]
+        if self.reason:
+            return "not determined", self.reason
+        if not self.determined:
+            return quantity.text(self.value, 4), "not varied"
+        if self.low == lowest:
+            return quantity.text(self.value, 4), f"at most {quantity.text(self.high, 4)}"
+        if self.high == highest:
+            return quantity.text(self.value, 4), f"at least {quantity.text(self.low, 4)}"
+        digits = significant(self.value, self.high - self.low)
+        numbers, unit = shared((self.low, self.value, self.high), quantity.unit, digits)
+        value = numbers[1] if unit == "1" else f"{numbers[1]} {unit}"
+        return value, f"{numbers[0]} to {numbers[2]}"
+
+    def __str__(self) -> str:
+        value, interval = self.cells
+        if self.reason:
+            return f"{value}: {interval}"
+        closed = self.determined and not self.open
+        return f"{value} ({interval})" if closed else f"{value}, {interval}"
+
+
+def estimate_of(fit: ProfiledFit, name: str) -> Estimate:
+    """Return the estimate of a parameter, with the reason if it was fitted and has no end."""
+    best, model, value = fit.best, fit.best.model, fit.best.values[name]
+    if name not in model.free:
+        return Estimate(name, value)
+    place = model.free.index(name)
+    bounds = elastic_bounds(model) if name == KAPPA.name else None
+    if fit.open[place].all() and bounds is None:
+        return Estimate(name, value, reason=reason((name,), best))
+    ends = model.values(fit.ends[place])[name][:, 0]
+    limits = zip(ends, bounds or LIMITS[name], fit.open[place], strict=True)
+    low, high = (float(limit if is_open else end) for end, limit, is_open in limits)
+    return Estimate(name, value, low, high)
+
+
+def mapped(each: Estimate, name: str, function: Callable[[float], float]) -> Estimate:
+    """Return the estimate of another parameter, which grows with one."""
+    value, low, high = map(function, (each.value, each.low, each.high))
+    return Estimate(name, value, low, high, each.reason)
+
+
+def significant(value: float, width: float) -> int:
+    """Return how many digits of a value to show, two of the width of its interval."""
+    if not (isfinite(width) and width > 0.0 and value):
+        return 4
+    return max(2, min(8, 2 + floor(log10(abs(value))) - floor(log10(width))))

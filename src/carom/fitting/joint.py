@@ -4,16 +4,14 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple, cast
+from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.linalg import null_space
+from scipy.linalg import block_diag, null_space
 from scipy.special import fdtrc
 
-from carom.fitting.estimation import Best, estimate, fitted
+from carom.fitting.estimation import Best, estimate, polished, weighed
 from carom.fitting.intervals import ProfiledFit, Settled, profiled, without_weak
-from carom.fitting.least_squares import descend
 from carom.fitting.model import Model, Parameter, plain
 from carom.fitting.problem import FitProblem, IncomingMotion, Weights
 from carom.quantities.arrays import Array
@@ -53,24 +51,15 @@ class JointProblem(FitProblem):
         """Whether plates are struck, which are solved row by row."""
         return any(part.on_plate for part in self.parts)
 
-    def filled(self, arrays: Sequence[Array], empty: float) -> Array:
-        """Return arrays of the sets, each (rows, responses), in their places."""
-        whole = np.full((self.blocks[-1][0].stop, self.blocks[-1][1].stop), empty)
-        for place, array in zip(self.blocks, arrays, strict=True):
-            whole[place] = array
-        return whole
-
 
 def joined(parts: Sequence[FitProblem]) -> JointProblem:
     """Return several sets of data as one."""
     names = tuple(name for part in parts for name in part.responses)
-    first, nothing = parts[0], np.empty((0, 0))
-    whole = JointProblem(first.pair, {}, {}, names, nothing, nothing, first.rows, parts=(*parts,))
-    measured, errors = (
-        whole.filled([getattr(part, name) for part in parts], np.nan)
-        for name in ("measured", "errors")
-    )
-    return replace(whole, measured=measured, errors=errors)
+    inside = block_diag(*(np.ones(part.measured.shape) for part in parts)) > 0.0
+    tables = [part.measured for part in parts], [part.errors for part in parts]
+    measured, errors = (np.where(inside, block_diag(*table), np.nan) for table in tables)
+    first = parts[0]
+    return JointProblem(first.pair, {}, {}, names, measured, errors, first.rows, parts=(*parts,))
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +78,10 @@ class JointModel(Model):
         own = self.parts[place].free
         return tuple(name if name in self.shared else f"{name}_{place + 1}" for name in own)
 
+    def places(self, place: int) -> list[int]:
+        """Return which of the coordinates are those of a set."""
+        return [self.free.index(name) for name in self.names(place)]
+
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
         """The free parameters, each in the range that all sets allow it."""
@@ -102,8 +95,7 @@ class JointModel(Model):
 
     def of_part(self, place: int, at: Array) -> Array:
         """Return the coordinates of a set, of shape (batch, its parameters)."""
-        places = [self.free.index(name) for name in self.names(place)]
-        pairs = zip(self.parts[place].parameters, places, strict=True)
+        pairs = zip(self.parts[place].parameters, self.places(place), strict=True)
         own = [each.coordinate(self.parameters[i].value(at[:, i])) for each, i in pairs]
         return np.stack(own, axis=-1) if own else np.empty((len(at), 0))
 
@@ -116,22 +108,15 @@ class JointModel(Model):
 
     def weights(self, point: Array, sigma: Array, scale: Array) -> Weights:
         """Return the weights at coordinates, those of each set in its place."""
-        factors = np.broadcast_to(np.eye(len(scale)), (len(sigma), len(scale), len(scale))).copy()
-        across = None
+        factors, across = np.tile(np.eye(len(scale)), (len(sigma), 1, 1)), np.eye(len(sigma))
+        share = False
         for place, (rows, columns) in enumerate(self.problem.blocks):
             at = self.of_part(place, point[np.newaxis])[0]
             own = self.parts[place].weights(at, sigma[rows, columns], scale[columns])
             factors[rows, columns, columns] = own.factors
             if own.across is not None:
-                across = np.eye(len(sigma)) if across is None else across
-                across[rows, rows] = own.across
-        return Weights(factors, across)
-
-    def regimes(self, point: Array) -> NDArray[np.int8]:
-        """Return the regime of each row of all sets."""
-        at = point[np.newaxis]
-        own = [part.regimes(self.of_part(i, at)[0]) for i, part in enumerate(self.parts)]
-        return np.concatenate(own)
+                across[rows, rows], share = own.across, True
+        return Weights(factors, across if share else None)
 
     def holding(self, name: str, value: float) -> "JointModel":
         """Return the model with one of the free parameters held, in all sets that have it."""
@@ -158,85 +143,60 @@ def joint_model(parts: Sequence[Model], shared: Collection[str]) -> JointModel:
     return replace(model, free=tuple(dict.fromkeys(names)))
 
 
-class JointlySettled(NamedTuple):
-    """A joint fit, and for each set what it says of it: with intervals, and what is not told.
-
-    `agreement` is the probability that sets which do share the parameters differ more.
-    """
-
-    best: Best
-    parts: tuple[tuple[Settled, ProfiledFit], ...]
-    agreement: float
-
-
 def settle_jointly(
-    alone: Sequence[Settled],
-    free: Sequence[Collection[str]],
-    starts: Sequence[Mapping[str, float]],
-    shared: Collection[str],
-    confidence: float,
-) -> JointlySettled:
+    alone: Sequence[Settled], shared: Collection[str], confidence: float
+) -> tuple[Best, list[tuple[Settled, ProfiledFit]], float]:
     """Fit sets once more that were fitted alone, with parameters of some names the same for all.
 
-    `free` are the names of the parameters to be varied, `starts` values to hold those at that the
-    sets do not tell.
+    For each set there is what the joint fit says of it, with intervals; the last number is the
+    probability that sets which do share the parameters differ more.
     """
-    parts = [
-        each.whole.model.freeing([name for name in names if name not in each.whole.model.free])
-        for each, names in zip(alone, free, strict=True)
-    ]
-    model = joint_model(parts, shared)
+    model = joint_model([each.whole.model for each in alone], shared)
     values = [each.whole.values for each in alone]
     own, each_of = model.together(values), [{name: v[name] for name in shared} for v in values]
     begun = np.array([model.coordinates(own | common) for common in each_of])
     whole = estimate(model, alone[0].best.loss, np.clip(begun, *model.bounds))
-    best, groups = without_weak(whole, model.together(starts))
+    best, groups = without_weak(whole, model.together([each.start for each in alone]))
     profile = profiled(best, confidence)
-    settled = []
+    parts = []
     for place, each in enumerate(alone):
         names = model.names(place)  # of groups, what is not of other sets
         weak = (tuple(plain(name) for name in group if name in names) for group in groups)
-        told = _part(profile.best, place)
-        part = Settled(told, tuple(filter(None, weak)), _part(whole, place), each.unbounded)
-        settled.append((part, _part_profile(profile, place, part.best)))
-    return JointlySettled(profile.best, tuple(settled), _agreement(model, alone, whole))
+        ends, groups_here = _part_profile(profile, place), tuple(filter(None, weak))
+        part = replace(each, best=ends.best, groups=groups_here, whole=_part(whole, place))
+        parts.append((part, ends))
+    return profile.best, parts, _agreement(model, alone, whole)
 
 
 def _part(best: Best, place: int) -> Best:
-    """Return what a joint fit says of one set."""
+    """Return what a joint fit says of one set.
+
+    `elsewhere` are slopes that tell of its parameters as much as the other sets do.
+    """
     model = cast(JointModel, best.model)
     rows, columns = model.problem.blocks[place]
-    at = model.of_part(place, best.at[np.newaxis])[0]
-    part, sigma = model.parts[place], best.sigma[rows, columns]
-    across = None if part.problem.bounces is None else best.weights.across
-    own = None if across is None else across[rows, rows]
+    at, *moved = model.of_part(place, np.stack([best.at, best.at + 1e-3]))
+    part, across = model.parts[place], best.weights.across
+    own = None if part.problem.bounces is None or across is None else across[rows, rows]
     weights = Weights(best.weights.factors[rows, columns, columns], own)
-    total = float(np.square(part.residuals(weights, best.loss)(at[np.newaxis])).sum())
-    used = weights, best.loss, sigma, best.scale[columns], best.estimated[columns]
-    alone = Best(part, at, total, *used, np.empty((0, len(at))), best.result)
-    return replace(alone, elsewhere=_of_others(best, alone, place))
-
-
-def _of_others(best: Best, alone: Best, place: int) -> Array:
-    """Return slopes that tell of the parameters of a set as much as the other sets do."""
-    model = cast(JointModel, best.model)
-    places = [model.free.index(name) for name in model.names(place)]
-    step = model.of_part(place, np.stack([best.at, best.at + 1e-3]))
-    ratio = np.diff(step, axis=0)[0] / 1e-3  # coordinates of a part are in proportion to those here
+    used = weights, best.loss, best.sigma[rows, columns], best.scale[columns]
+    alone = Best(part, at, *used, result=best.result)
+    ratio = (moved[0] - at) / 1e-3  # coordinates of a part are in proportion to those here
+    places = model.places(place)
     covariance = best.information.covariance[np.ix_(places, places)] * np.outer(ratio, ratio)
     more = np.linalg.inv(covariance) - alone.information.matrix
     sizes, directions = np.linalg.eigh(more)
-    return np.asarray(np.sqrt(np.maximum(sizes, 0.0))[:, np.newaxis] * directions.T)
+    return replace(alone, elsewhere=np.sqrt(np.maximum(sizes, 0.0))[:, np.newaxis] * directions.T)
 
 
-def _part_profile(profile: ProfiledFit, place: int, part: Best) -> ProfiledFit:
+def _part_profile(profile: ProfiledFit, place: int) -> ProfiledFit:
     """Return the intervals of one set."""
     model = cast(JointModel, profile.best.model)
-    places = [model.free.index(name) for name in model.names(place)]
+    places = model.places(place)
     count = len(places)
-    ends = profile.ends[places].reshape(2 * count, -1)
-    own = model.of_part(place, ends).reshape(count, 2, count)
-    return ProfiledFit(part, own, profile.open[places])
+    ends = model.of_part(place, profile.ends[places].reshape(2 * count, -1))
+    own = ends.reshape(count, 2, count)
+    return ProfiledFit(_part(profile.best, place), own, profile.open[places])
 
 
 def _agreement(model: JointModel, alone: Sequence[Settled], whole: Best) -> float:
@@ -248,13 +208,11 @@ def _agreement(model: JointModel, alone: Sequence[Settled], whole: Best) -> floa
     """
     apart = joint_model(model.parts, ())
     singles = [each.whole for each in alone]
-    problem = model.problem
-    sigma = problem.filled([each.sigma for each in singles], 1.0)
+    sigma = block_diag(*(each.sigma for each in singles))
     scale = np.concatenate([each.scale for each in singles])
     start = apart.coordinates(apart.together([each.values for each in singles]))
-    best = fitted(apart, whole.loss, np.clip(start, *apart.bounds), sigma, scale)
-    weights = best.weights
-    shared = descend(model.residuals(weights, whole.loss), whole.at[np.newaxis], model.bounds)
+    best = polished(weighed(apart, whole.loss, np.clip(start, *apart.bounds), sigma, scale))
+    shared = replace(best, model=model).descended(whole.at[np.newaxis])
     more = len(best.at) - len(whole.at)
     freedom, _ = best.reliability(_contrasts(model, apart, whole.at))
     rise = max(float(shared.sums[0]) - best.sum, 0.0) / best.spread / more
@@ -263,9 +221,9 @@ def _agreement(model: JointModel, alone: Sequence[Settled], whole: Best) -> floa
 
 def _contrasts(model: JointModel, apart: JointModel, at: Array) -> Array:
     """Return sums of the coordinates of sets apart that are constant where sets share some."""
-    steps = at + 1e-3 * np.eye(len(at))
+    steps = np.vstack([at, at + 1e-3 * np.eye(len(at))])
     moved = np.zeros((len(apart.free), len(at)))
     for place in range(len(model.parts)):
-        own = [apart.free.index(name) for name in apart.names(place)]
-        moved[own] = (model.of_part(place, steps) - model.of_part(place, at[np.newaxis])).T
+        here, *there = model.of_part(place, steps)
+        moved[apart.places(place)] = np.transpose(there - here)
     return np.asarray(null_space(moved.T).T)

@@ -7,11 +7,10 @@ from math import inf, isfinite, sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.fitting.estimates import Estimate
 from carom.fitting.estimation import Best
-from carom.fitting.intervals import Settled
+from carom.fitting.intervals import Estimate, Settled
 from carom.fitting.joint import settle_jointly
-from carom.fitting.options import NAMES, Options
+from carom.fitting.options import NAMES
 from carom.fitting.report_file import Reported
 from carom.fitting.result import Fit, assembled
 from carom.io.labels import labelled_dataset
@@ -285,22 +284,14 @@ def named_sets(data: Mapping[str, Any] | Sequence[Any]) -> dict[str, Any]:
 
 
 def jointly_assembled(
-    names: Sequence[str],
-    alone: Sequence[tuple[Settled, Options]],
-    shared: tuple[str, ...],
-    confidence: float,
+    alone: Mapping[str, Settled], shared: tuple[str, ...], confidence: float
 ) -> JointFit:
     """Return the result of sets that were fitted alone, once more together if they share some."""
-    values = {n: settled.whole.values for n, (settled, _) in zip(names, alone, strict=True)}
+    values = {name: each.whole.values for name, each in alone.items()}
     if not shared:
-        fits = [assembled(settled, confidence, options.taken) for settled, options in alone]
-        return JointFit(dict(zip(names, fits, strict=True)), (), None, values, None)
-    settled, options = zip(*alone, strict=True)
-    free, starts = ([getattr(each, name) for each in options] for name in ("free", "start"))
-    joint = settle_jointly(settled, free, starts, shared, confidence)
-    fits = [
-        assembled(part, confidence, each.taken, profile)
-        for (part, profile), each in zip(joint.parts, options, strict=True)
-    ]
-    result = dict(zip(names, fits, strict=True))
-    return JointFit(result, shared, joint.agreement, values, joint.best)
+        fits = {name: assembled(each, confidence) for name, each in alone.items()}
+        return JointFit(fits, (), None, values, None)
+    best, parts, agreement = settle_jointly([*alone.values()], shared, confidence)
+    together = zip(alone, parts, strict=True)
+    fits = {name: assembled(part, confidence, profile) for name, (part, profile) in together}
+    return JointFit(fits, shared, agreement, values, best)

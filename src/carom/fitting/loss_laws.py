@@ -21,6 +21,7 @@ from carom.quantities.arrays import Array
 LEAST, MOST = 1e-8, 10.0  # of a loss time, in units of d_max/V_1
 LEAST_YIELD = 1e-5  # velocity, in units of the smallest speed
 LEAST_STRESS = 0.025  # of that with which nothing yields: V_1/V_y is 1e4
+LEVELS = 40  # of parameters where a fit begins
 CONSTANT, ON_PLATE = "constant", "ZenerPlate"
 DEPTHS = np.unique(  # of a metal, in that of first yield: close where it begins to lose
     [*np.linspace(1.0, 1.9, 10), *np.geomspace(1.9, 3.0, 200), *np.geomspace(3.0, 3e4, 160)]
@@ -31,8 +32,9 @@ def laws_of_losses(problem: FitProblem) -> tuple[FittedLaw, ...]:
     """Return the laws, with ranges beyond which nothing changes at these speeds."""
     speeds = problem.motion.normal_speed
     times = _times(problem.pair, speeds)
-    loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None)
-    yielding = Parameter("yield_velocity", LEAST_YIELD * speeds.min(), float(speeds.max()), None)
+    loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None, LEVELS)
+    least, most = LEAST_YIELD * speeds.min(), float(speeds.max())
+    yielding = Parameter("yield_velocity", least, most, None, LEVELS)
     zener = problem.on_plate and FittedLaw(
         ON_PLATE, (laws.ranged(laws.THICK, problem),), untouched, plates.restitution
     )
@@ -51,7 +53,7 @@ def _flow_stress(problem: FitProblem) -> Parameter:
     most = LARGEST_STRAIN * yielding_modulus(pair)
     not_yielding = most * (fastest / yield_velocity(pair, most)) ** 0.4  # V_y goes as Y^(5/2)
     high = float(min(most, not_yielding))
-    return Parameter("flow_stress", LEAST_STRESS * high, high, None)
+    return Parameter("flow_stress", LEAST_STRESS * high, high, None, LEVELS)
 
 
 def elastic(law: FittedLaw) -> dict[str, float]:

@@ -13,9 +13,9 @@ from carom.bodies.pairs import Pair
 from carom.dimensionless.rebound_tables import STORED_CHI, STORED_E, psi_out, stored
 from carom.dimensionless.rebounds import regime_borders
 from carom.fitting import plates
-from carom.fitting.least_squares import BoxBounds, Residuals
+from carom.fitting.least_squares import BoxBounds
 from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.problem import FitProblem, IncomingMotion, RobustLoss, Weights, shared_readings
+from carom.fitting.problem import FitProblem, IncomingMotion, Weights, shared_readings
 from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # by name: of parameters (batch, 1), of restitutions (batch, rows)
@@ -26,12 +26,16 @@ ROUNDING = 1e-9
 
 
 class Parameter(NamedTuple):
-    """A parameter with its range; what is varied is its logarithm, or it in units of a scale."""
+    """A parameter with its range; what is varied is its logarithm, or it in units of a scale.
+
+    A fit begins with a scan of so many `levels` of it.
+    """
 
     name: str
     low: float
     high: float
     scale: float | None = 1.0  # None: logarithmic
+    levels: int = 1
 
     def coordinate(self, value: Any) -> Any:
         """Return what is varied in place of a value, or of an array of them."""
@@ -59,25 +63,18 @@ def constant(pair: Pair, normal_speed: Array, values: Values) -> Array:
     return values["restitution"] + 0.0 * normal_speed
 
 
-def unmoved(pair: Pair, normal_speed: Array, values: Values) -> Array:
-    """Return the speed of the centres as the surfaces turn: none, but for plates."""
-    return np.zeros(normal_speed.shape)
-
-
 @dataclass(frozen=True)
 class FittedLaw:
     """A law of rebound: `contact_velocity_out` is V_x' of V_n, V_x, and what can be varied.
 
     V_n and V_x have the shape (rows,), V_x' and e have (batch, rows). Besides `parameters` an
-    offset of the spin can be varied. On a plate e, the contact time, and w as the surfaces turn
-    depend on V_n.
+    offset of the spin can be varied. On a plate e depends on V_n.
     """
 
     name: str
     parameters: tuple[Parameter, ...]
     contact_velocity_out: OutgoingVelocity
     restitution: OfNormalSpeed = constant
-    turning: OfNormalSpeed = unmoved
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -126,17 +123,9 @@ def exact(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
 def exact_on_plate(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
     """Return the same on a plate, by the solver: e, and psi_2 for its sake, depend on V_n."""
     unit = values["friction"] * normal_speed / values["kappa"]
-    shape = np.broadcast_shapes(velocity.shape, unit.shape, values["restitution"].shape)
-    psi, chi, gives, e = (
-        np.broadcast_to(each, shape)
-        for each in (
-            velocity / unit,
-            half_ratio(pair) * values["kappa"],
-            plates.give(pair, normal_speed, values),
-            values["restitution"],
-        )
-    )
-    return unit * plates.rebounds(psi, chi, gives, e)
+    chi, gives = half_ratio(pair) * values["kappa"], plates.give(pair, normal_speed, values)
+    rows = np.broadcast_arrays(velocity / unit, chi, gives, values["restitution"])
+    return unit * plates.rebounds(*rows)
 
 
 def untouched(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
@@ -156,11 +145,11 @@ def rigid(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
     return velocity - np.copysign(np.minimum(stuck * np.abs(velocity), bound), velocity)
 
 
-FRICTION = Parameter("friction", 1e-3, 10.0, None)
-KAPPA = Parameter("kappa", 0.1, 4.0, None)
+FRICTION = Parameter("friction", 1e-3, 10.0, None, 25)
+KAPPA = Parameter("kappa", 0.1, 4.0, None, 12)
 RESTITUTION = Parameter("restitution", *STORED_E)
 THICK = Thickness(THICKNESS, 0.0, np.inf)  # its range depends on the speeds
-BETA = Parameter("tangential_restitution", -1.0, 1.0)
+BETA = Parameter("tangential_restitution", -1.0, 1.0, levels=9)
 
 ANY_RESTITUTION = RESTITUTION._replace(low=1e-3)  # where the table of psi_2 is not asked
 
@@ -179,8 +168,7 @@ def suited(law: FittedLaw, problem: FitProblem) -> FittedLaw:
     thickness = () if THICKNESS in problem.before else (THICK,)
     others = (each for each in law.parameters if each.name != RESTITUTION.name)
     out = exact_on_plate if law.contact_velocity_out is exact else law.contact_velocity_out
-    of_speed = plates.restitution, plates.turning
-    return FittedLaw(law.name, (*others, *thickness), out, *of_speed)
+    return FittedLaw(law.name, (*others, *thickness), out, plates.restitution)
 
 
 def ranged(parameter: Parameter, problem: FitProblem) -> Parameter:
@@ -272,15 +260,6 @@ class Model:
             across[own, own] = np.linalg.inv(np.linalg.cholesky(rows[own, own]))
         return Weights(factors / larger[:, np.newaxis, np.newaxis], across)
 
-    def residuals(self, weights: Weights, loss: RobustLoss) -> Residuals:
-        """Return the function whose sum of squares is to be least."""
-
-        def of(at: Array) -> Array:
-            roots = loss.root(weights.whitened(self.problem, self.expected(at)))
-            return roots.reshape(len(at), self.problem.measured.size)
-
-        return of
-
     def regimes(self, point: Array) -> NDArray[np.int8]:
         """Return the place in `carom.impacts.curves.REGIMES` of each row, by the exact law."""
         problem, values = self.problem, self.values_at(point)
@@ -293,10 +272,9 @@ class Model:
         """Return the |psi_1| at which the regime changes, of shape (rows, 3)."""
         pair, values = self.problem.pair, self.values(point[np.newaxis])
         arguments = pair, motion.normal_speed, of_rows(motion, values)
-        e, turning = self.law.restitution(*arguments), self.law.turning(*arguments)
-        chi = half_ratio(pair) * float(values["kappa"][0, 0])
-        rows = (np.atleast_2d(each)[0] for each in (e, turning))
-        return regime_borders(chi, *rows)
+        e = self.law.restitution(*arguments)[0]
+        turning = plates.turning(*arguments)[0] if self.problem.on_plate else 0.0
+        return regime_borders(half_ratio(pair) * float(values["kappa"][0, 0]), e, turning)
 
     def holding(self, name: str, value: float) -> "Model":
         """Return the model with one of the free parameters held."""

@@ -8,11 +8,10 @@ import numpy as np
 from carom.datasets.observables import NORMAL
 from carom.dimensionless.elastic.phases import LARGEST_GIVE
 from carom.fitting import plates
-from carom.fitting.intervals import EXAMPLES
+from carom.fitting.intervals import ELASTIC_TAKEN, EXAMPLES
 from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged, suited
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import FitProblem
-from carom.fitting.restrictions import ELASTIC_TAKEN
 from carom.io.remedies import REMEDIES
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, checked_type, clipped, nearest, refusal, refuse

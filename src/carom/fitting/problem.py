@@ -85,9 +85,14 @@ class FitProblem:
         return np.array([self.freedom.get(name, np.inf) for name in self.responses])
 
     @property
+    def unknown(self) -> Mask:
+        """Where there is a measured value without a standard deviation."""
+        return self.present & ~np.isfinite(self.errors)
+
+    @property
     def all_errors_known(self) -> bool:
         """Whether every measured value has a standard deviation."""
-        return bool(np.all(np.isfinite(self.errors) | ~self.present))
+        return not self.unknown.any()
 
     @property
     def exact(self) -> list[str]:

@@ -19,7 +19,7 @@ from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting import bounces, plates
-from carom.fitting.air import about_air
+from carom.fitting.bounces import about_air
 from carom.fitting.groups import GROUP
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import NO_SPEED, Bounces, FitProblem, IncomingMotion

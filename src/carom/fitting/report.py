@@ -1,24 +1,29 @@
 """The result of a fit in words, with usual mistakes in tables that would explain a bad one."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import combinations
 from math import inf, isnan, log, pi
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from carom.fitting import plates
 from carom.fitting.comparison import FitRecord
-from carom.fitting.estimates import LIMITS, Estimate
-from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
-from carom.fitting.intervals import ProfiledFit, Settled
+from carom.fitting.estimation import Best, estimate, rough_minima
+from carom.fitting.groups import about_repeats
+from carom.fitting.intervals import (
+    ELASTIC_KAPPA,
+    LIMITS,
+    Estimate,
+    ProfiledFit,
+    Settled,
+    elastic_bounds,
+)
 from carom.fitting.model import KAPPA, Model
 from carom.fitting.plates import THICKNESS
 from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
 from carom.fitting.reading import FROM_SURFACE, UNSIGNED
-from carom.fitting.repeats import about_repeats
-from carom.fitting.restrictions import ELASTIC_KAPPA, elastic_bounds
 from carom.io.remedies import REMEDIES
 from carom.io.user_table import AFTERWARDS
 from carom.quantities.arrays import Array
@@ -33,13 +38,14 @@ NAMES = {  # and responses: of the centre, of the contact point, its negative
     "tangential_restitution": ("contact_restitution", "contact_beta"),
 }
 RPM, DEGREE = pi / 30.0, pi / 180.0
-SPIN_UNITS = {"rpm": RPM, "rev/s": 2.0 * pi}
-SCALES = {  # of spins; a radius only matters beside them
-    "spins of the other sign": -1.0,
-    "spins in rad/s, not in rpm": 1.0 / RPM,
-    "those of half the radius (is the radius a diameter?)": 0.5,
-    "those of twice the radius (is the radius half of it?)": 2.0,
-}
+OF_SPINS = (  # with the factor, and the unit that it stands for; a radius only matters beside them
+    ("spins of the other sign", -1.0, ""),
+    ("spins in rad/s, not in rpm", 1.0 / RPM, ""),
+    ("those of half the radius (is the radius a diameter?)", 0.5, ""),
+    ("those of twice the radius (is the radius half of it?)", 2.0, ""),
+    ("spins in rpm", RPM, "rpm"),
+    ("spins in rev/s", 2.0 * pi, "rev/s"),
+)
 ROUGH = 0.1  # of the range of a response, which scatter does not exceed where a law fits
 FAR, PART = 20.0, 0.25  # by how much and to which part chi squared must fall
 HOPEFUL = 0.9  # of the scatter as given: a rough fit must leave less, in one response at least
@@ -47,8 +53,8 @@ LEAST = 0.75  # of the values that must not be outliers then
 LIKELIER = 2.0 * log(100.0)  # of -2 log likelihood, with angles from the other side
 
 
-def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
-    """Return the mistake with which the data are far likelier than as they stand, if there is one.
+def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> Iterator[str]:
+    """Yield the mistake with which the data are far likelier than as they stand, if there is one.
 
     Angles from the surface are always tried, as they may fit well; other mistakes only where
     something is odd: scatter beyond what errors allow or a tenth of the range, or a kappa that the
@@ -60,7 +66,7 @@ def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]
     trials = [*_turned(problem), *(_trials(problem) if _is_odd(whole, estimates) else ())]
     likely = [(*found, each.unit) for each in trials if (found := _tried(whole, each))]
     if not likely:
-        return []
+        return
     _, words, unit = min(likely)
     columns = ((n, c) for n, c in problem.rows.cells.items() if n in (*SPINS, UNSIGNED))
     bare = {each.head: name for name, each in columns if each.letter and not str(each.unit)}
@@ -70,7 +76,7 @@ def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]
             remedy = REMEDIES.get().columns({head: f"{bare[head]} [{own}]" for head in bare})
             asked += f"; if they are in {own}, {remedy}"
         raise InputError(asked)
-    return [words]
+    yield words
 
 
 def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
@@ -105,19 +111,17 @@ def _turned(problem: FitProblem) -> Iterator[Trial]:
     if all(np.min(values) > 0.0 for values in before) and _columns(problem, ANGLES):
         turned = {*FROM_SURFACE} & {*problem.rows.columns}
         words = f"angles from the {'normal' if turned else 'surface'}"
-        yield _changed(words, problem, ANGLES, lambda a: pi / 2.0 - a)._replace(enough=LIKELIER)
+        yield _changed(words, problem, ANGLES, -1.0, shift=0.5 * pi)._replace(enough=LIKELIER)
 
 
 def _trials(problem: FitProblem) -> Iterator[Trial]:
     """Yield what else may have been mistaken in the columns that there are."""
     angles = _columns(problem, ANGLES)
     if angles and all(np.nanmax(np.abs(v)) < 0.5 * pi * DEGREE for v in angles):
-        yield _scaled("angles in radians", problem, ANGLES, 1.0 / DEGREE)
+        yield _changed("angles in radians", problem, ANGLES, 1.0 / DEGREE)
     if _columns(problem, SPINS):
-        for words, factor in SCALES.items():
-            yield _scaled(words, problem, SPINS, factor)
-        for unit, factor in SPIN_UNITS.items():
-            yield _scaled(f"spins in {unit}", problem, SPINS, factor)._replace(unit=unit)
+        for words, factor, unit in OF_SPINS:
+            yield _changed(words, problem, SPINS, factor)._replace(unit=unit)
     yield from _swapped(problem)
     for place, name in enumerate(problem.responses):
         for other in set(NAMES.get(name, ())) - set(problem.responses):
@@ -133,29 +137,21 @@ def _columns(problem: FitProblem, names: tuple[str, ...]) -> list[Array]:
 
 
 def _changed(
-    words: str,
-    problem: FitProblem,
-    names: tuple[str, ...],
-    change: Callable[[Array], Array],
-    factor: float = 1.0,
+    words: str, problem: FitProblem, names: tuple[str, ...], factor: float, shift: float = 0.0
 ) -> Trial:
-    """Return the trial with columns changed, and their errors multiplied by a factor."""
+    """Return the trial with columns, and their errors, multiplied by a factor, and shifted."""
     chosen = np.array([name in names for name in problem.responses])
-    before = {n: change(v) if n in names else v for n, v in problem.before.items()}
-    errors = {n: v * abs(factor) if n in names else v for n, v in problem.before_errors.items()}
     factors = np.where(chosen, factor, 1.0)
+    before = {n: shift + factor * v if n in names else v for n, v in problem.before.items()}
+    given = problem.before_errors.items()
     changed = replace(
         problem,
         before=before,
-        before_errors=errors,
-        measured=np.where(chosen, change(problem.measured), problem.measured),
+        before_errors={n: v * abs(factor) if n in names else v for n, v in given},
+        measured=np.where(chosen, shift + factor * problem.measured, problem.measured),
         errors=problem.errors * np.abs(factors),
     )
     return Trial(words, changed, factors)
-
-
-def _scaled(words: str, problem: FitProblem, names: tuple[str, ...], factor: float) -> Trial:
-    return _changed(words, problem, names, lambda values: factor * values, factor)
 
 
 def _swapped(problem: FitProblem) -> Iterator[Trial]:
@@ -194,8 +190,8 @@ def _tried(best: Best, trial: Trial) -> tuple[float, str] | None:
     few = kept.sum() * log(max(instead, 1e-300) / max(chi2, 1e-300)) < FAR
     few |= instead - chi2 < FAR or chi2 > PART * instead
     changed = 2.0 * float((present.sum(axis=0) * np.log(np.abs(trial.factors))).sum())
-    against = likelihood(other) - changed
-    if kept.sum() < LEAST * present.sum() or (few and likelihood(best) - against < trial.enough):
+    against = other.deviance - changed
+    if kept.sum() < LEAST * present.sum() or (few and best.deviance - against < trial.enough):
         return None
     words = f"these data fit as {trial.words}: chi-square {chi2:.3g} instead of {instead:.3g}"
     return against, f"{words}, with {_shown(other, other.values)}"
@@ -245,69 +241,73 @@ def summary(fit: FitRecord) -> list[str]:
     return [*([f"correlations: {pairs}"] if pairs else []), *by_regime]
 
 
-def notes(fit: ProfiledFit, settled: Settled, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
-    """Return what is to be known besides the numbers."""
-    best, whole = fit.best, settled.whole
-    problem = best.model.problem
-    far = np.asarray((np.abs(best.residuals) > OUTLIER).any(axis=1))
-    lines = [*_about_errors(best), *about_repeats(best)]
-    lines += [f"outliers: {problem.rows.named(far)}"] if far.any() else []
-    lines += [*_about_regimes(fit), *_about_ranges(best)]
+def notes(fit: ProfiledFit, settled: Settled, estimates: Mapping[str, Estimate]) -> Iterator[str]:
+    """Yield what is to be known besides the numbers."""
+    best, whole, problem = fit.best, settled.whole, fit.best.model.problem
+    yield from settled.taken
+    yield from _about_errors(best)
+    yield from about_repeats(best)
+    yield from _where("outliers:", problem, (np.abs(best.residuals) > OUTLIER).any(axis=1))
+    yield from _about_regimes(fit)
+    yield from _about_ranges(best)
     if {"friction", "kappa"} <= set(whole.model.free) and problem.is_one:  # all psi_1 are one
-        lines.append(ONE_INCIDENCE)
-    lines += [*_about_others(whole, estimates), *_about_bodies(estimates["kappa"])]
-    lines += _about_bounds(fit, settled.unbounded)
-    lines += [*_likely_mistake(whole, estimates), *problem.remarks]
-    lines += _about_plate(best, estimates)
-    ignored = ", ".join(problem.ignored)
-    lines += [f"columns that were not used: {ignored}"] if ignored else []
-    gaps = np.asarray(~problem.present.any(axis=1))
-    empty = [f"nothing was measured in {problem.rows.named(gaps)}"] if gaps.any() else []
-    return (*lines, *problem.rows.notes, *problem.rows.about_missing(), *empty)
+        yield ONE_INCIDENCE
+    yield from _about_others(whole, estimates)
+    yield from _about_kappa(fit, settled.unbounded, estimates["kappa"])
+    yield from _likely_mistake(whole, estimates)
+    yield from problem.remarks
+    yield from _about_plate(best, estimates)
+    if problem.ignored:
+        yield f"columns that were not used: {', '.join(problem.ignored)}"
+    yield from problem.rows.notes
+    yield from problem.rows.about_missing()
+    yield from _where("nothing was measured in", problem, ~problem.present.any(axis=1))
 
 
-def _about_errors(best: Best) -> list[str]:
-    problem, lines = best.model.problem, []
+def _where(words: str, problem: FitProblem, rows: Any) -> Iterator[str]:
+    if rows.any():
+        yield f"{words} {problem.rows.named(rows)}"
+
+
+def _about_errors(best: Best) -> Iterator[str]:
+    problem = best.model.problem
     columns = problem.errors.T, problem.present.T, best.sigma.T, best.scale, problem.least_errors
-    for place, (name, errors, there, sigma, scale, least) in enumerate(
-        zip(problem.responses, *columns, strict=True)
-    ):
+    responses = zip(problem.responses, best.estimated, *columns, strict=True)
+    for name, estimated, errors, there, sigma, scale, least in responses:
         text = GLOSSARY[name].text
-        if best.estimated[place]:
+        if estimated:
             deviation = text(float(np.median(sigma[there & ~np.isfinite(errors)])), 2)
-            lines.append(f"{name}: the scatter gives a standard deviation of {deviation}")
+            yield f"{name}: the scatter gives a standard deviation of {deviation}"
         elif scale > 1.0:
             times = f"{scale:.1f} times what the errors allow, so they were enlarged"
-            lines.append(f"{name}: the scatter is {times}")
+            yield f"{name}: the scatter is {times}"
         if np.any(errors < least):
             raised = "were raised to that, the accuracy of the curves that are fitted"
-            lines.append(f"{name}: errors below {text(least, 2)} {raised}")
-    return lines
+            yield f"{name}: errors below {text(least, 2)} {raised}"
 
 
-def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> list[str]:
-    """Return how the restitution follows, and where the theory of a plate does not hold."""
+def _about_plate(best: Best, estimates: Mapping[str, Estimate]) -> Iterator[str]:
+    """Yield how the restitution follows, and where the theory of a plate does not hold."""
     problem = best.model.problem
     if not problem.on_plate:
-        return []
+        return
     pair, speeds, thickness = problem.pair, problem.motion.normal_speed, estimates.get(THICKNESS)
-    of_all = 0.0 * speeds + thickness.value if thickness else problem.motion.thickness
-    sizes = np.asarray(of_all)
+    of_all: Any = thickness.value if thickness else problem.motion.thickness
+    sizes = np.broadcast_to(of_all, speeds.shape)
     e = best.model.law.restitution(pair, speeds, {THICKNESS: sizes})
-    lines = [f"restitution: the plate gives {e.min():.3g} to {e.max():.3g}, the median is shown"]
-    doubts = list(plates.doubtful(pair, speeds, sizes))
-    lines += [f"{f.label}: {f.verdict} ({problem.rows.named(bad)})" for f, bad in doubts]
+    yield f"restitution: the plate gives {e.min():.3g} to {e.max():.3g}, the median is shown"
+    for finding, bad in plates.doubtful(pair, speeds, sizes):
+        yield f"{finding.label}: {finding.verdict} ({problem.rows.named(bad)})"
     if thickness is not None and thickness.high == inf:
-        lines.append("thickness: the data do not tell the plate from a thick wall")
+        yield "thickness: the data do not tell the plate from a thick wall"
     usual = plates.with_thickness(pair, float(np.median(sizes)))
     fitted = thickness is not None and thickness.determined
-    sheared = plates.shear(usual, float(np.median(speeds)), problem.responses, fitted=fitted)
-    return [*lines, *([sheared] if sheared else [])]
+    if said := plates.shear(usual, float(np.median(speeds)), problem.responses, fitted=fitted):
+        yield said
 
 
-def _about_ranges(best: Best) -> list[str]:
-    """Return which parameters lie at an end of the range in which they are searched for."""
-    lines = []
+def _about_ranges(best: Best) -> Iterator[str]:
+    """Yield which parameters lie at an end of the range in which they are searched for."""
     coordinates = best.at, *best.model.bounds
     for parameter, at, low, high in zip(best.model.parameters, *coordinates, strict=True):
         if parameter.name == KAPPA.name and elastic_bounds(best.model):
@@ -316,57 +316,44 @@ def _about_ranges(best: Best) -> list[str]:
         for end, distance in ends.items():
             if distance < NEAR_END and end not in LIMITS[parameter.name]:
                 reach = f"from {GLOSSARY[parameter.name].span(parameter.low, parameter.high, 3)}"
-                lines.append(f"{parameter.name}: the best value is at an end of the range {reach}")
-    return lines
+                yield f"{parameter.name}: the best value is at an end of the range {reach}"
 
 
-def _about_bodies(kappa: Estimate) -> list[str]:
-    """Return what the bodies have to say of a kappa that was fitted."""
-    if not kappa.determined or kappa.low <= kappa.elastic <= kappa.high:
-        return []
-    differs = f"kappa: the interval excludes {kappa.elastic:.3g}, which the elastic constants give"
-    can_be = ELASTIC_KAPPA[0] <= kappa.value <= ELASTIC_KAPPA[1]
-    bounds = "" if can_be else ", and kappa is 2/3 to 1 for elastic bodies"
-    return [f"{differs}{bounds}; check bodies, units and signs"]
-
-
-def _about_bounds(fit: ProfiledFit, unbounded: Best) -> list[str]:
-    """Return where the bounds of elastic bodies cut the interval of kappa, or change the fit."""
+def _about_kappa(fit: ProfiledFit, unbounded: Best, kappa: Estimate) -> Iterator[str]:
+    """Yield what the bodies have to say of kappa, and where their bounds cut or change the fit."""
     model, bounds = fit.best.model, elastic_bounds(fit.best.model)
+    if kappa.determined and not kappa.low <= kappa.elastic <= kappa.high:
+        differs = f"the interval excludes {kappa.elastic:.3g}, which the elastic constants give"
+        can_be = ELASTIC_KAPPA[0] <= kappa.value <= ELASTIC_KAPPA[1]
+        beyond = "" if can_be else ", and kappa is 2/3 to 1 for elastic bodies"
+        yield f"kappa: {differs}{beyond}; check bodies, units and signs"
     if bounds is None:
-        return []
+        return
     texts = ["2/3" if bound == ELASTIC_KAPPA[0] else f"{bound:.3g}" for bound in bounds]
     why = f"kappa is {' to '.join(texts)} for elastic bodies"
-    lines = []
-    if KAPPA.name in model.free:
-        cut = fit.open[model.free.index(KAPPA.name)]
+    if KAPPA.name in model.free and (cut := fit.open[model.free.index(KAPPA.name)]).any():
         ends = " and ".join(text for text, there in zip(texts, cut, strict=True) if there)
-        lines += [f"kappa: the interval ends at {ends}, as {why}"] if ends else []
+        yield f"kappa: the interval ends at {ends}, as {why}"
     if not bounds[0] <= unbounded.values[KAPPA.name] <= bounds[1]:
         better = f"would fit better, but not clearly: {_shown(unbounded, unbounded.values)}"
-        lines.append(f"kappa: {why}; other values {better}; check bodies, units and signs")
-    return lines
+        yield f"kappa: {why}; other values {better}; check bodies, units and signs"
 
 
 def _shown(best: Best, values: Mapping[str, float]) -> str:
     return ", ".join(f"{name} {GLOSSARY[name].text(values[name], 3)}" for name in best.model.free)
 
 
-def _about_regimes(fit: ProfiledFit) -> list[str]:
-    """Return which rows may lie in more than one regime, as far as the data can tell."""
+def _about_regimes(fit: ProfiledFit) -> Iterator[str]:
+    """Yield which rows may lie in more than one regime, as far as the data can tell."""
     model = fit.best.model
-    at_fit = model.regimes(fit.best.at)
-    unsure = np.zeros(len(at_fit), dtype=bool)
-    for point in fit.ends.reshape(-1, len(fit.best.at)):
-        unsure |= model.regimes(point) != at_fit
-    unsure &= model.problem.present.any(axis=1)
-    if not unsure.any():
-        return []
-    return [f"the regime may differ within the intervals: {model.problem.rows.named(unsure)}"]
+    points = fit.ends.reshape(-1, len(fit.best.at))
+    regimes = np.array([model.regimes(point) for point in (fit.best.at, *points)])
+    unsure = np.any(regimes != regimes[0], axis=0) & model.problem.present.any(axis=1)
+    yield from _where("the regime may differ within the intervals:", model.problem, unsure)
 
 
-def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
-    """Return another minimum that the data do not exclude, outside of the intervals."""
+def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> Iterator[str]:
+    """Yield another minimum that the data do not exclude, outside of the intervals."""
     rivals, model = whole.rivals, whole.model
     best = model.coordinates({name: estimates[name].value for name in model.free})
     near = rivals.sums - whole.sum < 4.0 * whole.spread
@@ -375,5 +362,5 @@ def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
         far = [name for name, off in zip(model.free, point - best, strict=True) if abs(off) > APART]
         determined = [estimates[name] for name in far if estimates[name].determined]
         if any(not each.low <= values[each.name] <= each.high for each in determined):
-            return [f"other values fit nearly as well: {_shown(whole, values)}"]
-    return []
+            yield f"other values fit nearly as well: {_shown(whole, values)}"
+            return

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from carom.fitting.bounces import BOUNCES
-from carom.fitting.budget import budget
 from carom.fitting.comparison import FitRecord
+from carom.fitting.estimation import Best
 from carom.fitting.problem import FitProblem
 from carom.fitting.report import summary
 from carom.impacts.solve import impact
@@ -20,9 +20,12 @@ from carom.io.paths import checked_output
 from carom.io.user_table import ERROR
 from carom.io.version import __version__
 from carom.plots.result import Result, Section
+from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import checked_type
 
+ELSEWHERE = "the other data"
+NEAR_ZERO = 1e-6  # of a residual, below which its root loss is taken to be linear
 TITLE = "Parameters from measured rebounds"
 AIR = "no correction is made for drag; a note tells of it where heights show what it takes"
 ROWS = "Measured values with their standard deviations, and what the fit gives; below, the rest."
@@ -109,16 +112,12 @@ def sections_of(fit: FitRecord, draw: Callable[..., Any]) -> Iterator[Section]:
 
 
 def _budget(fit: FitRecord) -> Iterator[Section]:
-    costs = budget(fit._best)
-    known = [i for i, name in enumerate(costs.parameters) if fit.estimates[name].determined]
-    if not known:
-        return
-    head = ("quantity", *(costs.parameters[i] for i in known))
-    rows = [
-        (name, *(f"{100.0 * shares[i]:.1f} %" for i in known))
-        for name, shares in zip(costs.quantities, costs.shares, strict=True)
-    ]
-    yield Section("What the uncertainty comes from", (SHARES,), [head, *rows])
+    free = enumerate(fit._best.model.free)
+    known = {name: i for i, name in free if fit.estimates[name].determined}
+    if known:
+        shares = budget(fit._best).items()
+        rows = ((n, *(f"{100.0 * each[i]:.1f} %" for i in known.values())) for n, each in shares)
+        yield Section("What the uncertainty comes from", (SHARES,), [("quantity", *known), *rows])
 
 
 def _columns(problem: FitProblem, fit: FitRecord) -> Iterator[tuple[str, ...]]:
@@ -194,3 +193,38 @@ def _sentence(fit: FitRecord) -> str:
         f"({100.0 * fit.confidence:g} % intervals by profile likelihood in brackets; "
         f"Carom {__version__}). {verdict}".split()
     )
+
+
+def budget(best: Best) -> dict[str, Array]:
+    """Return the parts that the errors of each column have in the variances of the parameters.
+
+    To first order an error v of a row, in the unit of the responses, moves the coordinates by
+    C S^T D W v: W makes residuals independent, D is the slope of the root of the loss, S that of
+    the roots over the coordinates, and C = (S^T S)^-1. The covariance of a row is the sum of v v^T
+    over the columns (`Model.weights`), so that the parts are those of a sum of squares. Readings
+    that are after one bounce and before the next are one quantity.
+    """
+    if best.weights.across is not None:
+        return {best.model.problem.responses[0]: np.ones(len(best.model.free))}
+    r = np.where(np.abs(best.residuals) > NEAR_ZERO, best.residuals, NEAR_ZERO)
+    slope = best.loss.influence(r) / best.loss.root(r)  # of the root, least for outliers
+    gain = best.information.slopes @ best.information.covariance
+    squares = {}
+    for name, errors in _errors_by_column(best):
+        whitened = slope * np.einsum("rij,rj->ri", best.weights.factors, errors)
+        squares[name] = np.square(np.einsum("rj,rjp->rp", whitened, gain)).sum(axis=0)
+    if best.elsewhere is not None:
+        squares[ELSEWHERE] = np.square(best.elsewhere @ best.information.covariance).sum(axis=0)
+    return {name: each / sum(squares.values()) for name, each in squares.items()}
+
+
+def _errors_by_column(best: Best) -> Iterator[tuple[str, Array]]:
+    """Yield each uncertain column, and what one standard deviation of it does to the responses."""
+    problem, at = best.model.problem, best.at[np.newaxis]
+    for name, (up, down) in zip(problem.before_errors, problem.shaken, strict=True):
+        change = 0.5 * (best.model.expected(at, up)[0] - best.model.expected(at, down)[0])
+        yield name, np.where(problem.present, best.scale * change, 0.0)
+    for place, name in enumerate(problem.responses):
+        own = np.zeros(problem.measured.shape)
+        own[:, place] = np.where(problem.present, best.scale * best.sigma, 0.0)[:, place]
+        yield name, own

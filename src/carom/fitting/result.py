@@ -11,11 +11,19 @@ from carom.fitting import plates
 from carom.fitting.advice import Advice, advise
 from carom.fitting.comparison import FitRecord
 from carom.fitting.datasets import fit_dataset, sample
-from carom.fitting.estimates import Estimate, estimate_of
-from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
-from carom.fitting.model import Model, half_ratio
+from carom.fitting.intervals import (
+    Estimate,
+    ProfiledFit,
+    Settled,
+    estimate_of,
+    mapped,
+    profiled,
+    reason,
+)
+from carom.fitting.model import half_ratio
 from carom.fitting.options import NAMES
 from carom.fitting.plates import THICKNESS
+from carom.fitting.problem import FitProblem
 from carom.fitting.report import as_text, notes
 from carom.fitting.report_file import Reported, sections_of
 from carom.impacts.curves import REGIMES
@@ -236,49 +244,34 @@ class Fit(FitRecord, Reported):
         return "\n".join([as_text(self), *([str(self.losses)] if self.losses else [])])
 
 
-def assembled(
-    settled: Settled,
-    confidence: float,
-    taken: tuple[str, ...] = (),
-    profile: ProfiledFit | None = None,
-) -> Fit:
-    """Return the result of a fit: intervals, what is not determined, regimes, notes.
-
-    `taken` are notes on what was taken for granted, `profile` the intervals if they are known.
-    """
+def assembled(settled: Settled, confidence: float, profile: ProfiledFit | None = None) -> Fit:
+    """Return the result of a fit: intervals, which may be known, regimes, notes."""
     profile = profile or profiled(settled.best, confidence)
-    best, model = profile.best, profile.best.model
+    best, problem, pair = profile.best, profile.best.model.problem, profile.best.model.problem.pair
     estimates = {name: estimate_of(profile, name) for name in best.values}
-    for name in model.free:
-        if not estimates[name].determined:
-            estimates[name] = replace(estimates[name], reason=reason((name,), best))
     estimates |= _undetermined(settled, profile, estimates, confidence)
-    pair, kappa = model.problem.pair, estimates["kappa"]
-    value, low, high = (half_ratio(pair) * each for each in (kappa.value, kappa.low, kappa.high))
-    estimates["chi"] = Estimate("chi", value, low, high, kappa.reason)
-    if model.problem.on_plate:
-        estimates["restitution"] = _on_plate(model, estimates.get(THICKNESS))
-    counts = np.bincount(model.regimes(best.at), minlength=len(REGIMES))
-    regimes = dict(zip(REGIMES, counts.tolist(), strict=True))
+    estimates["chi"] = mapped(estimates["kappa"], "chi", lambda kappa: half_ratio(pair) * kappa)
+    if problem.on_plate:
+        estimates["restitution"] = _on_plate(problem, estimates.get(THICKNESS))
     for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
         estimates[name] = replace(estimates[name], elastic=elastic)
     ordered = {name: estimates[name] for name in NAMES if name in estimates}
-    lines = (*taken, *notes(profile, settled, ordered))
-    return Fit(ordered, confidence, regimes, lines, best)
+    counts = np.bincount(best.model.regimes(best.at), minlength=len(REGIMES))
+    regimes = dict(zip(REGIMES, counts.tolist(), strict=True))
+    return Fit(ordered, confidence, regimes, tuple(notes(profile, settled, ordered)), best)
 
 
-def _on_plate(model: Model, thickness: Estimate | None) -> Estimate:
+def _on_plate(problem: FitProblem, thickness: Estimate | None) -> Estimate:
     """Return the restitution that follows from a plate, the median of the rows."""
-    pair, motion = model.problem.pair, model.problem.motion
 
     def median(h: Any) -> float:
         values = {THICKNESS: np.asarray(h)}
-        return float(np.median(plates.restitution(pair, motion.normal_speed, values)))
+        e = plates.restitution(problem.pair, problem.motion.normal_speed, values)
+        return float(np.median(e))
 
     if thickness is None:
-        return Estimate("restitution", median(motion.thickness))
-    own, low, high = map(median, (thickness.value, thickness.low, thickness.high))
-    return Estimate("restitution", own, low, high, thickness.reason)
+        return Estimate("restitution", median(problem.motion.thickness))
+    return mapped(thickness, "restitution", median)
 
 
 def _undetermined(

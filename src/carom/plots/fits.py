@@ -104,12 +104,8 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         curve = dataset["loss_restitution"].sel(loss_law=law)
         axis.plot(dataset["loss_speed"], curve, lw=1.1, label=str(law), **LOSS_STYLES[str(law)])
     speeds, values = dataset["normal_speed"].values, dataset["restitution"].values
-    outliers = _outliers(dataset).any(axis=1)
-    kept = np.where(outliers, np.nan, values)
-    axis.errorbar(
-        speeds, kept, dataset["restitution_error"].values, **style.POINTS, label="measured"
-    )
-    _mark(axis, speeds[outliers], values[outliers], dataset["row"].values[outliers])
+    error, outliers = dataset["restitution_error"].values, _outliers(dataset).any(axis=1)
+    _points(axis, speeds, values, error, dataset["row"].values, outliers, label="measured")
     axis.set(xlabel=_label("normal_speed", "m/s"), ylabel=_label("normal_restitution", "1"))
     axis.legend(loc="best")
     return figure
@@ -175,9 +171,7 @@ def _draw_response(axes: Any, dataset: xr.Dataset, name: str) -> None:
     for axis, quantity in ((upper, "measured"), (lower, "residual")):
         axis.margins(y=0.08)
         values = scale * data[quantity].values
-        kept = np.where(outliers, np.nan, values)
-        axis.errorbar(x, kept, error, zorder=5, **style.POINTS)
-        _mark(axis, x[outliers], values[outliers], data["row"].values[outliers])
+        _points(axis, x, values, error, data["row"].values, outliers, zorder=5)
     lower.axhline(0.0, color=style.BLACK, lw=0.6, zorder=1)
     upper.set_ylabel(_label(name, unit))
     lower.set_ylabel("residual")
@@ -210,11 +204,14 @@ def _outliers(data: xr.Dataset) -> Any:
     return data["outlier"].values == 1
 
 
-def _mark(axis: Any, x: Any, y: Any, rows: Any) -> None:
-    """Mark outliers with their rows, within the range of the other values and half of it beyond."""
+def _points(
+    axis: Any, x: Any, y: Any, error: Any, rows: Any, outliers: Any, **options: Any
+) -> None:
+    """Draw values; mark outliers with rows, within the range of the others and half of it more."""
+    axis.errorbar(x, np.where(outliers, np.nan, y), error, **style.POINTS, **options)
     low, high = axis.get_ylim()
     reach = 0.5 * (high - low)
-    for place, value, row in zip(x, y, rows, strict=True):
+    for place, value, row in zip(*(each[outliers] for each in (x, y, rows)), strict=True):
         shown = float(np.clip(value, low - reach, high + reach))
         mark = "o" if shown == value else "^" if value > shown else "v"
         axis.plot(place, shown, **{**OUTLIERS, "marker": mark})
