@@ -25,7 +25,6 @@ OWN = {  # private to Carom: what its files know of each other's classes, and us
     "contacts/load_paths.py": {"_describe"},
     "dimensionless/lossy/law.py": {"_scale_free"},
     "impacts/body_impact.py": {"_ellipse", "_losses"},
-    "impacts/off_centre.py": {"_ellipse"},
     "impacts/exact.py": {"_loss", "_losses", "_source"},
     "impacts/outcome.py": {"_describe"},
     "impacts/validity.py": {"_ellipse", "_loss", "_size_ratio", "_strength"},

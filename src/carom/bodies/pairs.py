@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.contact_shape import axes_of, check_shapes, curvatures_of, inverse_mass_of
 from carom.bodies.materials import Material, set_fields
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
-from carom.bodies.smooth_body import Body
+from carom.bodies.smooth_body import Body, as_body, axes_of, check_shapes
 from carom.dimensionless.ellipse import Ellipse, contact_ellipse, stiffness_ratios
 from carom.quantities.arrays import Array
 from carom.quantities.elementwise import quotient, sqrt, where
@@ -126,7 +125,7 @@ class Pair(Printed):
         mu = not_negative("friction", friction)
         set_fields(self, first=first, second=second, friction=mu)
         if not self.is_round:
-            check_shapes(first, second)
+            check_shapes(first, second, self.curvatures)
         if not pair_fits(self):
             raise InputError(
                 "pair: sizes, densities and stiffnesses of the bodies give numbers that floating "
@@ -144,14 +143,19 @@ class Pair(Printed):
         return all(not isinstance(b, Body) or b.is_planar for b in (self.first, self.second))
 
     @cached_property
+    def bodies(self) -> tuple[Body, Body]:
+        """Both as bodies of any shape; those that do not move have no mass."""
+        return as_body(self.first, -1.0), as_body(self.second, 1.0)
+
+    @cached_property
     def curvatures(self) -> Array:
         """Sum of both bodies' curvatures along x and y, in 1/m, shape (2, 2)."""
-        return curvatures_of(self.first, self.second)
+        return np.sum([body.curvatures for body in self.bodies], axis=0)
 
     @cached_property
     def inverse_mass(self) -> Array:
         """Inverse mass B at the contact along x, y and the normal, in 1/kg, shape (3, 3)."""
-        return np.sum([inverse_mass_of(body) for body in self.moving], axis=0)
+        return np.sum([body.inverse_mass for body in self.bodies], axis=0)
 
     @property
     def is_central(self) -> bool:
