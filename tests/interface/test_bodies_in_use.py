@@ -137,6 +137,12 @@ def test_figures_and_films(tmp_path: Path) -> None:
     assert float(worn.work_error) < 2e-3  # springs' own work of friction
 
 
+@pytest.mark.parametrize("law", [carom.Metal(), carom.ElasticPlastic(), None])
+def test_a_law_of_yield_is_no_fault(law: object) -> None:
+    findings = {each.name: each.holds for each in hit_of(case(), losses=law).validity.findings}
+    assert findings["p_0/Y"] is (law is not None)
+
+
 def test_what_is_not_known_is_refused() -> None:
     egg = hit_of(case(FIRST["ellipsoid"]))
     for ask in (egg.fields, egg.contact, egg.wear, egg.peaks):

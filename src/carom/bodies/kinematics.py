@@ -150,7 +150,7 @@ class RigidMotion(NamedTuple):
         """
         half = 0.5 / sum(1.0 / body.mass for body in pair.moving)
         spins = zip((self.spin, self.spin2), pair.bodies, strict=True)
-        turning: Array = sum(np.sum(spin * (spin @ body.tensor), axis=-1) for spin, body in spins)  # type: ignore[assignment]
+        turning = np.sum([np.sum(spin * (spin @ body.tensor), axis=-1) for spin, body in spins], 0)
         squares = self.velocity**2
         return half * squares[..., 2], half * (squares[..., 0] + squares[..., 1]), 0.5 * turning
 

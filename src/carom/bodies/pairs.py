@@ -171,7 +171,7 @@ class Pair(Printed):
     @cached_property
     def kappas(self) -> tuple[float, float]:
         """Ratios of tangential to normal stiffness along both axes of the contact."""
-        bodies = [(m.poisson, m.shear_modulus) for m in self._materials]
+        bodies = [(m.poisson, m.shear_modulus) for m in self.materials.values()]
         return stiffness_ratios(self._ellipse.share, self.effective_modulus, *bodies)
 
     @property
@@ -182,14 +182,16 @@ class Pair(Printed):
     @cached_property
     def effective_modulus(self) -> float:
         """Effective modulus E*, in Pa."""
-        return 1.0 / sum((1.0 - m.poisson**2) / m.young for m in self._materials)
+        return 1.0 / sum((1.0 - m.poisson**2) / m.young for m in self.materials.values())
 
     @cached_property
     def effective_shear_modulus(self) -> float:
         """Effective shear modulus G*, in Pa."""
         if not self.is_round:
             return self.kappas[0] * self.effective_modulus
-        return 1.0 / sum((2.0 - m.poisson) / (4.0 * m.shear_modulus) for m in self._materials)
+        return 1.0 / sum(
+            (2.0 - m.poisson) / (4.0 * m.shear_modulus) for m in self.materials.values()
+        )
 
     @cached_property
     def effective_radius(self) -> float:
@@ -234,8 +236,8 @@ class Pair(Printed):
     @property
     def dundurs_beta(self) -> float:
         """Dundurs' second parameter; zero if normal and tangential contact do not couple."""
-        one, two = ((1.0 - 2.0 * m.poisson) / m.shear_modulus for m in self._materials)
-        whole = sum((1.0 - m.poisson) / m.shear_modulus for m in self._materials)
+        one, two = ((1.0 - 2.0 * m.poisson) / m.shear_modulus for m in self.materials.values())
+        whole = sum((1.0 - m.poisson) / m.shear_modulus for m in self.materials.values())
         return 0.5 * (one - two) / whole
 
     @property
@@ -251,7 +253,7 @@ class Pair(Printed):
         It is the ratio of sum nu/(4 G) to sum (2 - nu)/(4 G), from Barber (1979), (29), which is
         nu/(2 - nu) for equal materials.
         """
-        lateral = sum(m.poisson / (4.0 * m.shear_modulus) for m in self._materials)
+        lateral = sum(m.poisson / (4.0 * m.shear_modulus) for m in self.materials.values())
         return lateral * self.effective_shear_modulus
 
     def contact_scales(self, length: float) -> ContactScales:
@@ -361,8 +363,9 @@ class Pair(Printed):
         return where(contact_velocity == 0.0, 0.0, ratio)
 
     @property
-    def _materials(self) -> tuple[Material, Material]:
-        return self.first.material, self.second.material
+    def materials(self) -> dict[str, Material]:
+        """Materials of both bodies, "first" and "second"."""
+        return {"first": self.first.material, "second": self.second.material}
 
     def _describe(self) -> dict[str, Any]:
         """Return the bodies and their friction as plain numbers and words."""

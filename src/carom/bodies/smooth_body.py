@@ -89,29 +89,23 @@ class Body(Shape):
         curvatures: ArrayLike | None = None,
         name: str | None = None,
     ) -> None:
-        read: dict[str, Any] = {"mass": None, "inertia": None, "contact": None, "name": name}
         of_motion = {"mass": mass, "inertia": inertia, "contact": contact}
         missing = [name for name, value in of_motion.items() if value is None]
-        readers = {"mass": positive, "inertia": _inertia, "contact": _place}
+        readers: dict[str, Any] = {"mass": positive, "inertia": _inertia, "contact": _place}
         with Faults() as faults:
-            with faults.catching():
-                read["material"] = as_material(material)
-            with faults.catching():
-                read["curvatures"] = _curvatures(curvature_radius, curvatures)
+            stuff = faults.trying(as_material, material)
+            bent = faults.trying(_curvatures, curvature_radius, curvatures)
             for key in missing if len(missing) < len(of_motion) else ():
                 faults.add(f"{key}: missing; a body that moves has mass, inertia and contact")
-            for key, value in of_motion.items():
-                with faults.catching():
-                    read[key] = None if value is None else readers[key](key, value)
-            with faults.catching():
-                checked_type("name", name, (str, NoneType), "must be a text")
+            read = {key: faults.if_given(readers[key], key, of_motion[key]) for key in of_motion}
+            faults.trying(checked_type, "name", name, (str, NoneType), "must be a text")
             if read["inertia"] is not None and read["contact"] is not None:
                 planar = isinstance(read["inertia"], float)
                 if planar != (len(read["contact"]) == 2):
                     faults.add(f"contact: {PLACE}, with an inertia of 3 x 3")
-                if planar and read.get("curvatures", [[0.0, 0.0]])[0][1]:
+                if planar and bent and bent[0][1]:
                     faults.add("curvatures: in a plane of symmetry one of them is along x")
-        set_fields(self, **read)
+        set_fields(self, **read, material=stuff, curvatures=bent, name=name)
 
     @property
     def is_planar(self) -> bool:

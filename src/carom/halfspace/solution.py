@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 from math import ceil
-from typing import NamedTuple
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -89,35 +90,6 @@ def _kind(slipping: float, sign: float) -> tuple[str, int]:
     return "slip" if slipping < 1.0 - THIN_ZONE else "gross slip", int(sign)
 
 
-class GridHistory(NamedTuple):
-    """An impact at some times; units d_max, d_max/V_1, and for tangential motion those of psi."""
-
-    time: Field
-    penetration: Field
-    speed: Field
-    psi: Field
-    displacement: Field
-    force: Field
-    stick_radius: Field
-    contact_radius: Field
-    stored: Field
-    dissipated: Field
-    shear_lost: Field
-    normal_force: Field
-    normal_stored: Field
-    normal_lost: Field
-    slip_angle: Field
-    slip_angle_max: Field
-    spin: Field  # about the normal, with the moment against it and the velocity across the motion
-    moment: Field
-    velocity_across: Field
-
-    @property
-    def centre_speed(self) -> Field:
-        """That of the bodies' centres, as the wall does not give way."""
-        return self.speed
-
-
 class Snapshot(NamedTuple):
     """The contact at the end of a step, with the velocity of slip during it."""
 
@@ -181,17 +153,20 @@ class HalfspaceSolution:
         mean = np.sum(ledger.slip_angle[within] * work) / work.sum()
         return float(ledger.slip_angle_max[within].max()), float(mean)
 
-    def history(self, n: int) -> GridHistory:
+    def history(self, n: int) -> Any:
         return self.at(np.linspace(0.0, self.duration, n))
 
-    def at(self, time: Field) -> GridHistory:
-        """Return the impact at times, linear between the steps."""
+    def at(self, time: Field) -> Any:
+        """Return the impact at times, linear between the steps; units d_max, d_max/V_1, of psi.
+
+        `spin` is about the normal, `moment` against it.
+        """
         ledger, kappa, of_normal = self.ledger, self.materials.kappa, 2.0 * motion.NORMAL_RATE
         energy = kappa * of_normal * self.chi  # of psi^2/2 in those of the tangential motion
         none = np.zeros(ledger.time.size)
         columns = {
             "penetration": ledger.depth,
-            "speed": ledger.approach,
+            "centre_speed": ledger.approach,  # and of the surfaces, as the wall does not give way
             "psi": kappa * ledger.velocity,
             "displacement": kappa * ledger.displacement,
             "force": ledger.tangential_force,
@@ -210,7 +185,7 @@ class HalfspaceSolution:
             "velocity_across": ledger.velocity_across,
         }
         sampled = {name: np.interp(time, ledger.time, each) for name, each in columns.items()}
-        return GridHistory(time=time, **sampled)
+        return SimpleNamespace(time=time, **sampled)
 
 
 def solve(

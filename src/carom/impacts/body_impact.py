@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, isfinite, nan
-from typing import Any
+from math import inf, isfinite
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -20,12 +20,11 @@ from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.lossy.springs.motion import Inertia
 from carom.dimensionless.lossy.springs.off_centre import OffCentreSolution, solve_off_centre
 from carom.dimensionless.solution import Solution
-from carom.dimensionless.states import History, SlipAngle
+from carom.dimensionless.states import History
 from carom.impacts.exact import Impact, loss_numbers, solution_of
+from carom.impacts.findings import Assumption
 from carom.impacts.outcome import PAIR, RESULTS
-from carom.impacts.peaks import judge_pressure
-from carom.impacts.validity import OF_SHAPES, judge
-from carom.io.labels import Finding, Validity
+from carom.impacts.validity import OF_SHAPES
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal, refuse
@@ -57,6 +56,8 @@ class BodyImpact(Impact):
     >>> round(hit.normal_restitution, 3), round(hit.spin_out, 2)
     (0.84, 23.62)
     """
+
+    _assumptions: ClassVar[tuple[Assumption, ...]] = OF_SHAPES
 
     @cached_property
     def motion(self) -> RigidMotion:
@@ -142,20 +143,6 @@ class BodyImpact(Impact):
         return self.solution.shear_lost * self._shear_unit
 
     @property
-    def validity(self) -> Validity:
-        """Whether the assumptions of the theory hold, as numbers with limits and verdicts."""
-        return judge(self, OF_SHAPES)
-
-    @property
-    def slip_angles(self) -> tuple[SlipAngle, ...]:
-        """Angle between slip and x, which is not known and NaN."""
-        return (SlipAngle(nan, nan),) * len(self.phases)
-
-    @property
-    def _strength(self) -> tuple[Finding, ...]:
-        return (judge_pressure(self.pair, self.scales.pressure, yields=False),)
-
-    @property
     def _size_ratio(self) -> float:
         (along, across), _ = axes_of(self.pair.curvatures)
         return max(along * self.semi_axis_x, across * self.semi_axis_y)
@@ -223,9 +210,8 @@ class BodyImpact(Impact):
         friction = (whole - sum(energies.values())) if rubs else 0.0 * normal
         return energies | {"frictional_work": friction}
 
-    def _columns(self, n: int) -> dict[str, Any]:
-        h = self.solution.history(n)
-        now, none = self._motion(h), np.zeros(n)
+    def _columns(self, h: Any) -> dict[str, Any]:
+        now, none = self._motion(h), np.zeros(len(h))
         across = (getattr(h, f"{name}_across", none) for name in ("force", "displacement"))
         force = self._along((h.force, next(across)), self.scales.tangential_force)
         lengths = [self.scales.length * self.pair.friction / kappa for kappa in self.pair.kappas]

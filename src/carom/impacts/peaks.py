@@ -27,7 +27,6 @@ from carom.quantities.units import or_none
 if TYPE_CHECKING:
     import xarray as xr
 
-BODIES = ("first", "second")
 MEASURES = {"peak_von_mises": VON_MISES, "peak_shear": SHEAR, "peak_tension": TENSION}
 GROWTH = 2.5  # speeds go with stresses to this power: stress ~ sqrt(d_max) ~ V^(2/5)
 DEPTH = 0.2  # of viscous bodies, in radii of the largest contact: what lies deeper is told
@@ -156,10 +155,9 @@ def struck_bodies(
     singular = isinstance(solution, ViscoelasticSolution)
     usual = DEPTH * solution.max_radius if singular else 0.0
     contacts = Contacts(solution, pair.friction, usual if depth is None else depth / scales.radius)
-    materials = {-1.0: pair.first.material, 1.0: pair.second.material}
     return {
-        name: StruckBody(contacts, stuff, scales, side)
-        for name, (side, stuff) in zip(BODIES, materials.items(), strict=True)
+        name: StruckBody(contacts, stuff, scales, 1.0 if name == "second" else -1.0)
+        for name, stuff in pair.materials.items()
         if not stuff.is_rigid
     }
 
@@ -355,7 +353,7 @@ def _hardened(body: StruckBody) -> float:
 
 def judge_pressure(pair: Pair, pressure: float, *, yields: bool) -> Finding:
     """Return the finding on yield by the pressure alone, without friction (Johnson 1985, 6.1)."""
-    stuffs = {"first": pair.first.material, "second": pair.second.material}
+    stuffs = pair.materials
     without = {w: m for w, m in stuffs.items() if not (m.yield_strength or m.is_rigid)}
     strengths = [m.yield_strength for m in stuffs.values() if m.yield_strength]
     ratio = pressure / min(strengths, default=nan)
