@@ -127,6 +127,15 @@ def test_energies_of_the_history_add_up(kind: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("kind", ["rod", "egg"])
+def test_a_history_of_few_times_has_the_same_columns(kind: str) -> None:
+    hit = hit_of(case(FIRST[kind]))
+    many = hit.history(9).isel(time=[0, 4, 8])
+    assert list(hit.history(3)) == list(many)
+    np.testing.assert_allclose(hit.history(3).normal_velocity, many.normal_velocity, rtol=1e-12)
+    assert list(hit.history(2)) == list(many)
+
+
 def test_figures_and_films(tmp_path: Path) -> None:
     hit = hit_of(case())
     assert len(hit.plot().axes) == 4

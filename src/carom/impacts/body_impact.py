@@ -218,7 +218,7 @@ class BodyImpact(Impact):
         moved = self._along((h.displacement, next(across)), *lengths)
         along = now.along(planar=self.pair.is_planar)
         velocity = now.at_contact(self.pair)
-        vectors = {
+        columns = {
             "displacement": self._plain(moved),
             "contact_velocity": self._plain(velocity[:, :2]),
             "tangential_speed": along.tangential_speed,
@@ -226,9 +226,6 @@ class BodyImpact(Impact):
             "spin": along.spin,
             "spin2": along.spin2,
         }
-        columns: dict[str, Array] = {}
-        for name, values in vectors.items():
-            columns |= parts(name, values)
         return {
             "time": h.time * self.scales.time,
             "penetration": h.penetration * self.scales.length,
@@ -237,20 +234,15 @@ class BodyImpact(Impact):
             "normal_force": h.normal_force * self.scales.force,
             "contact_radius": h.contact_radius * self.scales.radius,
             "stick_radius": h.stick_radius * self.scales.radius,
-            **columns,
+            **self._components(columns),
             **self._energies(h),
         }
 
     def scalars(self) -> dict[str, float]:
         """Return the numbers of the result by name; of vectors each component."""
-        names = [
-            n
-            for n in ("normal_speed_out", *RESULTS, *OF_CONTACT)
-            if self.pair.is_planar or n not in OF_PLANES
-        ]
-        numbers: dict[str, Array] = {}
-        for name in names:
-            numbers |= parts(name, getattr(self, name))
+        names = ("normal_speed_out", *RESULTS, *OF_CONTACT)
+        there = (n for n in names if self.pair.is_planar or n not in OF_PLANES)
+        numbers = self._components({name: getattr(self, name) for name in there})
         values = {name: float(value) for name, value in numbers.items()}
         return values | {name: getattr(self.pair, name) for name in PAIR}
 
@@ -291,13 +283,16 @@ class BodyImpact(Impact):
         along = vectors[..., 0]
         return along if along.ndim else along.item()
 
-
-def parts(name: str, value: Any) -> dict[str, Array]:
-    """Return the components of a vector, or of a row of them, by name."""
-    size = np.shape(value)[-1:]
-    if size not in ((2,), (3,)):
-        return {name: value}
-    return {f"{name}{end}": value[..., i] for i, end in enumerate(PARTS[size[0]])}
+    def _components(self, values: dict[str, Any]) -> dict[str, Any]:
+        """Return values by name, of vectors in space each component."""
+        if self.pair.is_planar:
+            return values
+        parts: dict[str, Any] = {}
+        for name, value in values.items():
+            ends = PARTS[np.shape(value)[-1]] if np.ndim(value) else ("",)
+            rows = np.moveaxis(np.atleast_1d(value), -1, 0)
+            parts |= {f"{name}{end}": row for end, row in zip(ends, rows, strict=True)}
+        return parts
 
 
 def solve_bodies(
