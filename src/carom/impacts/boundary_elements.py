@@ -116,8 +116,7 @@ class HalfspaceImpact(ImpactResult):
 
         Along the axis of positive `spin`. Unlike bodies that spin about the normal veer off.
         """
-        unit = self.pair.kappa * self.scales.tangential_speed
-        return float(self.solution.ledger.velocity_across[-1]) * unit
+        return float(self.solution.ledger.psi_across[-1]) * self.scales.tangential_speed
 
     @property
     def psi_out_error(self) -> float:
@@ -257,11 +256,10 @@ class HalfspaceImpact(ImpactResult):
             return columns
         spin = h.spin * self._spin_unit
         moment = self.pair.friction * self._pressure_unit * self.scales.radius**3
-        across = self.pair.kappa * self.scales.tangential_speed * h.velocity_across
         return columns | {
             "normal_spin": spin,
             "frictional_moment": h.moment * moment,
-            "contact_velocity_across": across,
+            "contact_velocity_across": h.psi_across * self.scales.tangential_speed,
             "normal_spin_kinetic_energy": 0.5 * normal_inertia(self.pair) * spin**2,
         }
 
