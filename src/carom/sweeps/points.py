@@ -34,8 +34,8 @@ WANTED = {  # outputs of a sweep that are of one of the bodies: quantity and bod
     f"{quantity}_{body}": (quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES
 }
 BEARABLE: dict[str, Callable[[StruckBody], float]] = {  # as a multiple of the speed of the impact
-    "yield_speed": lambda body: growth(body.yield_ratio()),
-    "tensile_speed": lambda body: growth(body.tension_ratio()),
+    "yield_speed": lambda body: growth(body.ratio("yield_ratio")),
+    "tensile_speed": lambda body: growth(body.ratio("tension_ratio")),
     "crack_speed": StruckBody.cracking,
 }
 
