@@ -16,7 +16,7 @@ of Jackson, Green & Marghitu (2010, as quoted). Right: the mean pressure on the 
 import numpy as np
 
 import carom
-from carom.bodies.strengths import yield_velocity
+from carom.bodies.losses import yield_velocity
 from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, styled
 
 steel = carom.Material(young="210 GPa", poisson=0.3, density=7850, yield_strength="400 MPa")

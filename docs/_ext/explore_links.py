@@ -14,12 +14,12 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import ReferenceRole
 
 from carom.explorer.export import export
-from carom.explorer.page import PRESETS
+from carom.explorer.page import presets
 
 LIVE = "http://127.0.0.1:8050/"
 COPY = "explore/index.html"
 ONLY_LIVE = {"law", "data"}
-EXAMPLES = {preset.id: preset.query for preset in PRESETS}
+EXAMPLES = {preset["id"]: preset["query"] for preset in presets()}
 
 
 def opened(target: str) -> tuple[str, str]:

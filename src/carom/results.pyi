@@ -1,5 +1,5 @@
 from .collisions.records import Collisions as Collisions, JudgedCollisions as JudgedCollisions
-from .contacts.contact import Contact as Contact
+from .contacts.fields import Contact as Contact
 from .contacts.load_paths import LoadPath as LoadPath
 from .dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution as ViscoelasticSolution
 from .dimensionless.solution import Solution as Solution

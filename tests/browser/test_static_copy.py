@@ -9,9 +9,9 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 import pytest
 from tests.browser.scripts import script
 
-from carom.explorer.answers import laws
 from carom.explorer.export import export
 from carom.explorer.outcomes import outcome_of
+from carom.explorer.overlays import laws
 from carom.explorer.views import Refused, View
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]

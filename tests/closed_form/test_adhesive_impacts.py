@@ -17,7 +17,7 @@ import carom
 from carom.classical import adhesive_impact
 from carom.dimensionless.adhesion import solve_adhering
 from carom.impacts import adhesive
-from carom.impacts.dissipation import adhesion
+from carom.impacts.findings import adhesion
 
 BEAD = carom.Sphere(radius="30 um", material="pmma")
 PAIR = carom.Pair(BEAD, carom.HalfSpace("soda-lime-glass"), friction=0.3)

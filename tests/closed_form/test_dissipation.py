@@ -13,7 +13,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 import carom
 from carom.impacts.adhesive import pull_off_work, work_of_adhesion
-from carom.impacts.dissipation import DAMPED, adhesion, damping, waves
+from carom.impacts.findings import DAMPED, adhesion, damping, waves
 from carom.impacts.peaks import MAY_YIELD
 
 STEEL = carom.material("bearing steel")

@@ -12,7 +12,7 @@ import pytest
 
 from carom.dimensionless.ellipse import contact_ellipse, stiffness_ratios
 from carom.halfspace.compliance import Compliance, Materials
-from carom.halfspace.grid import Grid, elements_across
+from carom.halfspace.quasistatic import Grid, elements_across
 from carom.halfspace.traction import solve_pressure, solve_traction
 from carom.halfspace.transforms import NO_MIRRORS, Mirrors
 

@@ -136,6 +136,15 @@ def test_energies_of_the_history_add_up(kind: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("kind", ["rod", "egg"])
+def test_a_history_of_few_times_has_the_same_columns(kind: str) -> None:
+    hit = hit_of(case(FIRST[kind]))
+    many = hit.history(9).isel(time=[0, 4, 8])
+    assert list(hit.history(3)) == list(many)
+    np.testing.assert_allclose(hit.history(3).normal_velocity, many.normal_velocity, rtol=1e-12)
+    assert list(hit.history(2)) == list(many)
+
+
 def test_figures_and_films(tmp_path: Path) -> None:
     hit = hit_of(case())
     assert len(hit.plot().axes) == 4
@@ -144,6 +153,12 @@ def test_figures_and_films(tmp_path: Path) -> None:
     assert float(stored.psi_out) == hit.psi_out
     worn = hit.wear(101)
     assert float(worn.work_error) < 2e-3  # springs' own work of friction
+
+
+@pytest.mark.parametrize("law", [carom.Metal(), carom.ElasticPlastic(), None])
+def test_a_law_of_yield_is_no_fault(law: object) -> None:
+    findings = {each.name: each.holds for each in hit_of(case(), losses=law).validity.findings}
+    assert findings["p_0/Y"] is (law is not None)
 
 
 def test_what_is_not_known_is_refused() -> None:

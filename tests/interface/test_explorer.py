@@ -10,10 +10,9 @@ import carom
 
 pytest.importorskip("flask")
 
-from carom.explorer.answers import laws
 from carom.explorer.files import curve_figure
 from carom.explorer.outcomes import impact_of, outcome_of
-from carom.explorer.overlays import law_curves, places
+from carom.explorer.overlays import law_curves, laws, places
 from carom.explorer.scripts import script
 from carom.explorer.views import LAWS, NUMBERS, View
 

@@ -12,8 +12,7 @@ from tests.checks import PAIR as STEEL, refused
 
 import carom
 from carom import HalfSpace, Material, Pair, Sphere
-from carom.bodies.losses import LossLaw
-from carom.bodies.strengths import yield_velocity
+from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.rebounds import lossy_rebounds
 from carom.explorer.files import NumbersImpact

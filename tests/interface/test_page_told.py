@@ -11,9 +11,8 @@ import pytest
 
 pytest.importorskip("flask")
 
-from carom.explorer.answers import laws
 from carom.explorer.outcomes import impact_of, outcome_of, verdict
-from carom.explorer.overlays import law_curves
+from carom.explorer.overlays import law_curves, laws
 from carom.explorer.page import REGIMES, config
 from carom.explorer.views import FIELDS, LAWS, NUMBERS, PAGE, View
 from carom.impacts.curves import REGIMES as LONG

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from carom.explorer.outcomes import impact_of
-from carom.explorer.page import PRESETS, SYMBOLS
+from carom.explorer.page import SYMBOLS, presets
 from carom.explorer.views import FIELDS, PAGE, View
 from carom.quantities.glossary import GLOSSARY
 
-NAMED = {preset.id: preset for preset in PRESETS}
-IDS = [preset.id for preset in PRESETS]
+NAMED = {preset["id"]: preset for preset in presets()}
+IDS = list(NAMED)
 MEASURED = {  # what stories quote of their sources
     "superball": ("98.4", "0.59"),
     "golf": ("59.2",),
@@ -30,7 +30,7 @@ def preset(request):
 
 
 def solved(name, **changes):
-    return impact_of(replace(View.of(NAMED[name].query), **changes))
+    return impact_of(replace(View.of(NAMED[name]["query"]), **changes))
 
 
 def thrown(hit):
@@ -79,38 +79,38 @@ FAILED = {  # a finding that fails, and the words that a caution has for it
 
 
 def test_examples_are_told_apart():
-    assert len(set(IDS)) == len(IDS) == len({preset.title for preset in PRESETS})
+    assert len(IDS) == len(presets()) == len({preset["title"] for preset in presets()})
 
 
 def test_a_link_is_a_state_of_the_page(preset):
-    view = View.of(preset.query)
+    view = View.of(preset["query"])
     assert sorted(parse_qsl(view.query())) != []
     assert View.of(view.query()) == view
-    values = dict(parse_qsl(preset.query))
+    values = dict(parse_qsl(preset["query"]))
     assert {name: str(getattr(view, name)).removesuffix(".0") for name in values} == values
 
 
 def test_a_story_tells_what_is_computed(preset):
-    matches = re.findall(r"\d+(?:\.\d+)?", preset.story)
-    computed = numbers(preset.id)
+    matches = re.findall(r"\d+(?:\.\d+)?", preset["story"])
+    computed = numbers(preset["id"])
     assert [number for number in computed if number not in matches] == []
-    values = dict(parse_qsl(preset.query)).values()
-    basis = {*computed, *values, *MEASURED.get(preset.id, ()), *TRIED.get(preset.id, ())}
+    values = dict(parse_qsl(preset["query"])).values()
+    basis = {*computed, *values, *MEASURED.get(preset["id"], ()), *TRIED.get(preset["id"], ())}
     assert [number for number in matches if number not in basis] == []
 
 
 def test_a_story_has_two_to_five_sentences_and_sources(preset):
-    assert 2 <= len(re.findall(r"[.?!](?= |$)", preset.story)) <= 5
-    assert len(preset.sources) >= 2
-    assert any(re.search(r"\b(19|20)\d\d\b|Alciatore", source) for source in preset.sources)
-    assert any(source.startswith("Assumed: ") for source in preset.sources)
+    assert 2 <= len(re.findall(r"[.?!](?= |$)", preset["story"])) <= 5
+    assert len(preset["sources"]) >= 2
+    assert any(re.search(r"\b(19|20)\d\d\b|Alciatore", source) for source in preset["sources"])
+    assert any(source.startswith("Assumed: ") for source in preset["sources"])
 
 
 def test_a_caution_says_where_the_theory_fails(preset):
-    for finding in impact_of(View.of(preset.query)).validity.findings:
+    for finding in impact_of(View.of(preset["query"])).validity.findings:
         if finding.holds is False:
             words = FAILED[finding.name].format(value=finding.value)
-            assert re.search(words, preset.caution), finding.name
+            assert re.search(words, preset["caution"]), finding.name
 
 
 def test_the_steel_balls_yield_where_the_caution_says():
@@ -118,7 +118,7 @@ def test_the_steel_balls_yield_where_the_caution_says():
         findings = solved("steel", speed=speed).validity.findings
         return any(f.name == "von Mises stress/Y" and f.holds is not True for f in findings)
 
-    assert "about 0.45 m/s" in NAMED["steel"].caution
+    assert "about 0.45 m/s" in NAMED["steel"]["caution"]
     assert (yields(0.43), yields(0.47)) == (False, True)
 
 

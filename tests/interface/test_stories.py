@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.explorer.answers import laws
 from carom.explorer.outcomes import impact_of
+from carom.explorer.overlays import laws
 from carom.explorer.page import stories
 from carom.explorer.views import FIELDS, View
 

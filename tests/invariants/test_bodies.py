@@ -51,7 +51,7 @@ def test_each_body_turns_by_the_moment_of_its_impulse(number):
 def test_forces_take_what_the_bodies_lose(number):
     """Power of the forces at the contact against kinetic energies; friction never gives."""
     hit, unit = HITS[number], HITS[number].scales.energy
-    now = hit._columns(4001)
+    now = hit._columns(hit.solution.history(4001))
     kinetic = sum(now[f"{name}_kinetic_energy"] for name in ("normal", "tangential", "spin"))
     power = now["normal_force"] * now["approach_velocity"]
     for end in ("",) if hit.pair.is_planar else ("", "_across"):
@@ -265,7 +265,7 @@ def test_what_loses_rebounds_less(kind, sliding):
     speeds = hit.normal_speed_out**2 + hit.tangential_speed_out**2
     after = 0.5 * 0.004 * speeds + 0.5 * 4e-8 * hit.spin_out**2
     assert sum(parts) == pytest.approx(before - after, rel=1e-5)
-    now = hit._columns(2001)
+    now = hit._columns(hit.solution.history(2001))
     power = (
         now["normal_force"] * now["approach_velocity"]
         + now["tangential_force"] * now["contact_velocity"]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tests.oracles.metal import jackson_green, loading
 
 import carom
-from carom.bodies.strengths import yield_velocity
+from carom.bodies.losses import yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.springs import metal
 from carom.dimensionless.lossy.springs.thornton import capped

@@ -1,13 +1,16 @@
 """What a pair must be for those who take it, and whether floating point holds its impacts."""
 
 from contextlib import suppress
-from functools import reduce
+from functools import partial, reduce
 from operator import and_
 from typing import Any
 
-from carom.bodies.kinematics import Tangential, approach
+import numpy as np
+
+from carom.bodies.kinematics import READERS, Tangential, approach
 from carom.bodies.pairs import MOST, Pair, Scales, holds
 from carom.bodies.shapes import Sphere
+from carom.quantities.arrays import Array, numbers
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import Faults, InputError, checked_type, refusal, refuse
 from carom.quantities.units import Value, finite
@@ -15,6 +18,8 @@ from carom.quantities.units import Value, finite
 LEAST_SCALE = 1e-300  # of what may vanish: less loses digits
 OF_FRICTION = ("tangential_length", "tangential_force", "tangential_speed")  # zero without it
 SAME_BODIES = 1e-6  # part by which their numbers may differ, as written in few digits
+IN_PLANE = "must be one number, as the bodies move in a plane; for space give an inertia of 3 x 3"
+IN_SPACE = "must be {} numbers, along x, y{}, all finite, as the bodies move in space"
 
 
 def scales_fit(pair: Pair, scales: Scales, contact_velocity: float = 0.0, *parts: float) -> bool:
@@ -77,18 +82,46 @@ def checked_motion(
     spin2: Any = 0.0,
 ) -> tuple[float, Tangential]:
     """Return the normal speed and what is tangential, or raise InputError with all faults."""
+    readers = READERS if pair is None or pair.is_round else _readers_of_bodies(pair)
     with Faults() as faults:
-        both = faults.trying(approach, speed, angle, normal_speed, tangential_speed)
-        spins = [faults.trying(finite, n, s) for n, s in (("spin", spin), ("spin2", spin2))]
+        speeds = speed, angle, normal_speed, tangential_speed
+        both = faults.trying(approach, *speeds, readers)
+        spins = [faults.trying(readers[n], n, s) for n, s in (("spin", spin), ("spin2", spin2))]
         if pair is not None and spins[1] is not None:
-            faults.trying(check_second_spin, pair, spin2, spins=spins[1] != 0.0)
+            faults.trying(check_second_spin, pair, spin2, spins=bool(np.any(spins[1])))
     return both[0], Tangential(both[1], *spins)
+
+
+def _readers_of_bodies(pair: Pair) -> dict[str, Any]:
+    """Return how to read the motion of bodies of any shape, whose centre may move away."""
+    size = 1 if pair.is_planar else 3
+    along, spin = partial(_vector, size=min(size, 2)), partial(_vector, size=size)
+    return READERS | {
+        "normal_speed": finite,
+        "tangential_speed": along,
+        "spin": spin,
+        "spin2": spin,
+    }
+
+
+def _vector(name: str, value: Any, size: int) -> float | Array:
+    """Return so many finite numbers, or one in a plane; none, or one that is zero, are zeros."""
+    if size == 1:
+        refuse(isinstance(value, list | tuple | np.ndarray) and refusal(name, value, IN_PLANE))
+        return 0.0 if value is None else finite(name, value)
+    allowed = IN_SPACE.format(("two", "three")[size - 2], " and z" * (size - 2))
+    values = np.zeros(size) if value is None else numbers(name, value, allowed)
+    if values.ndim == 0 and values == 0.0:
+        return np.zeros(size)
+    bad = values.shape != (size,) or not np.all(np.isfinite(values))
+    refuse(bad and refusal(name, value, allowed))
+    return values
 
 
 def check_second_spin(pair: Pair, spin2: Any, *, spins: bool) -> None:
     """Raise InputError if the second body spins, but cannot."""
-    if spins and not isinstance(pair.second, Sphere):
-        raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
+    why = "only a second sphere can spin" if pair.is_round else "the second body does not move"
+    refuse(spins and len(pair.moving) == 1 and refusal("spin2", spin2, f"{why}; leave it out"))
 
 
 def alike(one: Pair, other: Pair, *, friction: bool = False) -> bool:

@@ -8,9 +8,11 @@ from itertools import zip_longest
 from math import nan, pi
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.quantities.arrays import arctan2, cos, hypot, quotient, sin, where
+from carom.quantities.arrays import Array, arctan2, cos, hypot, quotient, sin, where
 from carom.quantities.refusals import Faults, refusal, refuse
 from carom.quantities.units import APPROACH, Value, finite, positive
 
@@ -19,6 +21,8 @@ READERS: dict[str, Callable[[str, Any], float]] = {
     "angle": lambda _, value: slope(value),
     "normal_speed": positive,
     "tangential_speed": finite,
+    "spin": finite,
+    "spin2": finite,
 }
 
 
@@ -27,14 +31,15 @@ def approach(
     angle: Value | None,
     normal_speed: Value | None,
     tangential_speed: Value | None,
-) -> tuple[float, float]:
+    readers: Mapping[str, Callable[[str, Any], Any]] = READERS,
+) -> tuple[float, Any]:
     """Return normal and tangential speed from either way of giving them, in m/s."""
     motion = {"speed": speed, "angle": angle}
     motion |= {"normal_speed": normal_speed, "tangential_speed": tangential_speed}
     there = {name: value for name, value in motion.items() if value is not None}
     with Faults() as faults:
         angular = faults.trying(by_angle, motion)
-        read = {name: faults.trying(READERS[name], name, value) for name, value in there.items()}
+        read = {name: faults.trying(readers[name], name, value) for name, value in there.items()}
     if angular:
         return components(read["speed"], read.get("angle", 0.0))
     return read["normal_speed"], read.get("tangential_speed", 0.0)
@@ -93,6 +98,60 @@ class Tangential(NamedTuple):
         """Return the kinetic energy of the spins, (1/2) sum I omega^2, in J."""
         moving = zip(pair.moving, self[1:], strict=False)
         return sum(0.5 * inertia(body) * spin**2 for body, spin in moving)
+
+
+class RigidMotion(NamedTuple):
+    """Velocity of the first centre relative to the second, spins of both, along x, y, z.
+
+    z points from the second body to the first, spins are right-handed. Arrays (3,), or (n, 3).
+    """
+
+    velocity: Array
+    spin: Array
+    spin2: Array
+
+    @classmethod
+    def of(cls, normal_speed: float, along: Tangential) -> "RigidMotion":
+        """Return a motion from vectors along the surface, or numbers in a plane."""
+        x, y = np.append(along.tangential_speed, 0.0)[:2]
+        given = (np.ravel(spin) for spin in along[1:])
+        spins = (each if each.size > 1 else np.array([0.0, -each[0], 0.0]) for each in given)
+        return cls(np.array([x, y, -normal_speed]), *spins)
+
+    def along(self, *, planar: bool) -> Tangential:
+        """Return what is along the surface, and the spins: vectors, or numbers in a plane."""
+        parts: tuple[Any, ...] = self.velocity[..., :2], self.spin, self.spin2
+        if planar:
+            parts = self.velocity[..., 0], -self.spin[..., 1], -self.spin2[..., 1]
+            parts = tuple(each if each.ndim else each.item() for each in parts)
+        return Tangential(*parts)
+
+    def at_contact(self, pair: Pair) -> Array:
+        """Return the velocity of the contact points along x, y and the normal, approaching."""
+        first, second = pair.bodies
+        turned = np.cross(self.spin, first.place) - np.cross(self.spin2, second.place)
+        return (self.velocity + turned) * [1.0, 1.0, -1.0]
+
+    def after(self, pair: Pair, impulse: Array) -> "RigidMotion":
+        """Return the motion after an impulse on the first body, against x, y and the normal."""
+        first, second = pair.bodies
+        pushed = impulse * [-1.0, -1.0, 1.0]
+        return RigidMotion(
+            self.velocity + pushed * sum(1.0 / body.mass for body in pair.moving),
+            self.spin + np.cross(first.place, pushed) @ first.turning,
+            self.spin2 - np.cross(second.place, pushed) @ second.turning,
+        )
+
+    def energies(self, pair: Pair) -> tuple[Array, Array, Array]:
+        """Return kinetic energies: along the normal, across it, of the spins, in J.
+
+        Those of the centres are in the frame of the centre of mass.
+        """
+        half = 0.5 / sum(1.0 / body.mass for body in pair.moving)
+        spins = zip((self.spin, self.spin2), pair.bodies, strict=True)
+        turning = np.sum([np.sum(spin * (spin @ body.tensor), axis=-1) for spin, body in spins], 0)
+        squares = self.velocity**2
+        return half * squares[..., 2], half * (squares[..., 0] + squares[..., 1]), 0.5 * turning
 
 
 def inertia(body: Sphere) -> float:

@@ -2,20 +2,21 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from functools import partial
-from typing import Any, ClassVar
+from functools import partial, reduce
+from math import pi
+from typing import Any, ClassVar, TypeVar, cast, dataclass_transform
 
 import numpy as np
 
 from carom.bodies.materials import set_fields
 from carom.bodies.pairs import Pair, Scales
-from carom.bodies.strengths import lowest_strength, yield_velocity, yielding_modulus
 from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.springs.metal import YIELD_PRESSURE
 from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.io.citations import PLATE, VISCOUS
-from carom.quantities.arrays import numbers
+from carom.quantities.arrays import numbers, sqrt
 from carom.quantities.refusals import known_keywords, refusal, refuse
-from carom.quantities.units import Value, not_negative, positive, within
+from carom.quantities.units import not_negative, positive, within
 
 SMALLEST_RESTITUTION = 1e-3
 STIFFEST = 1000.0  # modulus at once over the relaxed one
@@ -30,7 +31,19 @@ READERS: dict[str, Callable[[str, Any], float]] = {
     "relaxation_time": not_negative,
     "inelasticity": partial(within, least=0.0, most=LARGEST_INELASTICITY),
 }
+NUMBERS = "must be a number or text with a unit, or an array of them"
+OF_SPEED = "it depends on the speed; use carom.impact, or KelvinVoigt(restitution=...)"
+NO_STRENGTH = "{}: missing; give it, or a yield_strength of a material"
+Law = TypeVar("Law")
 LARGEST_STRAIN = 0.05  # Y/E' of a metal, twice that of the strongest glasses
+
+
+@dataclass_transform(frozen_default=True)
+def law(kind: type[Law]) -> type[Law]:
+    """Return a law as a frozen record that refuses keywords it does not know."""
+    record: Any = dataclass(frozen=True)(kind)
+    record.__init__ = known_keywords(record.__init__)
+    return cast(type[Law], record)
 
 
 @dataclass(frozen=True)
@@ -38,6 +51,14 @@ class LossLaw:
     """A law of losses: which loss it is, what it depends on, and what to cite."""
 
     _source: ClassVar[str]  # the key in data/citations.bib
+    _alone: ClassVar[str] = ""  # the value that decides the loss at any speed
+
+    def __post_init__(self) -> None:
+        """Keep each value as one number that is checked, or an array, checked point by point."""
+        for name, value in LossLaw._describe(self).items():
+            if value is not None:
+                array = numbers(name, value, NUMBERS)
+                set_fields(self, **{name: array if array.ndim else READERS[name](name, value)})
 
     def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return which loss it is, and its dimensionless parameters, numbers or arrays."""
@@ -45,21 +66,18 @@ class LossLaw:
 
     def _scale_free(self) -> LossNumbers:
         """Return the same if it does not depend on bodies and speed, else raise InputError."""
-        raise refusal("losses", self, "it depends on the speed; use carom.impact, or KelvinVoigt")
+        value = getattr(self, self._alone, None)
+        allowed = OF_SPEED if value is None else f"give one {self._alone}, or use carom.sweep"
+        refuse((value is None or np.ndim(value)) and refusal("losses", self, allowed))
+        nothing: Any = None
+        return self._loss(nothing, nothing)
 
     def _describe(self) -> dict[str, Any]:
         """Return the law as plain numbers and words: what was given."""
         return {each.name: getattr(self, each.name) for each in fields(self)}
 
-    def _keep(self, **values: Any) -> None:
-        """Keep each value as one number that is checked, or an array, checked point by point."""
-        for name, value in values.items():
-            allowed = "must be a number or text with a unit, or an array of them"
-            array = numbers(name, value, allowed)
-            set_fields(self, **{name: array if array.ndim else READERS[name](name, value)})
 
-
-@dataclass(frozen=True)
+@law
 class KelvinVoigt(LossLaw):
     """A Kelvin-Voigt solid, which loses energy to viscosity in compression and in shear.
 
@@ -101,15 +119,14 @@ class KelvinVoigt(LossLaw):
     """
 
     _source: ClassVar[str] = VISCOUS  # Kuwabara & Kono (1987)
+    _alone: ClassVar[str] = "restitution"
     restitution: Any = None
     loss_time: Any = None
 
-    @known_keywords
-    def __init__(self, restitution: Any = None, loss_time: Value | None = None) -> None:
-        alone = (restitution is None) != (loss_time is None)
+    def __post_init__(self) -> None:
+        alone = (self.restitution is None) != (self.loss_time is None)
         refuse(not alone and "restitution: give either restitution or loss_time")
-        given = {"restitution": restitution, "loss_time": loss_time}
-        self._keep(**{name: value for name, value in given.items() if value is not None})
+        super().__post_init__()
 
     def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss and alpha = tau V_1/d_max."""
@@ -117,18 +134,11 @@ class KelvinVoigt(LossLaw):
             return LossNumbers(Loss.VISCOUS, _alphas(self.restitution))
         return LossNumbers(Loss.VISCOUS, self.loss_time / scales.time)
 
-    def _scale_free(self) -> LossNumbers:
-        """Return the kind of loss and alpha; one restitution must have been given."""
-        many = np.ndim(self.restitution) and "give one restitution, or use carom.sweep"
-        allowed = "give a restitution instead of a loss time" if self.restitution is None else many
-        refuse(allowed and refusal("losses", self, allowed))
-        return LossNumbers(Loss.VISCOUS, float(_alphas(self.restitution)))
-
     def _describe(self) -> dict[str, Any]:
         return {name: value for name, value in super()._describe().items() if value is not None}
 
 
-@dataclass(frozen=True)
+@law
 class ElasticPlastic(LossLaw):
     """An elastic, perfectly plastic sphere, such as a metal above its yield velocity.
 
@@ -170,11 +180,6 @@ class ElasticPlastic(LossLaw):
     _source: ClassVar[str] = "thornton1997"
     yield_velocity: Any = None
 
-    @known_keywords
-    def __init__(self, yield_velocity: Value | None = None) -> None:
-        if yield_velocity is not None:
-            self._keep(yield_velocity=yield_velocity)
-
     def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss and the radius of the contact at yield, (V_y/V_1)^(2/5)."""
         own = self.yield_velocity
@@ -182,7 +187,7 @@ class ElasticPlastic(LossLaw):
         return LossNumbers(Loss.PLASTIC, (velocity / scales.speed) ** 0.4)
 
 
-@dataclass(frozen=True)
+@law
 class Metal(LossLaw):
     """A metal that yields, with the load and contact radius of finite elements.
 
@@ -233,11 +238,6 @@ class Metal(LossLaw):
     _source: ClassVar[str] = "jackson2005"
     flow_stress: Any = None
 
-    @known_keywords
-    def __init__(self, flow_stress: Value | None = None) -> None:
-        if flow_stress is not None:
-            self._keep(flow_stress=flow_stress)
-
     def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss, (V_y/V_1)^(2/5) and Y/E'."""
         own = self.flow_stress
@@ -252,7 +252,7 @@ class Metal(LossLaw):
         return LossNumbers(Loss.METAL, (velocity / scales.speed) ** 0.4, strain)
 
 
-@dataclass(frozen=True)
+@law
 class StandardLinearSolid(LossLaw):
     """A standard linear solid, which loses little in slow impacts and little in fast ones.
 
@@ -297,10 +297,6 @@ class StandardLinearSolid(LossLaw):
     modulus_ratio: Any
     relaxation_time: Any
 
-    @known_keywords
-    def __init__(self, modulus_ratio: Any, relaxation_time: Value) -> None:
-        self._keep(modulus_ratio=modulus_ratio, relaxation_time=relaxation_time)
-
     def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss, tau V_1/d_max and E_0/E - 1."""
         ratio = self.modulus_ratio
@@ -310,7 +306,7 @@ class StandardLinearSolid(LossLaw):
         return LossNumbers(Loss.RELAXING, time, ratio - 1.0)
 
 
-@dataclass(frozen=True)
+@law
 class ZenerPlate(LossLaw):
     """A wide elastic plate that gives way under the force, by Zener's inelasticity parameter.
 
@@ -344,21 +340,12 @@ class ZenerPlate(LossLaw):
     """
 
     _source: ClassVar[str] = PLATE
+    _alone: ClassVar[str] = "inelasticity"
     inelasticity: Any
-
-    @known_keywords
-    def __init__(self, inelasticity: Any) -> None:
-        self._keep(inelasticity=inelasticity)
 
     def _loss(self, pair: Pair, scales: Scales) -> LossNumbers:
         """Return the kind of loss and lambda."""
         return LossNumbers(Loss.PLATE, self.inelasticity / ZENER)
-
-    def _scale_free(self) -> LossNumbers:
-        """Return the kind of loss and lambda; one must have been given."""
-        many = np.ndim(self.inelasticity) and "give one, or use carom.sweep"
-        refuse(many and refusal("losses", self, many))
-        return LossNumbers(Loss.PLATE, float(self.inelasticity) / ZENER)
 
 
 def _alphas(restitution: Any) -> Any:
@@ -368,3 +355,36 @@ def _alphas(restitution: Any) -> Any:
     good = (unique >= SMALLEST_RESTITUTION) & (unique <= 1.0)
     alphas = [viscous_loss(float(e)) if ok else np.nan for e, ok in zip(unique, good, strict=True)]
     return np.array(alphas)[places].reshape(np.shape(restitution))
+
+
+def yield_velocity(pair: Pair, strength: Any = None) -> float:
+    """Return the normal velocity in m/s at which the largest pressure is 1.6 yield strengths.
+
+    p_0 = (2 E*/pi) sqrt(d_max/R*) = 1.6 Y, V_y^2 = (16/15) E* sqrt(R*) d_max^(5/2)/m_n.
+
+    Johnson (1985), (11.21); Thornton (1997).
+    """
+    if strength is None:
+        strength = lowest_strength(pair, "yield_velocity")
+    ratio = pi * YIELD_PRESSURE * strength / (2.0 * pair.effective_modulus)
+    length = pair.effective_radius * ratio**2
+    stiffness = 16.0 / 15.0 * pair.effective_modulus * sqrt(pair.effective_radius)
+    return sqrt(stiffness * length**2.5 / pair.normal_mass)
+
+
+def lowest_strength(pair: Pair, wanted: str) -> Any:
+    """Return the lower yield strength in Pa; `wanted` is what may be given in its place."""
+    known = (stuff.yield_strength for stuff in pair.materials.values())
+    strengths = [strength for strength in known if strength is not None]
+    refuse(not strengths and NO_STRENGTH.format(wanted))
+    return reduce(np.fmin, strengths)
+
+
+def yielding_modulus(pair: Pair) -> Any:
+    """Return E/(1 - nu^2) in Pa of the body of lower strength, or else the lower one."""
+    bodies = pair.materials.values()
+    one, other = (body.young / (1.0 - body.poisson**2) for body in bodies)
+    known = [np.nan if body.yield_strength is None else body.yield_strength for body in bodies]
+    weak, strong = np.nan_to_num(known[0], nan=np.inf), np.nan_to_num(known[1], nan=np.inf)
+    lower = np.where(strong < weak, other, np.fmin(one, other))
+    return np.where(weak < strong, one, lower)[()]

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.contact_shape import axes_of, check_shapes, curvatures_of, inverse_mass_of
 from carom.bodies.materials import Material, set_fields
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
-from carom.bodies.smooth_body import Body
+from carom.bodies.smooth_body import Body, as_body, axes_of, check_shapes
 from carom.dimensionless.ellipse import Ellipse, contact_ellipse, stiffness_ratios
 from carom.quantities.arrays import Array, quotient, sqrt, where
 from carom.quantities.prefixes import Printed, text
@@ -123,7 +122,7 @@ class Pair(Printed):
         mu = not_negative("friction", friction)
         set_fields(self, first=first, second=second, friction=mu)
         if not self.is_round:
-            check_shapes(first, second)
+            check_shapes(first, second, self.curvatures)
         if not pair_fits(self):
             raise InputError(
                 "pair: sizes, densities and stiffnesses of the bodies give numbers that floating "
@@ -141,14 +140,19 @@ class Pair(Printed):
         return all(not isinstance(b, Body) or b.is_planar for b in (self.first, self.second))
 
     @cached_property
+    def bodies(self) -> tuple[Body, Body]:
+        """Both as bodies of any shape; those that do not move have no mass."""
+        return as_body(self.first, -1.0), as_body(self.second, 1.0)
+
+    @cached_property
     def curvatures(self) -> Array:
         """Sum of both bodies' curvatures along x and y, in 1/m, shape (2, 2)."""
-        return curvatures_of(self.first, self.second)
+        return np.sum([body.curvatures for body in self.bodies], axis=0)
 
     @cached_property
     def inverse_mass(self) -> Array:
         """Inverse mass B at the contact along x, y and the normal, in 1/kg, shape (3, 3)."""
-        return np.sum([inverse_mass_of(body) for body in self.moving], axis=0)
+        return np.sum([body.inverse_mass for body in self.bodies], axis=0)
 
     @property
     def is_central(self) -> bool:
@@ -164,7 +168,7 @@ class Pair(Printed):
     @cached_property
     def kappas(self) -> tuple[float, float]:
         """Ratios of tangential to normal stiffness along both axes of the contact."""
-        bodies = [(m.poisson, m.shear_modulus) for m in self._materials]
+        bodies = [(m.poisson, m.shear_modulus) for m in self.materials.values()]
         return stiffness_ratios(self._ellipse.share, self.effective_modulus, *bodies)
 
     @property
@@ -175,14 +179,16 @@ class Pair(Printed):
     @cached_property
     def effective_modulus(self) -> float:
         """Effective modulus E*, in Pa."""
-        return 1.0 / sum((1.0 - m.poisson**2) / m.young for m in self._materials)
+        return 1.0 / sum((1.0 - m.poisson**2) / m.young for m in self.materials.values())
 
     @cached_property
     def effective_shear_modulus(self) -> float:
         """Effective shear modulus G*, in Pa."""
         if not self.is_round:
             return self.kappas[0] * self.effective_modulus
-        return 1.0 / sum((2.0 - m.poisson) / (4.0 * m.shear_modulus) for m in self._materials)
+        return 1.0 / sum(
+            (2.0 - m.poisson) / (4.0 * m.shear_modulus) for m in self.materials.values()
+        )
 
     @cached_property
     def effective_radius(self) -> float:
@@ -227,8 +233,8 @@ class Pair(Printed):
     @property
     def dundurs_beta(self) -> float:
         """Dundurs' second parameter; zero if normal and tangential contact do not couple."""
-        one, two = ((1.0 - 2.0 * m.poisson) / m.shear_modulus for m in self._materials)
-        whole = sum((1.0 - m.poisson) / m.shear_modulus for m in self._materials)
+        one, two = ((1.0 - 2.0 * m.poisson) / m.shear_modulus for m in self.materials.values())
+        whole = sum((1.0 - m.poisson) / m.shear_modulus for m in self.materials.values())
         return 0.5 * (one - two) / whole
 
     @property
@@ -244,7 +250,7 @@ class Pair(Printed):
         It is the ratio of sum nu/(4 G) to sum (2 - nu)/(4 G), from Barber (1979), (29), which is
         nu/(2 - nu) for equal materials.
         """
-        lateral = sum(m.poisson / (4.0 * m.shear_modulus) for m in self._materials)
+        lateral = sum(m.poisson / (4.0 * m.shear_modulus) for m in self.materials.values())
         return lateral * self.effective_shear_modulus
 
     def contact_scales(self, length: float) -> ContactScales:
@@ -354,8 +360,9 @@ class Pair(Printed):
         return where(contact_velocity == 0.0, 0.0, ratio)
 
     @property
-    def _materials(self) -> tuple[Material, Material]:
-        return self.first.material, self.second.material
+    def materials(self) -> dict[str, Material]:
+        """Materials of both bodies, "first" and "second"."""
+        return {"first": self.first.material, "second": self.second.material}
 
     def _describe(self) -> dict[str, Any]:
         """Return the bodies and their friction as plain numbers and words."""

@@ -1,4 +1,4 @@
-"""Any smooth body: its mass and inertia, where it is touched, and how curved it is there."""
+"""Any smooth body: mass and inertia, where it is touched, how curved it and its contact are."""
 
 from dataclasses import dataclass
 from types import NoneType
@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.materials import Material, as_material, set_fields
-from carom.bodies.shapes import Shape
+from carom.bodies.materials import Material, as_material, set_fields, unchecked
+from carom.bodies.shapes import Shape, Sphere
 from carom.quantities.arrays import Array, numbers
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import Faults, checked_type, known_keywords, refusal
+from carom.quantities.refusals import Faults, checked_type, known_keywords, refusal, refuse
 from carom.quantities.units import Value, positive
 
 INERTIAS = "must be a positive number in kg m^2, or in space a symmetric 3 x 3 matrix of them"
@@ -20,6 +20,9 @@ PLACE = "must be finite, x and z in m from the centre of mass, or in space x, y 
 CURVED = "must be two numbers in 1/m, along x and y, or a symmetric 2 x 2 matrix of them"
 ROUNDING = 1e-9  # of the largest moment, by which moments may miss the inequality of triangles
 SYMMETRIC = 1e-12
+PARTS = "the surfaces must part on all sides: both must be positive"
+ALIKE = "give both bodies in a plane, or both in space, with inertias of 3 x 3"
+SPACE = "in a plane of symmetry one axis of the contact is along x; give bodies in space"
 
 
 @dataclass(frozen=True, init=False)
@@ -85,29 +88,23 @@ class Body(Shape):
         curvatures: ArrayLike | None = None,
         name: str | None = None,
     ) -> None:
-        read: dict[str, Any] = {"mass": None, "inertia": None, "contact": None, "name": name}
         of_motion = {"mass": mass, "inertia": inertia, "contact": contact}
         missing = [name for name, value in of_motion.items() if value is None]
-        readers = {"mass": positive, "inertia": _inertia, "contact": _place}
+        readers: dict[str, Any] = {"mass": positive, "inertia": _inertia, "contact": _place}
         with Faults() as faults:
-            with faults.catching():
-                read["material"] = as_material(material)
-            with faults.catching():
-                read["curvatures"] = _curvatures(curvature_radius, curvatures)
+            stuff = faults.trying(as_material, material)
+            bent = faults.trying(_curvatures, curvature_radius, curvatures)
             for key in missing if len(missing) < len(of_motion) else ():
                 faults.add(f"{key}: missing; a body that moves has mass, inertia and contact")
-            for key, value in of_motion.items():
-                with faults.catching():
-                    read[key] = None if value is None else readers[key](key, value)
-            with faults.catching():
-                checked_type("name", name, (str, NoneType), "must be a text")
+            read = {key: faults.if_given(readers[key], key, of_motion[key]) for key in of_motion}
+            faults.trying(checked_type, "name", name, (str, NoneType), "must be a text")
             if read["inertia"] is not None and read["contact"] is not None:
                 planar = isinstance(read["inertia"], float)
                 if planar != (len(read["contact"]) == 2):
                     faults.add(f"contact: {PLACE}, with an inertia of 3 x 3")
-                if planar and read.get("curvatures", [[0.0, 0.0]])[0][1]:
+                if planar and bent and bent[0][1]:
                     faults.add("curvatures: in a plane of symmetry one of them is along x")
-        set_fields(self, **read)
+        set_fields(self, **read, material=stuff, curvatures=bent, name=name)
 
     @property
     def is_planar(self) -> bool:
@@ -128,9 +125,14 @@ class Body(Shape):
     @property
     def slenderness(self) -> float:
         """Largest radius of gyration over the smallest radius of curvature at the contact."""
-        tensor = np.atleast_2d(np.asarray(self.inertia or 0.0, dtype=np.float64))
         sharpest = np.abs(np.linalg.eigvalsh(self.curvatures)).max()
-        return float(np.sqrt(np.linalg.eigvalsh(tensor).max() / (self.mass or 1.0)) * sharpest)
+        return float(np.sqrt(np.linalg.eigvalsh(self.tensor).max() / (self.mass or 1.0)) * sharpest)
+
+    @property
+    def tensor(self) -> Array:
+        """Tensor of inertia, in kg m^2; about y alone in a plane."""
+        moments = np.asarray(self.inertia or 0.0, dtype=np.float64)
+        return moments if moments.ndim else np.diag([0.0, float(moments), 0.0])
 
     @property
     def turning(self) -> Array:
@@ -192,3 +194,41 @@ def _curvatures(radius: Any, curvatures: Any) -> tuple[tuple[float, float], tupl
         raise refusal("curvatures", curvatures, CURVED)
     (xx, xy), (_, yy) = tensor.tolist()
     return (xx, xy), (xy, yy)
+
+
+def as_body(shape: Shape, side: float) -> Body:
+    """Return any shape as a body in space, touched below its centre (side -1) or above it."""
+    if isinstance(shape, Body):
+        return shape
+    mass = inertia = contact = None
+    if isinstance(shape, Sphere):
+        mass, contact = shape.mass, (0.0, 0.0, side * shape.radius)
+        moment = mass * shape.gyration_ratio * shape.radius**2
+        inertia = tuple(map(tuple, (moment * np.eye(3)).tolist()))
+    (xx, xy), (yx, yy) = (getattr(shape, "curvature", 0.0) * np.eye(2)).tolist()
+    given = {"mass": mass, "inertia": inertia, "contact": contact, "name": None}
+    return unchecked(Body, material=shape.material, curvatures=((xx, xy), (yx, yy)), **given)
+
+
+def check_shapes(first: Any, second: Any, curvatures: Array) -> None:
+    """Raise InputError if two bodies do not touch in an ellipse, or one moves in a plane alone."""
+    bodies = [body for body in (first, second) if isinstance(body, Body)]
+    free = [body for body in bodies if body.mass is not None]
+    one, other = np.linalg.eigvalsh(curvatures).tolist()
+    shown, planar = f"{one:.3g} and {other:.3g} 1/m together", all(b.is_planar for b in bodies)
+    slanted, mixed = curvatures[0, 1] != 0.0, len({body.is_planar for body in free}) > 1
+    refuse(
+        not one > 0.0 and refusal("curvatures", shown, PARTS),
+        mixed and refusal("inertia", free[0].inertia, ALIKE),
+        planar and slanted and refusal("curvatures", str(curvatures.tolist()), SPACE),
+    )
+
+
+def axes_of(curvatures: Array) -> tuple[tuple[float, float], Array]:
+    """Return both curvatures along the axes of a contact, and these as rows, the first near x."""
+    if curvatures[0, 1] == 0.0:
+        return (float(curvatures[0, 0]), float(curvatures[1, 1])), np.eye(2)
+    values, vectors = np.linalg.eigh(curvatures)
+    order = [0, 1] if abs(vectors[0, 0]) >= abs(vectors[0, 1]) else [1, 0]
+    along = vectors[:, order[0]] * np.copysign(1.0, vectors[0, order[0]])
+    return tuple(values[order].tolist()), np.array([along, [-along[1], along[0]]])

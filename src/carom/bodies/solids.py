@@ -175,12 +175,10 @@ def ellipsoid(
     >>> [round(1e3 * place, 2) for place in egg.contact]  # x and z from the centre, in mm
     [-5.64, -27.42]
     """
-    stuff, whole, turn, axes = _read(
-        (_moving, material),
-        (flag, "in_space", in_space),
-        (_turn, angle, orientation),
-        (_axes, semi_axes),
-    )
+    with Faults() as faults:
+        stuff, whole = faults.trying(_moving, material), faults.trying(flag, "in_space", in_space)
+        turn = faults.trying(_turn, angle, orientation)
+        axes = faults.trying(_positives, "semi_axes", semi_axes, (3,))
     return body_of("ellipsoid", stuff, ellipsoid_of(axes, turn), whole or orientation is not None)
 
 
@@ -233,32 +231,22 @@ def clump(
     >>> [round(1e3 * place, 2) for place in two.contact]  # x and z from the centre, in mm
     [-1.5, -7.6]
     """
-    stuff, whole, turn, (places, sizes) = _read(
-        (_moving, material),
-        (flag, "in_space", in_space),
-        (_turn, angle, orientation),
-        (_spheres, centres, radii),
-    )
+    with Faults() as faults:
+        stuff, whole = faults.trying(_moving, material), faults.trying(flag, "in_space", in_space)
+        turn, places = faults.trying(_turn, angle, orientation), faults.trying(_places, centres)
+        count = np.shape(radii if places is None else places)[:1]
+        sizes = faults.trying(_positives, "radii", radii, (), count)
+    sizes = np.broadcast_to(sizes, len(places))
     lean = orientation is None and bool(np.all(places[:, 1] == places[0, 1]))
     return body_of("clump", stuff, clump_of(places @ turn.T, sizes), whole or not lean)
 
 
 def _cylinder(kind: str, material: Any, angle: Any, in_space: Any, **sizes: Any) -> Body:
     """Return a cylinder with round edges; without a radius of the edges its ends are round."""
-    stuff, whole, lean, profile = _read(
-        (_moving, material), (flag, "in_space", in_space), (_lean, angle, 90.0), (_profile, sizes)
-    )
-    return body_of(kind, stuff, cylinder_of(profile, lean, angle), whole)
-
-
-def _read(*readings: tuple[Any, ...]) -> list[Any]:
-    """Return what readers make of their arguments, or raise InputError with all that is wrong."""
-    values = []
     with Faults() as faults:
-        for reader, *given in readings:
-            with faults.catching():
-                values.append(reader(*given))
-    return values
+        stuff, whole = faults.trying(_moving, material), faults.trying(flag, "in_space", in_space)
+        lean, profile = faults.trying(_lean, angle, 90.0), faults.trying(_profile, sizes)
+    return body_of(kind, stuff, cylinder_of(profile, lean, angle), whole)
 
 
 def _moving(material: Any) -> Material:
@@ -271,7 +259,8 @@ def _moving(material: Any) -> Material:
 def _profile(sizes: dict[str, Any]) -> Array:
     """Return length, outer radius, radius of the edges and of the hole, or raise InputError."""
     readers = {"inner_radius": not_negative}
-    values = _read(*((readers.get(n, positive), n, size, "m") for n, size in sizes.items()))
+    with Faults() as faults:
+        values = [faults.trying(readers.get(n, positive), n, s, "m") for n, s in sizes.items()]
     length, radius, edge, hole = [*values, values[1], 0.0][:4]
     most = {
         "length": length,
@@ -285,17 +274,12 @@ def _profile(sizes: dict[str, Any]) -> Array:
     return np.array([length, radius, edge, hole])
 
 
-def _positives(name: str, values: Any) -> Array:
+def _positives(name: str, values: Any, *shapes: tuple[int, ...]) -> Array:
+    """Return positive lengths in m, an array of one of these shapes, or raise InputError."""
     read = numbers(name, values, ALLOWED[name], "m")
-    good = read.ndim <= 1 and bool(np.all((read > 0.0) & (read < inf)))
+    good = read.shape in shapes and bool(np.all((read > 0.0) & (read < inf)))
     refuse(not good and refusal(name, values, ALLOWED[name]))
     return read
-
-
-def _axes(semi_axes: Any) -> Array:
-    axes = _positives("semi_axes", semi_axes)
-    refuse(axes.shape != (3,) and refusal("semi_axes", semi_axes, ALLOWED["semi_axes"]))
-    return axes
 
 
 def _places(centres: Any) -> Array:
@@ -305,14 +289,6 @@ def _places(centres: Any) -> Array:
     good = places.ndim == 2 and places.shape[1] == 3 and len(places) and np.isfinite(places).all()
     refuse(not good and refusal("centres", centres, ALLOWED["centres"]))
     return places
-
-
-def _spheres(centres: Any, radii: Any) -> tuple[Array, Array]:
-    """Return centres, of three coordinates, and radii of spheres, or raise InputError."""
-    places, sizes = _read((_places, centres), (_positives, "radii", radii))
-    fits = sizes.shape in ((), (len(places),))
-    refuse(not fits and refusal("radii", radii, ALLOWED["radii"]))
-    return places, np.broadcast_to(sizes, len(places))
 
 
 def _lean(angle: Any, most: float) -> float:

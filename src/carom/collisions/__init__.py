@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from carom.bodies.checks import check_second_spin, checked_pair
 from carom.bodies.pairs import Pair
 from carom.collisions import records
-from carom.collisions.compiled import Motions, collide_all
-from carom.collisions.plates import PlateRule, plate_rule
+from carom.collisions.compiled import Motions, PlateRule, collide_all, plate_rule
 from carom.collisions.portable import collide_arrays
 from carom.collisions.records import Collisions, JudgedCollisions
 from carom.laws.exact import ReboundLaw, law_of

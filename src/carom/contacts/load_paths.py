@@ -11,7 +11,7 @@ import numpy as np
 from carom import plots
 from carom.bodies.checks import with_friction
 from carom.bodies.pairs import ContactScales, Pair
-from carom.contacts.contact import Contact
+from carom.contacts.fields import Contact
 from carom.contacts.in_contact import InContact
 from carom.contacts.load_steps import Control, Steps, followed, read_steps
 from carom.dimensionless.load_paths import paths

@@ -12,7 +12,7 @@ from flask import Flask, Response, abort, request, send_file, send_from_director
 from werkzeug.exceptions import HTTPException
 
 from carom.datasets.shipped import names as dataset_names
-from carom.explorer import answers, outcomes
+from carom.explorer import outcomes, overlays
 from carom.explorer.limits import LARGEST_REQUEST, Busy
 from carom.explorer.page import KERNELS, kernels as script_of_kernels, page, plotly_file
 from carom.explorer.scripts import script
@@ -102,7 +102,7 @@ def _add_answers(server: Flask) -> None:
 
     @server.get("/laws")
     def laws() -> Response:
-        return _json(answers.laws(View.of(_query())))
+        return _json(overlays.laws(View.of(_query())))
 
     @server.get("/number")
     def number() -> Response:

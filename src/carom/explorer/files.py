@@ -10,8 +10,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from carom.bodies.pairs import Scales
-from carom.contacts.contact import contact_in_impact
-from carom.contacts.fields import surface_fields
+from carom.contacts.fields import contact_in_impact, surface_fields
 from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.solution import solve
 from carom.explorer.limits import LAW_SECONDS, Busy

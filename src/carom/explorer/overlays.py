@@ -1,4 +1,4 @@
-"""Rebound curves of the contact laws over a view; remembered by bodies."""
+"""What contact laws give over a view, as curves and as JSON holds them; remembered by bodies."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
@@ -6,14 +6,17 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import count
 from time import monotonic
+from typing import Any
 
 import numpy as np
 
 from carom.dem.base import ContactLaw, Law
 from carom.dimensionless.numerics.threads import available_cores
 from carom.explorer.limits import LAW_SECONDS, MOST_FOLLOWERS
-from carom.explorer.outcomes import Outcome
+from carom.explorer.outcomes import Outcome, outcome_of
+from carom.explorer.views import View
 from carom.quantities.arrays import Array
+from carom.quantities.units import or_none
 from carom.verify.entries import damped, named
 
 POINTS, POINTS_OF_LAWS = 241, 61
@@ -22,6 +25,7 @@ FORCE_STEPS = 400
 DRAWN_EVERY = 2  # of these steps
 KEPT_CURVES = 256
 GLANCE_SECONDS = 0.1
+CURVE_DECIMALS = 7  # one may zoom
 KEY_DIGITS = 12  # by which curves are kept
 
 _solvers = ThreadPoolExecutor(max(1, available_cores() - 1), "carom-law")  # answers go first
@@ -59,6 +63,31 @@ class LawCurve:
     at: float  # psi_2 at the present psi_1
     share: Array  # times, of the exact duration
     force: Array  # in the unit of the page
+
+
+def laws(view: View) -> dict[str, Any]:
+    """Return the contact laws of a view, "slow" those that take too long."""
+    outcome, labels = outcome_of(view), view.laid_over
+    curves = law_curves(outcome, labels, LAW_SECONDS, followers.joined())
+    solved = [
+        {
+            "label": law.label,
+            "psi": _fine(law.psi_in),
+            "out": _fine(law.psi_out),
+            "at": or_none(law.at),
+            "off": or_none(law.at - outcome.psi_out),
+            "share": _fine(law.share),
+            "force": _fine(law.force),
+        }
+        for law in curves
+        if law is not None
+    ]
+    slow = [label for label, law in zip(labels, curves, strict=True) if law is None]
+    return {"laws": solved, "slow": slow}
+
+
+def _fine(values: Array) -> list[float | None]:
+    return [or_none(value) for value in np.round(values, CURVE_DECIMALS).tolist()]
 
 
 def places(outcome: Outcome) -> Array:

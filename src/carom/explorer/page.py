@@ -14,7 +14,7 @@ from importlib.resources import files
 from importlib.util import find_spec
 from math import isinf
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 from urllib.parse import urlencode
 
 import numpy as np
@@ -90,39 +90,22 @@ def kernels() -> bytes:
     return f"Carom.wasm = {json.dumps(contents, separators=(',', ':'))};\n".encode()
 
 
-class Preset(NamedTuple):
-    """An example for a class: its link's query, and what there is to see in it.
-
-    `sources` say of each number where it was published or that it is assumed, `caution` where the
-    theory of elastic spheres is stretched.
-    """
-
-    id: str
-    title: str
-    story: str
-    query: str
-    sources: tuple[str, ...]
-    caution: str = ""
-    short: str = ""  # of those that the first level offers
-
-
-def _presets() -> tuple[Preset, ...]:
-    content = tomllib.loads(files("carom").joinpath("data/presets.toml").read_text("utf-8"))
-    texts = content["sources"]
-    return tuple(
-        Preset(name, each["title"], each["story"], urlencode(each["impact"]), sources, *more)
+def presets() -> list[dict[str, Any]]:
+    """Return the examples for a class: a link's query each, and what there is to see in it."""
+    content = _content("presets")
+    return [
+        {
+            "id": name,
+            **{key: each.get(key, "") for key in ("title", "story", "caution", "short")},
+            "query": urlencode(each["impact"]),
+            "sources": [content["sources"].get(source, source) for source in each["sources"]],
+        }
         for name, each in content["presets"].items()
-        for sources in [tuple(texts.get(source, source) for source in each["sources"])]
-        for more in [(each.get("caution", ""), each.get("short", ""))]
-    )
-
-
-PRESETS = _presets()
+    ]
 
 
 def stories() -> list[dict[str, Any]]:
     """Return the stories of the page: steps with a question each, their impacts as queries."""
-    content = tomllib.loads(files("carom").joinpath("data/stories.toml").read_text("utf-8"))
     return [
         {
             "id": name,
@@ -132,8 +115,12 @@ def stories() -> list[dict[str, Any]]:
                 for step in each["steps"]
             ],
         }
-        for name, each in content.items()
+        for name, each in _content("stories").items()
     ]
+
+
+def _content(name: str) -> dict[str, Any]:
+    return tomllib.loads(files("carom").joinpath(f"data/{name}.toml").read_text("utf-8"))
 
 
 def _laws_of_stories() -> list[dict[str, Any]]:
@@ -165,7 +152,7 @@ def config(*, static: bool = False) -> dict[str, Any]:
         "regimes": [{"name": name, "long": long} for name, long in zip(REGIMES, LONG, strict=True)],
         "symbols": SYMBOLS,
         "energies": PAGE["energies"] | PAGE["energies_of_contact"],
-        "presets": [preset._asdict() for preset in PRESETS],
+        "presets": presets(),
         "stories": stories(),
         "story_laws": _laws_of_stories() if static else [],
         "datasets": [

@@ -7,9 +7,8 @@ import numpy as np
 from scipy.integrate import cumulative_simpson
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
-from carom.bodies.losses import LARGEST_STRAIN
+from carom.bodies.losses import LARGEST_STRAIN, yield_velocity, yielding_modulus
 from carom.bodies.pairs import Pair
-from carom.bodies.strengths import yield_velocity, yielding_modulus
 from carom.dimensionless.lossy.springs import metal as springs
 from carom.dimensionless.lossy.viscoelastic.normal import restitution
 from carom.dimensionless.lossy.viscoelastic.work import new_work

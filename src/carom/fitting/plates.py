@@ -12,7 +12,7 @@ from carom.bodies.shapes import HalfSpace
 from carom.dimensionless.elastic.phases import LARGEST_GIVE, new_work
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.rebounds import STEP_TOLERANCE, fill_motion, solved
-from carom.impacts import plates
+from carom.impacts.findings import LONG_WAVE, OF_PLATES, SHEARING
 from carom.impacts.solve import impact
 from carom.io.cells import Mask
 from carom.io.labels import Finding
@@ -109,8 +109,7 @@ def doubtful(pair: Pair, speeds: Array, thicknesses: Array) -> Iterator[tuple[Fi
 
 def _findings(pair: Pair, speed: float) -> list[Finding]:
     hit = impact(pair, normal_speed=speed)
-    judges = plates.bending, plates.small_on_plate, plates.deflection, plates.rim
-    return [finding for judge in judges if (finding := judge(hit)) is not None]
+    return [finding for judge in OF_PLATES if (finding := judge(hit)) is not None]
 
 
 def shear(pair: Pair, speed: float, responses: tuple[str, ...], *, fitted: bool) -> str:
@@ -120,7 +119,7 @@ def shear(pair: Pair, speed: float, responses: tuple[str, ...], *, fitted: bool)
     waves are short: a fitted thickness comes out smaller by half of that.
     """
     bending = _findings(pair, speed)[0]
-    part = 50.0 * plates.SHEARING / max(bending.value, plates.LONG_WAVE) ** 2
+    part = 50.0 * SHEARING / max(bending.value, LONG_WAVE) ** 2
     if part < SHIFT or bending.holds is False:
         return ""
     some = "some" if bending.holds else "more than"

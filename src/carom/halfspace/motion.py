@@ -95,78 +95,69 @@ def _apart(patch: Patch, displacement: Field) -> ContactStep:
 
 
 class LedgerEntry(NamedTuple, Generic[Number]):
-    """One instant of an impact, or all of them; `across` is along y, `turn` about the normal.
+    """One instant of an impact, or all of them; `across` is along y, `spin` about the normal.
 
-    Units as in `Compliance` and `BodyMotion`; energies of the normal motion in E* a_max d_max^2, of
-    the tangential motion in friction^2 times that. What is `lost` and the angles belong to the step
-    that ends here.
+    Units are d_max, d_max/V_1, those of psi for the tangential motion, and of Hertz's impact for
+    the normal one; of spin those of `BodyMotion`, of its moment those of drag. What is `lost` and
+    the angles belong to the step that ends here.
     """
 
     time: Number
-    depth: Number
-    approach: Number
+    penetration: Number
+    centre_speed: Number  # d', and of the surfaces, as the wall does not give way
     displacement: Number
-    velocity: Number
-    velocity_across: Number
-    turn_velocity: Number
+    psi: Number
+    psi_across: Number
+    spin: Number
+    normal_force: Number
     force: Number
-    drag: Number
-    moment: Number
+    moment: Number  # against the spin
     contact_radius: Number  # of the circle of the same area
+    stick_radius: Number  # of that of the area that sticks
     slip_share: Number  # of the elements that touch
     normal_stored: Number
-    tangential_stored: Number
+    stored: Number
     lost: Number  # to friction
     lost_across: Number  # of that, by slip across
     slip_angle: Number  # between slip and x, averaged over the work of friction
     slip_angle_max: Number
-    slip_drag: Number  # what of the drag is that of slipping elements
-
-    @property
-    def stick_radius(self) -> Number:
-        """Radius of the circle of the area that sticks."""
-        share: Number = (1.0 - self.slip_share) ** 0.5
-        return share * self.contact_radius
-
-    @property
-    def normal_force(self) -> Number:
-        """Normal force in the largest of Hertz's impact."""
-        return 0.75 * self.force
-
-    @property
-    def tangential_force(self) -> Number:
-        """Tangential force in (3/2) friction times that."""
-        return 0.5 * self.drag
+    slip_force: Number  # what of the tangential force slipping elements bear, over friction
 
 
-def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry[float]:
+def entry(patch: Patch, chi: float, before: BodyMotion, now: BodyMotion) -> LedgerEntry[float]:
     """Return what the step from one instant to the next comes to."""
     state, old, grid = now.step.state, before.step.state, patch.grid
     moved, slips = now.step.moved, now.step.slips
+    kappa, of_normal = patch.compliance.materials.kappa, 2.0 * NORMAL_RATE
+    energy = kappa * chi * of_normal
     mean = np.where(old.pressure > 0.0, 0.5, FROM_TOUCH) * (old.traction + state.traction)
-    work = grid.element * mean * moved
+    work = energy * grid.element * mean * moved
     angle, largest = _angles(state.traction[:, slips], moved[:, slips])
     touching = np.count_nonzero(state.pressure > 0.0)
+    share = np.count_nonzero(slips) / touching if touching else 1.0
+    radius = sqrt(touching * grid.element / pi)
+    velocity = kappa * now.velocity
     return LedgerEntry(
         now.time,
         state.depth,
         now.approach,
-        float(state.displacement[0]),
-        float(now.velocity[0]),
-        float(now.velocity[1]),
+        kappa * float(state.displacement[0]),
+        float(velocity[0]),
+        float(velocity[1]),
         float(now.velocity[2]),
-        now.force,
-        float(now.drag[0]),
+        0.75 * now.force,
+        0.5 * float(now.drag[0]),
         float(now.drag[2]),
-        sqrt(touching * grid.element / pi),
-        np.count_nonzero(slips) / touching if touching else 1.0,
-        0.5 * grid.force(state.pressure * (state.depth - grid.apart)),
-        0.5 * grid.element * float(np.sum(state.traction * state.yielded)),
+        radius,
+        sqrt(1.0 - share) * radius,
+        share,
+        of_normal * 0.5 * grid.force(state.pressure * (state.depth - grid.apart)),
+        energy * 0.5 * grid.element * float(np.sum(state.traction * state.yielded)),
         float(work.sum()),
         float(work[1].sum()),
         angle,
         largest,
-        grid.element * float(state.traction[0, slips].sum()),
+        0.75 * grid.element * float(state.traction[0, slips].sum()),
     )
 
 

@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 from math import ceil
-from typing import NamedTuple
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -89,35 +90,6 @@ def _kind(slipping: float, sign: float) -> tuple[str, int]:
     return "slip" if slipping < 1.0 - THIN_ZONE else "gross slip", int(sign)
 
 
-class GridHistory(NamedTuple):
-    """An impact at some times; units d_max, d_max/V_1, and for tangential motion those of psi."""
-
-    time: Field
-    penetration: Field
-    speed: Field
-    psi: Field
-    displacement: Field
-    force: Field
-    stick_radius: Field
-    contact_radius: Field
-    stored: Field
-    dissipated: Field
-    shear_lost: Field
-    normal_force: Field
-    normal_stored: Field
-    normal_lost: Field
-    slip_angle: Field
-    slip_angle_max: Field
-    spin: Field  # about the normal, with the moment against it and the velocity across the motion
-    moment: Field
-    velocity_across: Field
-
-    @property
-    def centre_speed(self) -> Field:
-        """That of the bodies' centres, as the wall does not give way."""
-        return self.speed
-
-
 class Snapshot(NamedTuple):
     """The contact at the end of a step, with the velocity of slip during it."""
 
@@ -151,24 +123,20 @@ class HalfspaceSolution:
     @property
     def energy_error(self) -> float:
         """Largest change of all energies over those before; of normal spin its loss counts."""
-        ledger = self.ledger
-        response = motion.responses(self.chi, self.materials.kappa, self.spin.lightness)
-        velocities = ledger.velocity, ledger.velocity_across, ledger.turn_velocity
-        along, across, around = (
-            0.5 * velocity**2 / each if each > 0.0 else np.zeros(ledger.time.size)
-            for velocity, each in zip(velocities, response, strict=True)
-        )
-        lost = np.cumsum(ledger.lost)
-        tangential = along + across + around - around[-1] + ledger.tangential_stored + lost
-        normal = 0.5 * ledger.approach**2 / motion.NORMAL_RATE + ledger.normal_stored
+        ledger, lightness = self.ledger, self.spin.lightness
+        around = ledger.spin**2 / lightness if lightness > 0.0 else np.zeros(ledger.time.size)
+        moving = 0.5 * (ledger.psi**2 + ledger.psi_across**2)
+        tangential = (moving + ledger.stored + np.cumsum(ledger.lost)) / self.chi
+        tangential = tangential / self.materials.kappa + around - around[-1]
+        normal = ledger.centre_speed**2 + ledger.normal_stored
         total = normal + self.materials.friction**2 * tangential
         return float(np.abs(total - total[0]).max() / total[0])
 
     @property
     def phases(self) -> tuple[SlipStage, ...]:
         """Stick, slip and gross slip in order, as far as the grid shows them."""
-        pull, ledger = self.ledger.slip_drag, self.ledger
-        sign = np.where(np.abs(pull) > FAINT * ledger.force, np.sign(pull), 0.0)
+        pull, ledger = self.ledger.slip_force, self.ledger
+        sign = np.where(np.abs(pull) > FAINT * ledger.normal_force, np.sign(pull), 0.0)
         return stages(ledger.time, ledger.slip_share, sign)
 
     def slip_angles(self, start: float, end: float) -> tuple[float, float]:
@@ -181,36 +149,15 @@ class HalfspaceSolution:
         mean = np.sum(ledger.slip_angle[within] * work) / work.sum()
         return float(ledger.slip_angle_max[within].max()), float(mean)
 
-    def history(self, n: int) -> GridHistory:
+    def history(self, n: int) -> Any:
         return self.at(np.linspace(0.0, self.duration, n))
 
-    def at(self, time: Field) -> GridHistory:
-        """Return the impact at times, linear between the steps."""
-        ledger, kappa, of_normal = self.ledger, self.materials.kappa, 2.0 * motion.NORMAL_RATE
-        energy = kappa * of_normal * self.chi  # of psi^2/2 in those of the tangential motion
-        none = np.zeros(ledger.time.size)
-        columns = {
-            "penetration": ledger.depth,
-            "speed": ledger.approach,
-            "psi": kappa * ledger.velocity,
-            "displacement": kappa * ledger.displacement,
-            "force": ledger.tangential_force,
-            "stick_radius": ledger.stick_radius,
-            "contact_radius": ledger.contact_radius,
-            "stored": energy * ledger.tangential_stored,
-            "dissipated": energy * np.cumsum(ledger.lost),
-            "shear_lost": none,
-            "normal_force": ledger.normal_force,
-            "normal_stored": of_normal * ledger.normal_stored,
-            "normal_lost": none,
-            "slip_angle": ledger.slip_angle,
-            "slip_angle_max": ledger.slip_angle_max,
-            "spin": ledger.turn_velocity,
-            "moment": ledger.moment,
-            "velocity_across": ledger.velocity_across,
-        }
-        sampled = {name: np.interp(time, ledger.time, each) for name, each in columns.items()}
-        return GridHistory(time=time, **sampled)
+    def at(self, time: Field) -> Any:
+        """Return the impact at times as `LedgerEntry` has it, linear between the steps."""
+        columns = self.ledger._asdict() | {"dissipated": np.cumsum(self.ledger.lost)}
+        sampled = {name: np.interp(time, self.ledger.time, each) for name, each in columns.items()}
+        none = np.zeros(np.size(time))
+        return SimpleNamespace(**sampled | {"time": time}, shear_lost=none, normal_lost=none)
 
 
 def solve(
@@ -236,8 +183,8 @@ def solve(
     motions = motion.move(patch, np.array([psi, 0.0]), chi, resolution.steps, spin)
     for count, (before, now) in enumerate(pairwise(motions)):
         if not rows:
-            rows.append(entry(patch, before, before))
-        rows.append(entry(patch, before, now))
+            rows.append(entry(patch, chi, before, before))
+        rows.append(entry(patch, chi, before, now))
         if count % every == 0:
             slip_velocity = now.step.moved / (now.time - before.time)
             snapshots.append(Snapshot(rows[-1], now.step, slip_velocity))
@@ -248,11 +195,11 @@ def solve(
     return HalfspaceSolution(
         psi,
         chi,
-        psi_out=materials.kappa * float(ledger.velocity[-1]),
-        spin_out=float(ledger.turn_velocity[-1]),
-        restitution=-float(ledger.approach[-1]),
+        psi_out=float(ledger.psi[-1]),
+        spin_out=float(ledger.spin[-1]),
+        restitution=-float(ledger.centre_speed[-1]),
         duration=float(ledger.time[-1]),
-        max_penetration=float(ledger.depth.max()),
+        max_penetration=float(ledger.penetration.max()),
         max_force=max_force,
         max_radius=float(ledger.contact_radius.max()),
         max_pressure=float(max_force ** (1.0 / 3.0)),

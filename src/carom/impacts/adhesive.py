@@ -215,7 +215,7 @@ def _scales(pair: Pair, speed: Any, motion: Tangential) -> Scales:
 
 def work_of_adhesion(pair: Pair, usual: float) -> float:
     """Return Gamma = 2 sqrt(gamma_1 gamma_2) in J/m^2, with `usual` where no energy is known."""
-    energies = [m.surface_energy for m in (pair.first.material, pair.second.material)]
+    energies = [stuff.surface_energy for stuff in pair.materials.values()]
     one, two = (usual if energy is None else energy for energy in energies)
     return 2.0 * sqrt(one * two)
 

@@ -16,7 +16,7 @@ from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless import solution as theory
 from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
-from carom.halfspace.motion import LedgerEntry, NormalSpin
+from carom.halfspace.motion import NormalSpin
 from carom.halfspace.solution import HalfspaceSolution, Resolution, refinement_error, solve
 from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
@@ -33,6 +33,10 @@ if TYPE_CHECKING:
 
 BY_THEORY = "stresses are those of the theory, which neglects the coupling of unlike materials"
 RANGES = {"elements": (8, 1000), "steps": (20, 100_000)}  # memory grows with elements squared
+OF_STEPS = (
+    *("time", "penetration", "displacement", "contact_radius", "stick_radius"),
+    *("normal_force", "tangential_force"),
+)
 LARGEST_CHI = 1e3  # steps would be too many
 LARGEST_PSI, LARGEST_SPIN = 1e9, 1e6  # what changes would be lost in rounding
 
@@ -111,8 +115,7 @@ class HalfspaceImpact(ImpactResult):
 
         Along the axis of positive `spin`. Unlike bodies that spin about the normal veer off.
         """
-        unit = self.pair.kappa * self.scales.tangential_speed
-        return float(self.solution.ledger.velocity_across[-1]) * unit
+        return float(self.solution.ledger.psi_across[-1]) * self.scales.tangential_speed
 
     @property
     def psi_out_error(self) -> float:
@@ -228,8 +231,10 @@ class HalfspaceImpact(ImpactResult):
         }
         variables = {name: (("y", "x"), values.T) for name, values in columns.items()}
         line = grid.line * self.scales.radius
+        now = self._columns(self.solution.at(np.array([shot.entry.time])))
+        numbers = {name: float(now[name][0]) for name in OF_STEPS} | {"friction": friction}
         return labelled_dataset(
-            {**variables, "zone": (("y", "x"), zone.T, ZONES), **self._numbers(shot.entry)},
+            {**variables, "zone": (("y", "x"), zone.T, ZONES), **numbers},
             {"x": line, "y": line},
             {"title": "contact seen from above", "inputs": self.inputs()},
         )
@@ -239,36 +244,21 @@ class HalfspaceImpact(ImpactResult):
         """E* d_max/a_max in Pa: Hertz's largest pressure is 2/pi of it."""
         return 0.5 * np.pi * self.scales.pressure
 
-    def _numbers(self, entry: LedgerEntry[float]) -> dict[str, float]:
-        scales, kappa = self.scales, self.pair.kappa
-        return {
-            "friction": self.pair.friction,
-            "time": entry.time * scales.time,
-            "penetration": entry.depth * scales.length,
-            "displacement": entry.displacement * kappa * scales.tangential_length,
-            "contact_radius": entry.contact_radius * scales.radius,
-            "stick_radius": entry.stick_radius * scales.radius,
-            "normal_force": entry.normal_force * scales.force,
-            "tangential_force": entry.tangential_force * scales.tangential_force,
-        }
-
     @property
     def _spin_unit(self) -> float:
         return self.pair.friction * self.normal_speed / self.scales.radius
 
-    def _columns(self, n: int) -> dict[str, Any]:
-        history = self.solution.history(n)
-        columns = super()._columns(n)
-        columns |= {"slip_angle": history.slip_angle, "slip_angle_max": history.slip_angle_max}
+    def _columns(self, h: Any) -> dict[str, Any]:
+        columns = super()._columns(h)
+        columns |= {"slip_angle": h.slip_angle, "slip_angle_max": h.slip_angle_max}
         if not self.normal_spin:
             return columns
-        spin = history.spin * self._spin_unit
+        spin = h.spin * self._spin_unit
         moment = self.pair.friction * self._pressure_unit * self.scales.radius**3
-        across = self.pair.kappa * self.scales.tangential_speed * history.velocity_across
         return columns | {
             "normal_spin": spin,
-            "frictional_moment": history.moment * moment,
-            "contact_velocity_across": across,
+            "frictional_moment": h.moment * moment,
+            "contact_velocity_across": h.psi_across * self.scales.tangential_speed,
             "normal_spin_kinetic_energy": 0.5 * normal_inertia(self.pair) * spin**2,
         }
 

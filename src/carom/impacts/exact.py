@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite, nan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from carom.bodies.kinematics import Tangential
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair, Scales
-from carom.contacts.contact import Contact, contact_in_impact
+from carom.contacts.fields import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers, checked_law
@@ -22,8 +22,8 @@ from carom.dimensionless.lossy.springs.solution import MarchedSolution
 from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
+from carom.impacts.findings import Assumption, refuse_thin
 from carom.impacts.peaks import judge_pressure, judge_strength, peaks_dataset, struck_bodies
-from carom.impacts.plates import refuse_thin
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import OF_THEORY, judge
 from carom.impacts.wear import wear_of
@@ -58,26 +58,32 @@ class Impact(ImpactResult, InContact):
     """
 
     solution: Solution | LossySolution = field(repr=False)
+    _assumptions: ClassVar[tuple[Assumption, ...]] = OF_THEORY
 
     @property
     def validity(self) -> Validity:
         """Whether the assumptions of the theory hold, as numbers with limits and verdicts."""
-        return judge(self, OF_THEORY)
+        return judge(self, self._assumptions)
 
     @cached_property
     def _strength(self) -> tuple[Finding, ...]:
-        if isinstance(self.solution, MarchedSolution):
-            yields = self.solution._losses.loss != Loss.RELAXING
-            return (judge_pressure(self.pair, self.scales.pressure, yields=yields),)
-        return judge_strength(struck_bodies(self.pair, self.scales, self.solution))
+        if self.pair.is_round and not isinstance(self.solution, MarchedSolution):
+            return judge_strength(struck_bodies(self.pair, self.scales, self.solution))
+        return (judge_pressure(self.pair, self.scales.pressure, yields=self._yields),)
+
+    @property
+    def _yields(self) -> bool:
+        """Whether what yields is in the law of losses."""
+        yielding = (Loss.PLASTIC, Loss.METAL)
+        return isinstance(self.solution, LossySolution) and self.solution._losses.loss in yielding
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:
         """Angle between slip and traction in each phase, which the theory neglects, in rad.
 
-        It is NaN with losses, where it is not known.
+        It is NaN where it is not known: with losses, and of bodies that are no spheres.
         """
-        if isinstance(self.solution, LossySolution):
+        if isinstance(self.solution, LossySolution) or not self.pair.is_round:
             return (SlipAngle(nan, nan),) * len(self.phases)
         if not isfinite(self.psi_in):
             return (SlipAngle(0.0, 0.0),)
@@ -204,8 +210,7 @@ class Impact(ImpactResult, InContact):
         return peaks_dataset(self.pair, bodies, {"inputs": self.inputs()})
 
     def _refuse_stress(self) -> None:
-        yields = (Loss.PLASTIC, Loss.METAL)
-        if isinstance(self.solution, LossySolution) and self.solution._losses.loss in yields:
+        if self._yields:
             unknown = "what stress a yielded contact leaves below it is not known"
             cure = "take KelvinVoigt, or leave losses out"
             raise refusal("losses", self.losses, f"{unknown}; {cure}")

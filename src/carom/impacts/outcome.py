@@ -65,8 +65,8 @@ def _psi_lost(chi: float, solution: InTime, h: Any) -> Any:
     return solution.psi_in - h.psi
 
 
-def history_columns(outcome: "Outcome", n: int) -> dict[str, Any]:
-    """Return an impact at n times by name of column, in SI units.
+def history_columns(outcome: "Outcome", h: Any) -> dict[str, Any]:
+    """Return a history of the solution by name of column, in SI units.
 
     In the frame of the centre of mass the kinetic energies of the normal motion, of the tangential
     motion of the centres and of the spins, both elastic energies, the work of friction and what
@@ -74,7 +74,7 @@ def history_columns(outcome: "Outcome", n: int) -> dict[str, Any]:
     contact point alone, (1/2) m_t V_x^2; the rest stays what it was.
     """
     pair, scales, solution = outcome.pair, outcome.scales, cast(InTime, outcome.solution)
-    h, slides_freely = solution.history(n), not isfinite(outcome.psi_in)
+    slides_freely = not isfinite(outcome.psi_in)
     drift = outcome.contact_velocity if slides_freely else 0.0
     impulse_unit = pair.tangential_mass * scales.tangential_speed
     energy_unit = impulse_unit * scales.tangential_speed

@@ -27,14 +27,13 @@ from carom.quantities.units import or_none
 if TYPE_CHECKING:
     import xarray as xr
 
-BODIES = ("first", "second")
 MEASURES = {"peak_von_mises": VON_MISES, "peak_shear": SHEAR, "peak_tension": TENSION}
 GROWTH = 2.5  # speeds go with stresses to this power: stress ~ sqrt(d_max) ~ V^(2/5)
 DEPTH = 0.2  # of viscous bodies, in radii of the largest contact: what lies deeper is told
-RATIOS = {
-    "yield_ratio": "von Mises stress/Y",
-    "tension_ratio": "tension/strength",
-    "toughness_ratio": "K/K_c",
+RATIOS = {  # their labels, of what they are, and over which strength
+    "yield_ratio": ("von Mises stress/Y", "peak_von_mises", "yield_strength"),
+    "tension_ratio": ("tension/strength", "peak_tension", "tensile_strength"),
+    "toughness_ratio": ("K/K_c", "stress_intensity", "fracture_toughness"),
 }
 VERDICTS = {  # of whom, and the ending of the verb: it holds, it fails, it may fail
     "yield_ratio": (
@@ -110,20 +109,13 @@ class StruckBody:
         """Depth in m from which on peaks of stress are searched for."""
         return self.contacts.depth * self.scales.radius
 
-    def yield_ratio(self) -> float:
-        return self._share("peak_von_mises", self.bears("yield_strength"))
-
-    def tension_ratio(self) -> float:
-        return self._share("peak_tension", self.bears("tensile_strength"))
-
-    def toughness_ratio(self) -> float:
-        toughness = self.bears("fracture_toughness")
-        return self.intensity().value / toughness if toughness > 0.0 else nan
-
-    def deep_toughness_ratio(self) -> float:
-        """Return the same if there are flaws of any depth."""
-        toughness = self.bears("fracture_toughness")
-        return self.intensity(inf).value / toughness if toughness > 0.0 else nan
+    def ratio(self, name: str, flaw: float | None = None) -> float:
+        """Return a share of a strength by its name in `RATIOS`; NaN where that is not known."""
+        _, measure, strength = RATIOS[name]
+        if not self.bears(strength) > 0.0:
+            return nan
+        peak = self.peak(measure) if measure in MEASURES else self.intensity(flaw)
+        return peak.value / self.bears(strength)
 
     def cracking(self) -> float:
         """Return the factor by which all velocities must grow for flaws to crack; inf for never."""
@@ -134,9 +126,6 @@ class StruckBody:
         wanted = toughness / (self.scales.pressure * sqrt(pi * width))
         ratio = cracking_width(self.contacts, self.material.poisson, flaw / width, wanted)
         return float(ratio**GROWTH)
-
-    def _share(self, name: str, strength: float) -> float:
-        return self.peak(name).value / strength if strength > 0.0 else nan
 
     def _in_units(self, peak: Peak, unit: float) -> Peak:
         width = self.scales.radius
@@ -156,10 +145,9 @@ def struck_bodies(
     singular = isinstance(solution, ViscoelasticSolution)
     usual = DEPTH * solution.max_radius if singular else 0.0
     contacts = Contacts(solution, pair.friction, usual if depth is None else depth / scales.radius)
-    materials = {-1.0: pair.first.material, 1.0: pair.second.material}
     return {
-        name: StruckBody(contacts, stuff, scales, side)
-        for name, (side, stuff) in zip(BODIES, materials.items(), strict=True)
+        name: StruckBody(contacts, stuff, scales, 1.0 if name == "second" else -1.0)
+        for name, stuff in pair.materials.items()
         if not stuff.is_rigid
     }
 
@@ -198,7 +186,7 @@ def _numbers(body: StruckBody) -> Iterator[tuple[str, float]]:
     yield from _places("stress_intensity", peak._replace(z=0.0 * peak.z))
     yield "critical_flaw", peak.z
     for name in RATIOS:
-        yield name, getattr(body, name)()
+        yield name, body.ratio(name)
 
 
 def _places(name: str, peak: Peak) -> Iterator[tuple[str, float]]:
@@ -297,7 +285,7 @@ def _yields(bodies: dict[str, StruckBody]) -> Finding:
 
 def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
     """Return the finding on flaws of brittle bodies, of any depth where that is not known."""
-    label = RATIOS["toughness_ratio"]
+    label = RATIOS["toughness_ratio"][0]
     brittle = {name: body for name, body in bodies.items() if body.is_brittle}
     if not brittle:
         return None
@@ -307,7 +295,7 @@ def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
     ratios = _ratios("toughness_ratio", brittle)
     broken = [name for name, ratio in ratios.items() if ratio > 1.0]
     deep = {n: b for n, b in brittle.items() if n not in ratios}
-    ratios |= _ratios("deep_toughness_ratio", deep)
+    ratios |= _ratios("toughness_ratio", deep, inf)
     for key in ("fracture_toughness", "flaw_size"):
         open_ = {n: b for n, b in deep.items() if not ratios.get(n, inf) <= 1.0}
         unsure = {n: b.material for n, b in open_.items() if isnan(b.bears(key))}
@@ -316,9 +304,11 @@ def _cracks(bodies: dict[str, StruckBody]) -> Finding | None:
     return _finding("toughness_ratio", ratios, brittle, broken)
 
 
-def _ratios(name: str, bodies: dict[str, StruckBody]) -> dict[str, float]:
+def _ratios(
+    name: str, bodies: dict[str, StruckBody], flaw: float | None = None
+) -> dict[str, float]:
     """Return the shares of a strength, of the bodies of which it is known."""
-    ratios = {which: getattr(body, name)() for which, body in bodies.items()}
+    ratios = {which: body.ratio(name, flaw) for which, body in bodies.items()}
     return {which: ratio for which, ratio in ratios.items() if isfinite(ratio)}
 
 
@@ -326,7 +316,7 @@ def _finding(
     name: str, ratios: dict[str, float], bodies: dict[str, StruckBody], broken: list[str]
 ) -> Finding:
     """Return a finding on known shares of a strength, some of which are surely `broken`."""
-    label = RATIOS[name]
+    label = RATIOS[name][0]
     which, ratio = max(ratios.items(), key=lambda one: one[1])
     beyond = broken or [body for body, share in ratios.items() if share > 1.0]
     depth = bodies[which].searched_depth
@@ -355,7 +345,7 @@ def _hardened(body: StruckBody) -> float:
 
 def judge_pressure(pair: Pair, pressure: float, *, yields: bool) -> Finding:
     """Return the finding on yield by the pressure alone, without friction (Johnson 1985, 6.1)."""
-    stuffs = {"first": pair.first.material, "second": pair.second.material}
+    stuffs = pair.materials
     without = {w: m for w, m in stuffs.items() if not (m.yield_strength or m.is_rigid)}
     strengths = [m.yield_strength for m in stuffs.values() if m.yield_strength]
     ratio = pressure / min(strengths, default=nan)

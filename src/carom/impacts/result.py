@@ -130,7 +130,7 @@ class ImpactResult(Outcome, Result):
         >>> history.to_dataframe().phase_kind.tolist()
         ['gross slip', 'gross slip', 'slip', 'slip', 'gross slip']
         """
-        columns = self._columns(counted("n", n, 2))
+        columns = self._columns(self.solution.history(counted("n", n, 2)))
         columns |= phases_at(columns["time"], self.phases)
         numbers = {"friction": self.pair.friction, "max_pressure": self.max_pressure}
         return labelled(columns, numbers, (), self.inputs())
@@ -188,8 +188,8 @@ class ImpactResult(Outcome, Result):
         asked = read_frequencies(frequencies, max_frequency, n, self.duration)
         return spectrum_dataset(self, asked)
 
-    def _columns(self, n: int) -> dict[str, Any]:
-        return history_columns(self, n)
+    def _columns(self, h: Any) -> dict[str, Any]:
+        return history_columns(self, h)
 
     def _phase_columns(self) -> dict[str, list[float]]:
         angles = self.slip_angles
@@ -252,8 +252,8 @@ class ImpactResult(Outcome, Result):
         Along `time` in s the course of the impact, as `history` has it; along `phase` kind, sign,
         start and end in s; the numbers of the result without a dimension.
         """
-        angles = self._phase_columns()
-        return labelled(self._columns(400), self.scalars(), self.phases, self.inputs(), angles)
+        columns, angles = self._columns(self.solution.history(400)), self._phase_columns()
+        return labelled(columns, self.scalars(), self.phases, self.inputs(), angles)
 
     def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
         return plots.plot_impact(dataset, **look)

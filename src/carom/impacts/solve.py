@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
+from typing import TYPE_CHECKING, Literal, TypedDict, Unpack, overload
 
 from numpy.typing import ArrayLike
 
@@ -16,7 +15,6 @@ from carom.quantities.refusals import Faults, checked_type, known_keywords, refu
 from carom.quantities.units import Value, finite
 
 if TYPE_CHECKING:
-    from carom.impacts.body_impact import BodyImpact
     from carom.impacts.boundary_elements import BoundaryElements, HalfspaceImpact
 
 
@@ -119,15 +117,20 @@ def impact(
     18.6
     """
     checked_pair(pair, plates=True, any_shape=True)
-    if not pair.is_round:
-        speeds: dict[str, Any] = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
-        speeds |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2}
-        return _of_bodies(pair, speeds, losses, normal_spin, method)
     with Faults() as faults:
         speeds = {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2}
         read = faults.trying(checked_motion, pair, speed, angle, normal_speed, **speeds)
         about_normal = faults.trying(finite, "normal_spin", normal_spin)
     approaching, motion = read
+    if not pair.is_round:
+        spheres = "of spheres only; leave it out"
+        refuse(
+            about_normal and refusal("normal_spin", normal_spin, spheres),
+            method != "exact" and refusal("method", method, spheres),
+        )
+        from carom.impacts.body_impact import solve_bodies
+
+        return solve_bodies(pair, approaching, motion, losses)
     velocity = motion.contact_velocity(pair)
     scales = checked_scales(pair, approaching, velocity, motion[0], *motion.carried(pair))
     if isinstance(method, str) and method == "exact":
@@ -137,24 +140,6 @@ def impact(
     from carom.impacts.boundary_elements import solve_by_elements
 
     return solve_by_elements(pair, scales, motion, about_normal, elements, progress)
-
-
-def _of_bodies(
-    pair: Pair,
-    speeds: Mapping[str, Any],
-    losses: LossLaw | None,
-    normal_spin: Value,
-    method: str | BoundaryElements,
-) -> BodyImpact:
-    from carom.impacts.off_centre import solve_bodies
-
-    spheres = "of spheres only; leave it out"
-    spun = finite("normal_spin", normal_spin) != 0.0
-    refuse(
-        spun and refusal("normal_spin", normal_spin, spheres),
-        method != "exact" and refusal("method", method, spheres),
-    )
-    return solve_bodies(pair, speeds, losses)
 
 
 def _elements(method: str | BoundaryElements, losses: LossLaw | None) -> BoundaryElements:

@@ -4,7 +4,7 @@ A finding is a function of an impact in one of the lists at the end; one that do
 None. What the bodies bear, which takes more, is in `peaks`.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import inf, isfinite, isnan, nan, sqrt
 
 import numpy as np
@@ -16,9 +16,7 @@ from carom.bodies.smooth_body import Body
 from carom.dimensionless import neglected
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.neglected import SMALL_CONTACT
-from carom.impacts.dissipation import adhesion, damping, together, waves
-from carom.impacts.findings import bounded, judged, lacking
-from carom.impacts.plates import bending, deflection, rim, small_on_plate
+from carom.impacts.findings import OF_ENERGY, OF_WALLS, Assumption, bounded, judged, lacking
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding, Validity
 
@@ -36,7 +34,6 @@ SLENDER = 3.0  # radius of gyration over that of curvature, from which on a body
 GRAVITY = 9.80665  # m/s^2
 LIGHT = 0.02  # of V_1, which gravity may add within the contact
 FULL = "the full contact in three dimensions"
-Assumption = Callable[[ImpactResult], Finding | None]
 
 
 def judge(hit: ImpactResult, assumptions: Sequence[Assumption]) -> Validity:
@@ -53,8 +50,8 @@ def _slow_contact(hit: ImpactResult) -> Finding:
     transits = hit.duration / max(_transit(hit.pair), 1e-300)
     name = "contact time/wave transit"
     if transits == 0.0:
-        stuffs = {"first": hit.pair.first.material, "second": hit.pair.second.material}
-        without = {body: stuff for body, stuff in stuffs.items() if stuff.density is None}
+        stuffs = hit.pair.materials.items()
+        without = {body: stuff for body, stuff in stuffs if stuff.density is None}
         return lacking(name, SLOW_CONTACT, "density", without)
     slow = transits >= SLOW_CONTACT
     good = "the contact lasts long enough to be quasi-static"
@@ -125,7 +122,7 @@ def _slender(hit: ImpactResult) -> Finding | None:
 def _slips_aside(hit: ImpactResult) -> Finding | None:
     """Return the finding on slip that is not along the force, studied for round contacts alone."""
     pair = hit.pair  # with nu = 0 a traction moves the surface along itself alone
-    along = all(m.is_rigid or m.poisson == 0.0 for m in (pair.first.material, pair.second.material))
+    along = all(m.is_rigid or m.poisson == 0.0 for m in pair.materials.values())
     if pair.friction == 0.0 or (pair.dundurs_beta == 0.0 and along):
         return None
     words = "that slip is not quite along the force was studied for spheres only, there to 0.01"
@@ -263,8 +260,7 @@ def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
 
 
 OF_BODIES: tuple[Assumption, ...] = (
-    *(_slow_contact, _weight, _shell, waves, bending, small_on_plate, deflection, rim),
-    *(adhesion, damping, together, _solid),
+    *(_slow_contact, _weight, _shell, *OF_WALLS, *OF_ENERGY, _solid),
 )
 OF_SHAPES: tuple[Assumption, ...] = (
     *(f for f in OF_BODIES if f is not _shell),

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from carom.bodies import cases
-from carom.impacts.off_centre import approach_of
+from carom.bodies.checks import checked_motion
+from carom.bodies.kinematics import RigidMotion
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.impacts.solve import impact
 from carom.quantities.refusals import InputError, refusal, refuse
@@ -92,7 +93,7 @@ def point_of(case: cases.Case) -> tuple[PointStatus, dict[str, float]]:
     """Return what became of a case, and its numbers."""
     try:
         pair, motion = cases.pair_of(case), cases.motion_of(case)
-        if not approach_of(pair, motion) > 0.0:
+        if not RigidMotion.of(*checked_motion(pair, **motion)).at_contact(pair)[2] > 0.0:
             return PointStatus.NOT_APPROACHING, {}
     except InputError:
         return PointStatus.OUT_OF_RANGE, {}

@@ -16,14 +16,15 @@ from carom.bodies.losses import SMALLEST_RESTITUTION, STIFFEST, LossLaw
 from carom.bodies.materials import STRENGTHS, VALUES, Material, unchecked
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
+from carom.contacts.fields import BODIES
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.dimensionless.solution import solve
+from carom.impacts.findings import quiet_width
 from carom.impacts.outcome import PAIR, Outcome, outcome_fits
-from carom.impacts.peaks import BODIES, MEASURES, StruckBody, growth, struck_bodies
-from carom.impacts.plates import quiet_width
+from carom.impacts.peaks import MEASURES, StruckBody, growth, struck_bodies
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import NEEDED_STRENGTHS
 from carom.quantities.statuses import WordedStatus
@@ -33,8 +34,8 @@ WANTED = {  # outputs of a sweep that are of one of the bodies: quantity and bod
     f"{quantity}_{body}": (quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES
 }
 BEARABLE: dict[str, Callable[[StruckBody], float]] = {  # as a multiple of the speed of the impact
-    "yield_speed": lambda body: growth(body.yield_ratio()),
-    "tensile_speed": lambda body: growth(body.tension_ratio()),
+    "yield_speed": lambda body: growth(body.ratio("yield_ratio")),
+    "tensile_speed": lambda body: growth(body.ratio("tension_ratio")),
     "crack_speed": StruckBody.cracking,
 }
 

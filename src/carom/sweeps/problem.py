@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from carom.bodies import cases
 from carom.bodies.cases import FROM_STRENGTH, OF_STRENGTH as LAWS_OF_STRENGTH
+from carom.bodies.losses import NO_STRENGTH
 from carom.bodies.materials import JUDGED_BY, STRENGTHS
-from carom.bodies.strengths import NO_STRENGTH
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.io.labels import attributes, flags, spheres
 from carom.quantities.refusals import checked_type, hint, one_of, refusal, refuse
