@@ -43,11 +43,17 @@ impact none.toml --friction -1 --method fem --elements x --steps 1
 impact --plot a.txt --output a.png --spectrum a.png --animate a.png
   : output file, output file, spectrum, output file, friction, radius, material, speed
 impact case.toml --colour red --json --json x --friction
-  : No such option: --colour, --json, x, Option '--friction'
+  : No such option: --colour, --json, x, --friction
+impact --speed
+  : --speed, friction, radius, material
+impact case.toml --material --frction --angle 95deg --steps
+  : --material, No such option: --frction, --friction, angle, --steps
 impact case.toml --frction -1 --jsn
   : No such option: --frction, No such option: --jsn, friction
 curve
   : chi
+curve --points 0 --chi
+  : --chi, points
 curve --from x --to y --points 0
   : chi, from, to, points
 curve --chi x --chi -1 --restitution 2 --inelasticity 9 --plot a.txt
@@ -98,6 +104,8 @@ lammps build --sizes small --include none --moon
   : No such option: --moon, sizes, include
 lammps examples none/there --moon
   : No such option: --moon, folder
+liggghts build --folder --source
+  : --folder, --source
 liggghts build --moon --sun=2
   : No such option: --moon, No such option: --sun, source
 """  # a line, and what its faults are told of

@@ -70,8 +70,8 @@ def explore_command(
         from carom.explorer.serving import serving
 
         serving(bound, host).serve()
-    ended = heard[0] if heard else signal.SIGINT
-    os._exit(128 + ended)  # without waiting for threads that are at work
+    code = 128 + heard[0] if heard and heard[0] != signal.SIGINT else 0  # Ctrl-C is its end
+    os._exit(code)  # without waiting for threads that are at work
 
 
 def _export(folder: str, as_json: bool) -> None:

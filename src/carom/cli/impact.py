@@ -13,6 +13,7 @@ import carom
 from carom.cli import completion
 from carom.cli.cases import check_outputs, merged, outputs, stored, tell_sweep
 from carom.cli.options import checking, described, file_argument, name_option, whole_option
+from carom.io.progress import advancing
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, one_of, refusal
 from carom.quantities.units import finite, whole
@@ -169,15 +170,17 @@ def impact_command(
         faults.add(*(str(refusal("output file", file, words)) for file in several))
     spin: dict[str, Any] = {} if normal_spin is None else {"normal_spin": normal_spin}
     records, paths = [], list[Path]()
-    for name, one in zip(files, read, strict=True):
-        hit = carom.impact(one.pair, **one.motion | spin, losses=one.losses, method=solver)
-        head = f"{name}\n" if len(read) > 1 else ""
-        told = _record(hit, peaks=peaks) if as_json else head + _text(hit, peaks=peaks)
-        paths += _store(hit, one.files)
-        if as_json:
-            records.append(told)
-        else:
-            typer.echo(told)
+    shown = None if len(read) > 1 else False  # one alone shows its own progress
+    with advancing("solving the impacts", len(read), shown) as advance:
+        for name, one in zip(files, read, strict=True):
+            hit = carom.impact(one.pair, **one.motion | spin, losses=one.losses, method=solver)
+            paths += _store(hit, one.files)
+            if as_json:
+                records.append(_record(hit, peaks=peaks))
+            else:
+                head = f"{name}\n" if len(read) > 1 else ""
+                typer.echo(head + _text(hit, peaks=peaks))
+            advance(1)
     if as_json:
         typer.echo(json.dumps(records if len(records) > 1 else records[0], indent=2))
     for path in paths:
@@ -249,7 +252,7 @@ def _method(name: str, numbers: Mapping[str, str | None]) -> Any:
         counts = {n: faults.trying(whole, n, text, *RANGES[n]) for n, text in there.items()}
         words = "it is an option of boundary elements; add --method halfspace"
         if name == "exact":
-            faults.add(*(str(refusal(key, value, words)) for key, value in counts.items()))
+            faults.add(*(str(refusal(n, counts[n] or there[n], words)) for n in counts))
     return carom.BoundaryElements(**counts)
 
 

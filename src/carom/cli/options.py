@@ -19,7 +19,7 @@ from typer.core import TyperCommand, TyperGroup, TyperOption
 
 from carom.cli.cases import named_values, stored
 from carom.io.paths import checked_output, replace_whole
-from carom.quantities.refusals import Faults, clipped, nearest
+from carom.quantities.refusals import Faults, InputError, clipped, nearest
 from carom.quantities.symbols import meant, remark
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ Names = Iterable[str] | Callable[[], Iterable[str]]
 
 ARGUMENTS = "carom.arguments"  # of a command as they were given, in `meta` of its context
 FAULTS = "carom.faults"  # of these arguments, there as well
+VALUELESS = "carom.valueless"  # names of the options that lack their value
 MISSPELT = 0.8  # how similar a word is to the one it stands for
 
 _line: ContextVar[tuple[str, ...]] = ContextVar("line", default=())  # its faults so far
@@ -99,6 +100,10 @@ class Once(Quick, TyperCommand):
         token = _line.set(ctx.meta[FAULTS])
         try:
             return super().invoke(ctx)
+        except InputError as error:  # a value that is missing is told once
+            twice = [f"{name}: missing" for name in ctx.meta[VALUELESS]]
+            told = (each for each in error.faults if not any(one in each for one in twice))
+            raise InputError(*told) from None
         except KeyboardInterrupt as error:
             raise Interrupted(*error.args) from None
         finally:
@@ -111,6 +116,7 @@ class Once(Quick, TyperCommand):
         """
         ctx.meta[ARGUMENTS] = tuple(args)
         faults: list[str] = []
+        ctx.meta[VALUELESS] = set[str]()
         given, rest, order = self._parsed(ctx, list(args), faults)
         for option, count in Counter(order).items():
             if count > 1 and isinstance(option, TyperOption) and not option.multiple:
@@ -135,6 +141,7 @@ class Once(Quick, TyperCommand):
     def _parsed(self, ctx: Any, words: list[str], faults: list[str]) -> Any:
         """Return values by name, words left over and the order of parameters; collect faults."""
         while True:
+            words = self._with_values(ctx, words, faults)
             left = list(words)
             try:
                 return self.make_parser(ctx).parse_args(left)
@@ -146,6 +153,20 @@ class Once(Quick, TyperCommand):
                 value = left[:1] if known is None and _is_value(words[place], left) else []
                 instead = [] if known is None else [known, *words[place].split("=", 1)[1:]]
                 words[place : place + 1 + len(value)] = instead
+
+    def _with_values(self, ctx: Any, words: list[str], faults: list[str]) -> list[str]:
+        """Return the words without options whose value is missing, of which it collects faults."""
+        options = {name: each for each in self.get_params(ctx) for name in each.opts}
+        kept = []
+        for word, after in zip(words, [*words, "--"][1:], strict=True):
+            option = options.get(word)
+            wanting = isinstance(option, TyperOption) and not option.is_flag and option.help
+            if wanting and after.startswith("--"):
+                faults.append(f"{word}: its value is missing; {wanting.rstrip('.')}")
+                ctx.meta[VALUELESS].add(word.strip("-").replace("-", "_"))
+            else:
+                kept.append(word)
+        return kept
 
 
 def _is_value(option: str, after: list[str]) -> bool:
