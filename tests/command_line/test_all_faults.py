@@ -72,6 +72,14 @@ fit --steps x --seed -1 --advice 0 --fix x --confidence 2
   : data, advice, steps, seed, fix, confidence
 fit none.csv --for mu --plot a.txt --decimal x --share mu
   : for, output file, decimal, share
+fit none.csv --confidence 3 --fix x --case none.toml
+  : results, confidence, fix, case file
+fit none.csv case.toml --share mu --advice 3 --case none.toml
+  : advice, none.csv, none.csv, case.toml, case.toml
+fit --dataset kharaz2001 --vary e --confidence 3 --steps x
+  : steps, confidence, vary
+fit none.csv none.csv
+  : data
 fit --template x.csv --moon
   : No such option: --moon, template
 track
@@ -94,6 +102,8 @@ verify lammps --output a.csv --steps x
   : steps, output
 verify score --tolerance 0 --decimal x --case none.toml
   : results, tolerance, decimal, case file
+verify score none.csv --tolerance 0 --case none.toml
+  : results, tolerance, case file
 verify tune --kappa x --from y --restitution 0.5 --measure z
   : measure, restitution, kappa, psi_in, case
 verify tune case.toml --chi 1 --kappa 1 --from 95deg --to x --restitution 2

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
-from carom.cli.cases import check_outputs, require_some, stored
-from carom.cli.options import checking, described, name_option, store_text, whole_option
+from carom.cli.cases import check_outputs, require_some, store_text, stored
+from carom.cli.options import checking, described, name_option, whole_option
 from carom.io.paths import checked_output
 from carom.quantities.refusals import Faults, one_of, refusal
 from carom.quantities.units import finite, or_none, positive, whole

@@ -11,19 +11,13 @@ from collections.abc import Callable, Iterable, Mapping
 from contextvars import ContextVar
 from difflib import get_close_matches
 from inspect import Parameter, Signature, signature
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar, get_origin
+from typing import Annotated, Any, TypeVar, get_origin
 
 import typer
 from typer.core import TyperCommand, TyperGroup, TyperOption
 
-from carom.cli.cases import named_values, stored
-from carom.io.paths import checked_output, replace_whole
 from carom.quantities.refusals import Faults, InputError, clipped, nearest
 from carom.quantities.symbols import meant, remark
-
-if TYPE_CHECKING:
-    from carom.io.heads import TableFormat
 
 Command = TypeVar("Command", bound=Callable[..., None])
 Names = Iterable[str] | Callable[[], Iterable[str]]
@@ -44,21 +38,6 @@ def file_option(words: str) -> Any:
 COMMON: dict[str, Any] = {
     "as_json": typer.Option("--json", help="Print JSON instead of a table."),
     "plot": "Store a figure of the result: .png, .pdf or .svg.",
-}
-TABLE: dict[str, Any] = {  # how a user's table is read
-    "column": Annotated[
-        list[str] | None,
-        typer.Option(
-            help="The quantity in a column of your table that has another name, e.g. omega=spin, "
-            "or 'w=spin [rpm]' with its unit. You can repeat this option."
-        ),
-    ],
-    "columns": file_option(
-        "TOML file that says it for many columns, in a table [columns], as --save-columns writes."
-    ),
-    "sheet": "The sheet of a spreadsheet; FILE:SHEET says it, too.",
-    "decimal": "Decimal sign of the numbers in the file, ',' or '.', where they leave it open.",
-    "save_columns": file_option("Store --column, --sheet and --decimal for --columns: .toml."),
 }
 
 
@@ -222,33 +201,6 @@ def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
         return command
 
     return decorate
-
-
-def table_format_of(given: Mapping[str, Any], example: str = "omega=spin_out") -> "TableFormat":
-    """Return how a table is to be read by the options `TABLE`, or raise InputError."""
-    from carom.io.heads import table_format
-
-    with Faults() as faults:
-        if given["save_columns"] is not None:
-            faults.trying(checked_output, given["save_columns"], (".toml",))
-        own = faults.trying(table_format, given["columns"], given["sheet"], given["decimal"])
-        names = faults.trying(named_values, "column", given["column"], example)
-    how: TableFormat = own._replace(columns={**own.columns, **names})
-    return how
-
-
-def store_format(how: "TableFormat", name: str | None) -> None:
-    """Store how a table is read, if that is asked for."""
-    from carom.io.heads import as_toml
-
-    if name is not None:
-        store_text(as_toml(how), name)
-
-
-def store_text(text: str, name: str) -> None:
-    """Store a text in UTF-8, and tell that."""
-    replace_whole(Path(name), lambda f: f.write_text(text, encoding="utf-8", newline="\n"))
-    stored(name)
 
 
 def _with_help(parameter: Parameter, option: Any) -> Parameter:

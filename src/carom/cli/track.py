@@ -7,14 +7,8 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, stored
-from carom.cli.options import (
-    TABLE,
-    checking,
-    described,
-    file_argument,
-    store_format,
-    table_format_of,
-)
+from carom.cli.options import checking, described, file_argument
+from carom.cli.tables import TABLE, store_format, table_format_of
 
 OPTIONS = {
     "data": file_argument(
