@@ -50,6 +50,10 @@ impact case.toml --material --frction --angle 95deg --steps
   : --material, No such option: --frction, --friction, angle, --steps
 impact case.toml --frction -1 --jsn
   : No such option: --frction, No such option: --jsn, friction
+impact --case case.toml --speed 2 m/s --angle x deg
+  : No such option: --case, --speed, --angle, angle
+impact case.toml --material brass --material2 glass --angle 95deg
+  : No such option: --material2, angle
 curve
   : chi
 curve --points 0 --chi
@@ -114,6 +118,12 @@ lammps build --sizes small --include none --moon
   : No such option: --moon, sizes, include
 lammps examples none/there --moon
   : No such option: --moon, folder
+verify tune case.toml --chi= --measure x
+  : chi, measure
+lammps build --folder= --sizes x
+  : folder, sizes
+liggghts build --source none --folder=
+  : folder
 liggghts build --folder --source
   : --folder, --source
 liggghts build --moon --sun=2
@@ -139,10 +149,34 @@ def test_every_command_looks_at_all_words_first(words, refusal):
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
-def test_help_comes_whatever_else_is_wrong(words, run):
-    code, out, err = run(*words, "--moon", "--help")
+@pytest.mark.parametrize("option", ["--help", "-h"])
+def test_help_comes_whatever_else_is_wrong(option, words, run):
+    code, out, err = run(*words, "--moon", option)
     assert (code, err) == (0, "")
     assert out.startswith(f"Usage: carom {' '.join(words)} ")
+    assert "str>" not in out  # a type of Python
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("impact case.toml --angle 30 deg", "--angle: write '30 deg' in quotes"),
+        ("impact --case case.toml", "No such option: --case; give FILE alone"),
+        ("materials --name steel", "No such option: --name; give name alone"),
+        (
+            "sweep case.toml case.toml",
+            "case.toml: not expected; see carom sweep --help for the files that it takes",
+        ),
+    ],
+)
+def test_typical_slips_are_told_with_what_is_right(line, told, refusal):
+    Path("case.toml").write_text(CASE)
+    assert told in refusal(*line.split())
+
+
+def test_a_file_may_have_the_name_of_a_unit(run):
+    Path("mm").write_text(CASE)
+    assert run("impact", "--speed", "2", "mm")[0] == 0
 
 
 def test_a_misspelt_option_stands_for_the_one_that_is_meant(refusal):

@@ -18,6 +18,7 @@ from typer.core import TyperCommand, TyperGroup, TyperOption
 
 from carom.quantities.refusals import Faults, InputError, clipped, nearest
 from carom.quantities.symbols import meant, remark
+from carom.quantities.texts import is_unit
 
 Command = TypeVar("Command", bound=Callable[..., None])
 Names = Iterable[str] | Callable[[], Iterable[str]]
@@ -74,6 +75,13 @@ class Group(Quick, TyperGroup):
 class Once(Quick, TyperCommand):
     """A command that refuses an option given twice, unless it is one of several values."""
 
+    def __init__(self, *given: Any, **named: Any) -> None:
+        """Make the command, whose help names no types of Python."""
+        super().__init__(*given, **named)
+        for param in self.params:
+            word = "VALUE" if isinstance(param, TyperOption) else ""
+            vars(param)["display_type"] = lambda _, word=word: word
+
     def invoke(self, ctx: Any) -> Any:
         """Run the command; raises Interrupted for a KeyboardInterrupt."""
         token = _line.set(ctx.meta[FAULTS])
@@ -113,6 +121,8 @@ class Once(Quick, TyperCommand):
                 faults.append(f"{param.name}: missing; give {what}")
         if rest:
             advice = "put a value with blanks into quotes, e.g. '30 deg'"
+            if any(map(os.path.exists, rest)):
+                advice = f"see {ctx.command_path} --help for the files that it takes"
             faults.append(f"{clipped(shlex.join(rest))}: not expected; {advice}")
         ctx.meta[FAULTS], ctx.args = tuple(faults), rest
         return list(rest)
@@ -127,6 +137,7 @@ class Once(Quick, TyperCommand):
             except typer.TyperException as error:
                 place = len(words) - len(left) - 1
                 near, known = option_meant(error)
+                known = None if known in words else known
                 faults.append(f"{(error.message if near else error.format_message()).rstrip('.')}")
                 faults[-1] += f"; {near}" * bool(near)
                 value = left[:1] if known is None and _is_value(words[place], left) else []
@@ -134,15 +145,20 @@ class Once(Quick, TyperCommand):
                 words[place : place + 1 + len(value)] = instead
 
     def _with_values(self, ctx: Any, words: list[str], faults: list[str]) -> list[str]:
-        """Return the words without options whose value is missing, of which it collects faults."""
-        options = {name: each for each in self.get_params(ctx) for name in each.opts}
-        kept = []
-        for word, after in zip(words, [*words, "--"][1:], strict=True):
-            option = options.get(word)
-            wanting = isinstance(option, TyperOption) and not option.is_flag and option.help
-            if wanting and after.startswith("--"):
-                faults.append(f"{word}: its value is missing; {wanting.rstrip('.')}")
+        """Return the words without options whose value is missing, units joined to their numbers.
+
+        Both are faults, which it collects.
+        """
+        options = (each for each in self.get_params(ctx) if isinstance(each, TyperOption))
+        wanting = {n: str(each.help) for each in options if not each.is_flag for n in each.opts}
+        kept: list[str] = []
+        for before, word, after in zip(["", "", *words], words, [*words, "--"][1:], strict=False):
+            if word in wanting and after.startswith("--"):
+                faults.append(f"{word}: its value is missing; {wanting[word].rstrip('.')}")
                 ctx.meta[VALUELESS].add(word.strip("-").replace("-", "_"))
+            elif before in wanting and is_unit(word) and not os.path.exists(word):
+                kept[-1] += f" {word}"
+                faults.append(f"{before}: write '{kept[-1]}' in quotes")
             else:
                 kept.append(word)
         return kept
@@ -160,7 +176,10 @@ def option_meant(error: typer.TyperException) -> tuple[str, str | None]:
     context = getattr(error, "ctx", None)
     if not word or context is None or type(error).__name__ != "NoSuchOption":
         return "", None
-    options = [name for each in context.command.params for name in each.opts]
+    arguments = [each for each in context.command.params if not isinstance(each, TyperOption)]
+    if there := [each.metavar or each.name for each in arguments if each.name == word]:
+        return f"give {there[0]} alone", None
+    options = [name for each in context.command.params for name in each.opts if name[0] == "-"]
     names = {name.strip("-").replace("-", "_"): name for name in options}
     name = meant(word, names)
     if name:
@@ -176,6 +195,7 @@ class Commands(typer.Typer):
     def __init__(self, name: str, words: str, kind: type[Group] = Group) -> None:
         plain: dict[str, Any] = {"rich_markup_mode": None, "pretty_exceptions_enable": False}
         plain |= {"no_args_is_help": True, "add_completion": False, "cls": kind}
+        plain |= {"context_settings": {"help_option_names": ["--help", "-h"]}}
         super().__init__(name=name, help=words, **plain)
 
     def command(self, name: str | None = None, **more: Any) -> Callable[..., Any]:

@@ -7,7 +7,7 @@ from typing import Any
 import typer
 
 from carom.cli.options import Commands, checking, described, name_option
-from carom.io.paths import new_folder
+from carom.io.paths import checked_path, new_folder
 from carom.quantities.refusals import one_of
 
 lammps_app = Commands(
@@ -67,11 +67,11 @@ def lammps_command(
 
     with checking() as faults:
         faults.trying(one_of, "sizes", sizes, adapter.SIZES)
+        own = faults.if_given(checked_path, "folder", folder, "folder")
         places = tuple(map(Path, include or ()))
         program = adapter.from_sources(places) if places else adapter.installed()
     program = program._replace(sizes=sizes) if places else program
-    default = adapter.folder(program.version if places else None)
-    target = default if folder is None else Path(folder)
+    target = own or adapter.folder(program.version if places else None)
     with advancing("compiling the plugin", None):
         built = adapter.build(program, target)
     flags = " ".join(word for word in built.command if word.startswith(("-O", "-m", "-f", "-D")))
@@ -121,9 +121,9 @@ def liggghts_command(source: str, folder: str | None = None, as_json: bool = Fal
     """
     from carom.adapters import liggghts
 
-    checking().settle()
-    target = liggghts.program().parent if folder is None else Path(folder)
-    built = liggghts.build(Path(source), target)
+    with checking() as faults:
+        own = faults.if_given(checked_path, "folder", folder, "folder")
+    built = liggghts.build(Path(source), own or liggghts.program().parent)
     what = f"LIGGGHTS {built.version} with tangential model carom"
     advice = "Write this into the input: pair_style gran model hertz tangential carom"
     _tell(built, as_json, [f"Carom has built {what}: {built.path}", advice])
