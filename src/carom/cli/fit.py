@@ -216,14 +216,16 @@ def _read(
     options: Mapping[str, Any],
 ) -> "dict[str, Measured]":
     """Return what was measured of which bodies, by the names of the files, if it can be fitted."""
+    from carom.fitting.joint_result import named_sets
     from carom.fitting.options import read_options
     from carom.fitting.reading import read_problem, read_rebounds
 
+    names = [*named_sets(sources)] if len(sources) > 1 else [""][: len(sources)]
     own: list[str | None] = [*cases] or [None]
     own = own if len(own) == len(sources) else own[:1] * len(sources)
     read = {}
     with Faults() as faults:
-        for (name, source), case in zip(_sets(sources).items(), own, strict=True):
+        for name, source, case in zip(names, sources, own, strict=True):
             with faults.catching(name), Faults() as both:
                 table = both.trying(read_rebounds, source, **how._asdict())
                 pair = both.trying(_pair, case, thickness, table)
@@ -233,15 +235,6 @@ def _read(
                     read_options(problem, options["vary"], fixed)
                 read[name] = table, pair
     return read
-
-
-def _sets(sources: Sequence[str | Path]) -> dict[str, Any]:
-    """Return files by the names that they have in messages, which one alone does not need."""
-    from carom.fitting.joint_result import named_sets
-
-    if len(sources) > 1:
-        return named_sets(sources)
-    return dict(zip([""], sources, strict=False))
 
 
 def _fitted(

@@ -174,12 +174,12 @@ def impact_command(
     with advancing("solving the impacts", len(read), shown) as advance:
         for name, one in zip(files, read, strict=True):
             hit = carom.impact(one.pair, **one.motion | spin, losses=one.losses, method=solver)
+            told = _told(hit, peaks=peaks, as_json=as_json)
             paths += _store(hit, one.files)
             if as_json:
-                records.append(_record(hit, peaks=peaks))
+                records.append(told)
             else:
-                head = f"{name}\n" if len(read) > 1 else ""
-                typer.echo(head + _text(hit, peaks=peaks))
+                typer.echo(f"{name}\n{told}" if len(read) > 1 else told)
             advance(1)
     if as_json:
         typer.echo(json.dumps(records if len(records) > 1 else records[0], indent=2))
@@ -223,22 +223,17 @@ def _read(path: str | None, flags: Mapping[str, Any]) -> _Case:
     return _Case(pair, motion, losses, files)
 
 
-def _record(hit: "ImpactResult", *, peaks: bool) -> dict[str, Any]:
-    from carom.impacts.peaks import peaks_record
+def _told(hit: "ImpactResult", *, peaks: bool, as_json: bool) -> Any:
+    """Return an impact as a record for JSON, or as a text."""
+    told: Any = hit.to_dict() if as_json else str(hit)
+    if not peaks:
+        return told
+    from carom.impacts.peaks import peaks_record, peaks_text
 
-    return hit.to_dict() | ({"peaks": peaks_record(_peaks(hit))} if peaks else {})
-
-
-def _text(hit: "ImpactResult", *, peaks: bool) -> str:
-    from carom.impacts.peaks import peaks_text
-
-    return f"{hit}\n{peaks_text(_peaks(hit))}" if peaks else str(hit)
-
-
-def _peaks(hit: "ImpactResult") -> Any:
-    if isinstance(hit, carom.results.Impact):
-        return hit.peaks()
-    raise InputError(NO_PEAKS)
+    if not isinstance(hit, carom.results.Impact):
+        raise InputError(NO_PEAKS)
+    found = hit.peaks()
+    return told | {"peaks": peaks_record(found)} if as_json else f"{told}\n{peaks_text(found)}"
 
 
 def _method(name: str, numbers: Mapping[str, str | None]) -> Any:

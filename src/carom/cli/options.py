@@ -37,7 +37,7 @@ def file_option(words: str) -> Any:
 
 
 COMMON: dict[str, Any] = {
-    "as_json": typer.Option("--json", help="Print JSON instead of a table."),
+    "as_json": typer.Option("--json", help="Print JSON instead of text."),
     "plot": "Store a figure of the result: .png, .pdf or .svg.",
 }
 
@@ -237,12 +237,7 @@ def file_argument(words: str) -> Any:
 
 def name_option(words: str, names: Names) -> Any:
     """Return the option of a name; shells complete those that there are."""
-    return typer.Option(help=words, autocompletion=completing(names))
-
-
-def completing(names: Names) -> Callable[[], Iterable[str]]:
-    """Return what typer asks for the names that complete a word."""
-    return names if callable(names) else lambda: names
+    return typer.Option(help=words, autocompletion=names if callable(names) else lambda: names)
 
 
 def whole_option(words: str) -> Any:

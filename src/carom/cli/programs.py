@@ -1,6 +1,7 @@
-"""`carom lammps`, `carom liggghts build`: the exact contact law in DEM programs."""
+"""What goes to DEM programs: the exact contact law, inputs that use it, the benchmark pack."""
 
 import json
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -35,10 +36,7 @@ LAMMPS = {
     ),
     "folder": "Folder for the plugin (default: the folder in which LAMMPS finds it by itself).",
 }
-EXAMPLES = {
-    "folder": typer.Argument(help="New or empty folder for the inputs.", metavar="FOLDER"),
-    "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
-}
+NEW = {"folder": typer.Argument(help="New or empty folder, e.g. bench.", metavar="FOLDER")}
 LIGGGHTS = {
     "source": typer.Option(metavar="PATH", help="Folder or tarball of LIGGGHTS-PUBLIC 3.8.0."),
     "folder": "Folder for the program (default: that in which carom verify liggghts looks).",
@@ -85,7 +83,7 @@ def lammps_command(
 
 
 @lammps_app.command("examples")
-@described(EXAMPLES)
+@described(NEW)
 def examples_command(folder: str, as_json: bool = False) -> None:
     """Write inputs for LAMMPS that use the exact law.
 
@@ -95,17 +93,31 @@ def examples_command(folder: str, as_json: bool = False) -> None:
     \b
     Example: carom lammps examples inputs
     """
-    from carom.adapters import lammps as adapter
+    from carom.adapters.lammps import write_examples
 
-    with checking() as faults:
-        if folder is not None:
-            faults.trying(new_folder, folder)
-    files = adapter.write_examples(folder)
-    if as_json:
-        typer.echo(json.dumps({"folder": folder, "files": files}, indent=2))
-        return
-    typer.echo(f"Carom has written {', '.join(files)} into {folder}.")
-    typer.echo(f"Run them after carom lammps build: lmp -in {folder}/in.impact")
+    files = _written(write_examples, folder)
+    words = f"Carom has written {', '.join(files)} into {folder}.\n"
+    words += f"Run them after carom lammps build: lmp -in {folder}/in.impact"
+    _print({"folder": folder, "files": files}, as_json, words)
+
+
+@described(NEW)
+def pack_command(folder: str, as_json: bool = False) -> None:
+    """Write the benchmark pack for developers of DEM codes.
+
+    Use this command to test a DEM code that you write. The pack holds reference impacts with error
+    bars, and inputs of DEM codes for them. A version of the pack has the same numbers, to the last
+    byte, wherever it is written.
+
+    \b
+    Example: carom verify pack bench
+    """
+    from carom.verify.pack import VERSION, write_pack
+
+    files = _written(write_pack, folder)
+    what = f"benchmark pack {VERSION}, {len(files)} files, into {folder}"
+    words = f"Carom has written {what}. Start with its README.md."
+    _print({"version": VERSION, "folder": folder, "files": files}, as_json, words)
 
 
 @liggghts_app.command("build")
@@ -129,6 +141,17 @@ def liggghts_command(source: str, folder: str | None = None, as_json: bool = Fal
     _tell(built, as_json, [f"Carom has built {what}: {built.path}", advice])
 
 
+def _written(write: Callable[[str], Sequence[str]], folder: str) -> Sequence[str]:
+    with checking() as faults:
+        if folder is not None:
+            faults.trying(new_folder, folder)
+    return write(folder)
+
+
 def _tell(built: Any, as_json: bool, lines: list[str]) -> None:
     record = {"file": str(built.path), "version": built.version, "command": list(built.command)}
-    typer.echo(json.dumps(record, indent=2) if as_json else "\n".join(lines))
+    _print(record, as_json, "\n".join(lines))
+
+
+def _print(record: dict[str, Any], as_json: bool, words: str) -> None:
+    typer.echo(json.dumps(record, indent=2) if as_json else words)

@@ -19,7 +19,7 @@ from carom.cli.options import (
     name_option,
     whole_option,
 )
-from carom.cli.pack import pack_command
+from carom.cli.programs import pack_command
 from carom.cli.tables import TABLE, store_format, table_format_of
 from carom.io.paths import checked_output
 from carom.quantities.glossary import GLOSSARY
