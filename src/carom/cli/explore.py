@@ -43,7 +43,8 @@ def explore_command(
 
     Sliders change the impact while you watch the ball, the contact, the forces and the energies.
     The page also compares contact laws of DEM codes and fits your measurements. It runs until you
-    press Ctrl-C. What --export writes runs in the browser alone, without laws, fits and files.
+    press Ctrl-C, which ends it with exit code 0. What --export writes runs in the browser alone,
+    without laws, fits and files.
 
     \b
     Example: carom explore
