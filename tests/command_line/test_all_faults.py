@@ -52,6 +52,8 @@ impact case.toml --frction -1 --jsn
   : No such option: --frction, No such option: --jsn, friction
 impact --case case.toml --speed 2 m/s --angle x deg
   : No such option: --case, --speed, --angle, angle
+impact case.toml --speed --angle deg
+  : --speed, angle
 impact case.toml --material brass --material2 glass --angle 95deg
   : No such option: --material2, angle
 curve

@@ -258,9 +258,13 @@ def _tell_template(source: str | None, as_json: bool) -> None:
 
 
 def _sources(data: Sequence[str] | None, dataset: str | None) -> Sequence[str | Path]:
+    names = carom.datasets.names()
     if bool(data) == (dataset is not None):
-        names = ", ".join(carom.datasets.names())
-        raise InputError(f"data: give a file, or --dataset with one of {names}")
+        both = f"{' and '.join(data)} and --dataset are given; " if data else ""
+        listed = ", ".join(names)
+        raise InputError(f"data: {both}give a file, or --dataset with one of {listed}")
+    shipped = [name for name in data or () if name in names and not Path(name).exists()]
+    refuse(*(f"data: {name} comes with Carom; write --dataset {name}" for name in shipped))
     return data or [carom.datasets.path(str(dataset))]
 
 

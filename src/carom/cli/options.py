@@ -151,17 +151,18 @@ class Once(Quick, TyperCommand):
         """
         options = (each for each in self.get_params(ctx) if isinstance(each, TyperOption))
         wanting = {n: str(each.help) for each in options if not each.is_flag for n in each.opts}
-        kept: list[str] = []
-        for before, word, after in zip(["", "", *words], words, [*words, "--"][1:], strict=False):
+        kept = ["", ""]
+        for word, after in zip(words, [*words, "--"][1:], strict=True):
+            option, value = kept[-2:]
             if word in wanting and after.startswith("--"):
                 faults.append(f"{word}: its value is missing; {wanting[word].rstrip('.')}")
                 ctx.meta[VALUELESS].add(word.strip("-").replace("-", "_"))
-            elif before in wanting and is_unit(word) and not os.path.exists(word):
-                kept[-1] += f" {word}"
-                faults.append(f"{before}: write '{kept[-1]}' in quotes")
+            elif option in wanting and is_unit(word) and not os.path.exists(word):
+                kept[-1] = f"{value} {word}"
+                faults.append(f"{option}: write '{kept[-1]}' in quotes")
             else:
                 kept.append(word)
-        return kept
+        return kept[2:]
 
 
 def _is_value(option: str, after: list[str]) -> bool:
