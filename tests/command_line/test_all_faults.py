@@ -43,11 +43,23 @@ impact none.toml --friction -1 --method fem --elements x --steps 1
 impact --plot a.txt --output a.png --spectrum a.png --animate a.png
   : output file, output file, spectrum, output file, friction, radius, material, speed
 impact case.toml --colour red --json --json x --friction
-  : No such option: --colour, --json, x, Option '--friction'
+  : No such option: --colour, --json, x, --friction
+impact --speed
+  : --speed, friction, radius, material
+impact case.toml --material --frction --angle 95deg --steps
+  : --material, No such option: --frction, --friction, angle, --steps
 impact case.toml --frction -1 --jsn
   : No such option: --frction, No such option: --jsn, friction
+impact --case case.toml --speed 2 m/s --angle x deg
+  : No such option: --case, --speed, --angle, angle
+impact case.toml --speed --angle deg
+  : --speed, angle
+impact case.toml --material brass --material2 glass --angle 95deg
+  : No such option: --material2, angle
 curve
   : chi
+curve --points 0 --chi
+  : --chi, points
 curve --from x --to y --points 0
   : chi, from, to, points
 curve --chi x --chi -1 --restitution 2 --inelasticity 9 --plot a.txt
@@ -66,6 +78,14 @@ fit --steps x --seed -1 --advice 0 --fix x --confidence 2
   : data, advice, steps, seed, fix, confidence
 fit none.csv --for mu --plot a.txt --decimal x --share mu
   : for, output file, decimal, share
+fit none.csv --confidence 3 --fix x --case none.toml
+  : results, confidence, fix, case file
+fit none.csv case.toml --share mu --advice 3 --case none.toml
+  : advice, none.csv, none.csv, case.toml, case.toml
+fit --dataset kharaz2001 --vary e --confidence 3 --steps x
+  : steps, confidence, vary
+fit none.csv none.csv
+  : data
 fit --template x.csv --moon
   : No such option: --moon, template
 track
@@ -88,6 +108,8 @@ verify lammps --output a.csv --steps x
   : steps, output
 verify score --tolerance 0 --decimal x --case none.toml
   : results, tolerance, decimal, case file
+verify score none.csv --tolerance 0 --case none.toml
+  : results, tolerance, case file
 verify tune --kappa x --from y --restitution 0.5 --measure z
   : measure, restitution, kappa, psi_in, case
 verify tune case.toml --chi 1 --kappa 1 --from 95deg --to x --restitution 2
@@ -98,6 +120,14 @@ lammps build --sizes small --include none --moon
   : No such option: --moon, sizes, include
 lammps examples none/there --moon
   : No such option: --moon, folder
+verify tune case.toml --chi= --measure x
+  : chi, measure
+lammps build --folder= --sizes x
+  : folder, sizes
+liggghts build --source none --folder=
+  : folder
+liggghts build --folder --source
+  : --folder, --source
 liggghts build --moon --sun=2
   : No such option: --moon, No such option: --sun, source
 """  # a line, and what its faults are told of
@@ -121,10 +151,34 @@ def test_every_command_looks_at_all_words_first(words, refusal):
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
-def test_help_comes_whatever_else_is_wrong(words, run):
-    code, out, err = run(*words, "--moon", "--help")
+@pytest.mark.parametrize("option", ["--help", "-h"])
+def test_help_comes_whatever_else_is_wrong(option, words, run):
+    code, out, err = run(*words, "--moon", option)
     assert (code, err) == (0, "")
     assert out.startswith(f"Usage: carom {' '.join(words)} ")
+    assert "str>" not in out  # a type of Python
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("impact case.toml --angle 30 deg", "--angle: write '30 deg' in quotes"),
+        ("impact --case case.toml", "No such option: --case; give FILE alone"),
+        ("materials --name steel", "No such option: --name; give name alone"),
+        (
+            "sweep case.toml case.toml",
+            "case.toml: not expected; see carom sweep --help for the files that it takes",
+        ),
+    ],
+)
+def test_typical_slips_are_told_with_what_is_right(line, told, refusal):
+    Path("case.toml").write_text(CASE)
+    assert told in refusal(*line.split())
+
+
+def test_a_file_may_have_the_name_of_a_unit(run):
+    Path("mm").write_text(CASE)
+    assert run("impact", "--speed", "2", "mm")[0] == 0
 
 
 def test_a_misspelt_option_stands_for_the_one_that_is_meant(refusal):

@@ -95,6 +95,19 @@ def test_names_are_completed(words, asked):
     assert {*asked(*words, first[:2])} == {name for name in names if name.startswith(first[:2])}
 
 
+@pytest.mark.parametrize(
+    ("shell", "words", "answer"),
+    [
+        ("fish", ["--material=sta"], "--material=stainless-steel"),
+        ("zsh", ["--material=sta"], """_arguments '*: :(("--material=stainless-steel"))'"""),
+        ("bash", ["--material=sta"], "--material=stainless-steel"),
+        ("bash", ["--material", "=", "sta"], "stainless-steel"),  # which it makes of it by default
+    ],
+)
+def test_a_value_behind_an_equals_sign_is_completed(shell, words, answer, asked):
+    assert asked("impact", *words, shell=shell) == [answer]
+
+
 @pytest.mark.parametrize("words", FILES, ids=" ".join)
 @pytest.mark.parametrize("shell", SHELLS)
 def test_files_are_left_to_the_shell(words, shell, asked):
@@ -163,14 +176,16 @@ def shell_folder(tmp_path):
 
 BASH = """
 source <(carom --show-completion bash)
-for line in 'carom im' 'carom impact --sec' 'carom impact --material sta' 'carom impact ball'; do
+for line in 'carom im' 'carom impact --sec' 'carom impact --material sta' \
+  'carom impact --material = sta' 'carom impact ball'; do
 COMP_WORDS=($line); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); COMPREPLY=(); _carom_completion carom
 echo ${COMPREPLY[@]}
 done
 """
 FISH = """
 carom --show-completion fish | source
-for line in 'carom im' 'carom impact --sec' 'carom impact --material sta' 'carom impact ball'
+for line in 'carom im' 'carom impact --sec' 'carom impact --material sta' \
+  'carom impact --material=sta' 'carom impact ball'
 echo (complete -C $line)
 end
 """
@@ -178,7 +193,8 @@ ZSH = """
 zmodload zsh/zpty
 zpty z zsh -i
 sleep 2
-for line in 'carom im' 'carom impact --sec' 'carom impact --material sta' 'carom impact ball'; do
+for line in 'carom im' 'carom impact --sec' 'carom impact --material sta' \
+  'carom impact --material=sta' 'carom impact ball'; do
 zpty -w -n z "$line"$'\\t'
 sleep 4
 zpty -w -n z $'\\x15'
@@ -198,8 +214,9 @@ def test_shells_take_what_the_script_says(shell, script, shell_folder):
     folder, environment = shell_folder
     done = subprocess.run([shell, "-c", script], cwd=folder, env=environment, capture_output=True)
     lines = [sorted(line.split()) for line in done.stdout.decode().splitlines()]
-    assert lines[:3] == [sorted(each.split()) for each in COMPLETED]
-    assert lines[3] == (["ball.toml"] if shell == "fish" else [])
+    behind = ["--material=stainless-steel" if shell == "fish" else "stainless-steel"]
+    assert lines[:4] == [*(sorted(each.split()) for each in COMPLETED), behind]
+    assert lines[4] == (["ball.toml"] if shell == "fish" else [])
 
 
 @pytest.mark.slow
@@ -212,5 +229,6 @@ def test_zsh_completes_from_the_first_tab_on(shell_folder):
     subprocess.run(install, env=environment, check=True, capture_output=True)
     done = subprocess.run(["zsh", "-c", ZSH], cwd=folder, env=environment, capture_output=True)
     shown = done.stdout.decode(errors="replace")
-    for text in ("carom impact", "--second-", "--material stainless-steel", "impact ball.toml"):
+    texts = ("carom impact", "--second-", "--material stainless-steel", "impact ball.toml")
+    for text in (*texts, "--material=stainless-steel"):
         assert text in shown, shown

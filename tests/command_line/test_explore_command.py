@@ -100,7 +100,10 @@ def test_an_address_of_ipv6():
 @pytest.mark.slow
 @pytest.mark.parametrize("end", ["SIGINT", "SIGTERM", "SIGKILL"])
 def test_an_end_is_one_at_once_and_leaves_no_process_behind(end):
-    """Whatever is at work; those that fit and write files go even if nobody is left to end them."""
+    """Whatever is at work; those that fit and write files go even if nobody is left to end them.
+
+    Ctrl-C, which the page tells people to press, is no failure.
+    """
     psutil = pytest.importorskip("psutil")
     arguments = [*COMMAND, "--port", "0", "--json"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
@@ -117,7 +120,7 @@ def test_an_end_is_one_at_once_and_leaves_no_process_behind(end):
             server.send_signal(getattr(signal, end))
             server.wait(timeout=10)
         assert server.stderr.read() == ""
-    assert server.returncode == {"SIGINT": 130, "SIGTERM": 143, "SIGKILL": -9}[end]
+    assert server.returncode == {"SIGINT": 0, "SIGTERM": 143, "SIGKILL": -9}[end]
     psutil.wait_procs(helpers, timeout=60)  # they may have to load, or compile, first
     assert len(helpers) == 2
     assert not any(helper.is_running() for helper in helpers)

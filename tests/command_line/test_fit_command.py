@@ -98,6 +98,8 @@ def test_files_are_stored(run, tmp_path):
     [
         ((), "give a file, or --dataset"),
         (("data.csv", "--dataset", "kharaz2001"), "give a file, or --dataset"),
+        (("data.csv", "--dataset", "kharaz2001"), "data.csv and --dataset are given; "),
+        (("kharaz2001",), "data: kharaz2001 comes with Carom; write --dataset kharaz2001\n"),
         (
             ("data.csv",),
             "; give pair=carom.Pair(...) in Python or --case FILE in a shell, or write",

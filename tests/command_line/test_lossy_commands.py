@@ -13,7 +13,7 @@ from typer.main import get_command
 import carom
 from carom import plots
 from carom.bodies.cases import LOSSES, MOTION, RATIO, losses_of
-from carom.cli import app
+from carom.cli.commands import app
 
 BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
 SPEED = ["--speed", "2", "--angle", "30 deg"]

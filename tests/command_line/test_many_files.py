@@ -9,6 +9,7 @@ import pytest
 from tests.checks import CASE
 
 import carom
+from carom.io import progress
 
 REBOUNDS = carom.datasets.path("kharaz2001").read_bytes()
 TRACK = Path(__file__).parents[2] / "examples" / "data" / "track_deeplabcut.csv"
@@ -99,6 +100,22 @@ def test_several_impacts(run, typed):
     lines = out.splitlines()
     tables = [run("impact", f"{name}.toml", "--friction", "0.3")[1].splitlines() for name in "ab"]
     assert lines == ["a.toml", *tables[0], "b.toml", *tables[1]]
+
+
+def test_several_impacts_tell_how_many_are_solved(run, monkeypatch):
+    """JSON comes at the end, as one document; one impact alone tells its own progress."""
+    monkeypatch.setattr(progress, "PATIENCE", dict.fromkeys(progress.Place, 0.0))
+    Path("a.toml").write_text(CASE)
+    Path("b.toml").write_text(CASE.replace("0.2", "0.4"))
+    words = ("--method", "halfspace", "--elements", "16", "--steps", "40", "--json")
+    code, out, err = run("impact", "a.toml", "b.toml", *words)
+    assert (code, len(json.loads(out))) == (0, 2)
+    assert err.splitlines()[-1] == "solving the impacts: 2/2, 0:00:00 left"
+    assert "solving by boundary elements" not in err
+    code, out, err = run("impact", "a.toml", *words)
+    assert (code, type(json.loads(out))) == (0, dict)
+    assert "solving the impacts" not in err
+    assert "solving by boundary elements: " in err
 
 
 def test_faults_of_several_impacts_are_told_by_file(refusal):

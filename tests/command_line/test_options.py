@@ -37,6 +37,23 @@ def test_no_option_is_given_twice(words, refusal):
         assert "given 2 times; leave all but one out" in line
 
 
+@pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
+def test_an_option_without_its_value_is_told_once_with_what_it_wants(words, refusal):
+    """At the end of a line, and before another option, which is not taken for its value."""
+    options = [each for each in COMMANDS[words].params if each.param_type_name == "option"]
+    for option in (each for each in options if not each.is_flag):
+        name = option.opts[0]
+        for line in ([name], [name, "--json"]):
+            told = refusal(*words, *line)
+            assert told.count(f"{name}: its value is missing; {option.help.rstrip('.')}") == 1
+            assert f" {name.strip('-').replace('-', '_')}: missing" not in told
+
+
+@pytest.mark.parametrize("text", ["-5 rad/s", "-"])
+def test_values_may_begin_with_a_hyphen(text, refusal):
+    assert "its value is missing" not in refusal("impact", "--spin", text)
+
+
 @pytest.mark.parametrize(("name", "word"), LISTS.items())
 def test_lists_are_given_as_often_as_one_likes(name, word):
     (command,) = (each for words, each in COMMANDS.items() if words[-1] == word)

@@ -11,12 +11,11 @@ import signal
 import sys
 import warnings
 from contextlib import suppress
-from typing import Any, Never
+from typing import Never
 
 UNWRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
 FAILED, REFUSED, INTERRUPTED = 1, 2, 130  # exit codes
 ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
-
 
 heard: list[int] = []  # signals that are to end this process
 
@@ -81,14 +80,6 @@ def _end(number: int, _: object) -> Never:
     if number == signal.SIGINT:
         raise KeyboardInterrupt
     sys.exit(128 + number)
-
-
-def __getattr__(name: str) -> Any:
-    if name != "app":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from carom.cli.commands import app
-
-    return app
 
 
 def _open_all() -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
+from carom.io.paths import replace_whole
 from carom.quantities.refusals import Faults, InputError, checked_type, refusal, refuse
 
 if TYPE_CHECKING:
@@ -118,3 +119,9 @@ def store(result: "Result", output: str | None, plot: str | None) -> None:
 def stored(path: str | Path) -> None:
     """Tell that a file was written."""
     typer.echo(f"Carom has stored {path}.", err=True)
+
+
+def store_text(text: str, name: str) -> None:
+    """Store a text in UTF-8, and tell that."""
+    replace_whole(Path(name), lambda f: f.write_text(text, encoding="utf-8", newline="\n"))
+    stored(name)

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import typer
 from typer import completion
@@ -16,10 +17,28 @@ LOADED = '\n[ "$funcstack[1]" = _carom ] && _carom_completion "$@"\n'
 NAMES = {"prog_name": "carom", "complete_var": ASKED}
 
 
+class WithValues:
+    """How a shell completes --option=VALUE: a word of its own, or three as in bash."""
+
+    def get_completions(self, args: list[str], incomplete: str) -> list[Any]:
+        """Return what the word may become; the option stays in front of its value."""
+        before = args[:-1] if args[-1:] == ["="] else args
+        items: list[Any] = super().get_completions(before, incomplete)  # type: ignore[misc]
+        option, equals, _ = incomplete.partition("=")
+        if equals and option.startswith("--"):
+            for item in items:
+                item.value = f"{option}={item.value}"
+        return items
+
+
 def prepare() -> None:
     """Let typer know the shells, if one of them asks."""
     if ASKED in os.environ:
         completion.completion_init()  # type: ignore[attr-defined]
+        known = completion.shell_completion  # type: ignore[attr-defined]
+        for shell in SHELLS:
+            kind = type(shell, (WithValues, known.get_completion_class(shell)), {})
+            known.add_completion_class(kind, shell)
 
 
 def show(shell: str) -> None:

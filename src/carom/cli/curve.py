@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
-from carom.cli.cases import check_outputs, require_some, stored
-from carom.cli.options import checking, described, name_option, store_text, whole_option
+from carom.cli.cases import check_outputs, require_some, store_text, stored
+from carom.cli.options import checking, described, name_option, whole_option
 from carom.io.paths import checked_output
 from carom.quantities.refusals import Faults, one_of, refusal
 from carom.quantities.units import finite, or_none, positive, whole
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from carom.bodies.losses import KelvinVoigt, ZenerPlate
-    from carom.laws.exact import ReboundLaw
 
 PRINTED_ROWS = 17
 MOST_POINTS = 100_000
@@ -90,7 +89,10 @@ def curve_command(
         if None not in (first, last) and first >= last:
             faults.add(str(refusal("to", last, f"must be above --from, {first:g}")))
     if export is not None:
-        _export([carom.laws.ReboundLaw(value, losses=losses) for value in values], output)
+        from carom.laws.header import c_header
+
+        text = c_header([carom.laws.ReboundLaw(value, losses=losses) for value in values])
+        typer.echo(text, nl=False) if output is None else store_text(text, output)
         return
     import numpy as np
 
@@ -125,16 +127,6 @@ def _check_export(language: str, output: str | None, others: dict[str, Any]) -> 
         faults.add(*(f"{n}: has no effect with --export; leave one of them out" for n in unused))
         if output is not None:
             faults.trying(checked_output, output, HEADERS)
-
-
-def _export(laws: "list[ReboundLaw]", output: str | None) -> None:
-    from carom.laws.header import c_header
-
-    text = c_header(laws)
-    if output is None:
-        typer.echo(text, nl=False)
-        return
-    store_text(text, output)
 
 
 def _records(dataset: "xr.Dataset") -> list[dict[str, Any]]:

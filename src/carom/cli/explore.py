@@ -43,7 +43,8 @@ def explore_command(
 
     Sliders change the impact while you watch the ball, the contact, the forces and the energies.
     The page also compares contact laws of DEM codes and fits your measurements. It runs until you
-    press Ctrl-C. What --export writes runs in the browser alone, without laws, fits and files.
+    press Ctrl-C, which ends it with exit code 0. What --export writes runs in the browser alone,
+    without laws, fits and files.
 
     \b
     Example: carom explore
@@ -70,8 +71,8 @@ def explore_command(
         from carom.explorer.serving import serving
 
         serving(bound, host).serve()
-    ended = heard[0] if heard else signal.SIGINT
-    os._exit(128 + ended)  # without waiting for threads that are at work
+    code = 128 + heard[0] if heard and heard[0] != signal.SIGINT else 0  # Ctrl-C is its end
+    os._exit(code)  # without waiting for threads that are at work
 
 
 def _export(folder: str, as_json: bool) -> None:

@@ -14,16 +14,14 @@ from carom.cli import completion
 from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
 from carom.cli.options import (
     ARGUMENTS,
-    TABLE,
     checking,
     described,
     file_argument,
     file_option,
     name_option,
-    store_format,
-    table_format_of,
     whole_option,
 )
+from carom.cli.tables import TABLE, store_format, table_format_of
 from carom.quantities.refusals import Faults, InputError, refusal, refuse
 from carom.quantities.units import whole
 
@@ -32,6 +30,9 @@ if TYPE_CHECKING:
     from carom.fitting import Fit, JointFit
     from carom.fitting.advice import Advice
     from carom.io.heads import TableFormat
+    from carom.io.user_table import UserTable
+
+    Measured = tuple[UserTable, Pair | None]
 
 ONE_SET = "it is of one set of data; give one file"
 OPTIONS = {
@@ -135,7 +136,7 @@ def fit_command(
         sources, cases = faults.trying(_sources, data, dataset) or [], case or []
         numbers = faults.trying(_checked_numbers, advice, about, steps, seed)
         outputs = {"plot": plot, "output": output, "posterior": posterior, "report": report}
-        inputs = {**_numbered("data", sources), **_numbered("case", [*dict.fromkeys(cases)])}
+        inputs = _numbered("data", sources) | _numbered("case", cases)
         faults.trying(check_outputs, outputs, **inputs)
         how = faults.trying(table_format_of, given)
         options: dict[str, Any] = {"robust": not squares}
@@ -144,15 +145,9 @@ def fit_command(
         options["confidence"] = faults.trying(checked_confidence, confidence)
         alone = {"advice": advice, "posterior": posterior}
         faults.trying(_check_count, len(sources), cases, share, alone)
-        sets = faults.trying(_sets, sources) or {}
-        pairs = faults.trying(_pairs, sets, cases, thickness, how)
+        read = how and faults.trying(_read, sources, cases, thickness, how, options)
         faults.settle()
-        options |= how._asdict()
-        fit: Any = (
-            carom.joint_fit(sets, share=_names(share or ""), pair=pairs, **options)
-            if len(sets) > 1
-            else carom.fit(sources[0], pair=pairs[0], **options)
-        )
+        fit = _fitted(read, _names(share or ""), options)
         count, sampling = numbers
         advised = None if count is None else fit.advice(count, about)
     store_format(how, given["save_columns"])
@@ -196,8 +191,9 @@ def _names(text: str) -> list[str]:
 
 
 def _numbered(name: str, paths: Sequence[str | Path]) -> dict[str, str | Path]:
-    """Return files by names: data, data 2, data 3."""
-    return {name if place == 1 else f"{name} {place}": path for place, path in enumerate(paths, 1)}
+    """Return files, each once, by names: data, data 2, data 3."""
+    own = dict.fromkeys(paths)
+    return {name if place == 1 else f"{name} {place}": path for place, path in enumerate(own, 1)}
 
 
 def _check_count(
@@ -213,27 +209,43 @@ def _check_count(
         refuse(share and refusal("share", share, many), cases[1:] and f"case: {many}")
 
 
-def _pairs(
-    sets: Mapping[str, Any], cases: Sequence[str], thickness: str | None, how: "TableFormat"
-) -> list["Pair | None"]:
-    """Return the bodies of each file."""
-    own: list[str | None] = [*cases] or [None]
-    own = own if len(own) == len(sets) else own[:1] * len(sets)
-    with Faults() as faults:
-        pairs = []
-        for (name, source), case in zip(sets.items(), own, strict=True):
-            with faults.catching(name):
-                pairs.append(_pair(case, thickness, source, how))
-    return pairs
-
-
-def _sets(sources: Sequence[str | Path]) -> dict[str, Any]:
-    """Return files by the names that they have in messages, which one alone does not need."""
+def _read(
+    sources: Sequence[str | Path],
+    cases: Sequence[str],
+    thickness: str | None,
+    how: "TableFormat",
+    options: Mapping[str, Any],
+) -> "dict[str, Measured]":
+    """Return what was measured of which bodies, by the names of the files, if it can be fitted."""
     from carom.fitting.joint_result import named_sets
+    from carom.fitting.options import read_options
+    from carom.fitting.reading import read_problem, read_rebounds
 
-    if len(sources) > 1:
-        return named_sets(sources)
-    return dict(zip([""], sources, strict=False))
+    names = [*named_sets(sources)] if len(sources) > 1 else [""][: len(sources)]
+    own: list[str | None] = [*cases] or [None]
+    own = own if len(own) == len(sources) else own[:1] * len(sources)
+    read = {}
+    with Faults() as faults:
+        for name, source, case in zip(names, sources, own, strict=True):
+            with faults.catching(name), Faults() as both:
+                table = both.trying(read_rebounds, source, **how._asdict())
+                pair = both.trying(_pair, case, thickness, table)
+                both.settle()
+                problem, fixed = read_problem(table, pair), options["fixed"]
+                if fixed is not None:  # which could be read
+                    read_options(problem, options["vary"], fixed)
+                read[name] = table, pair
+    return read
+
+
+def _fitted(
+    read: "Mapping[str, Measured]", share: Sequence[str], options: Mapping[str, Any]
+) -> Any:
+    tables, pairs = zip(*read.values(), strict=True)
+    if len(read) == 1:
+        return carom.fit(tables[0], pair=pairs[0], **options)
+    sets = dict(zip(read, tables, strict=True))
+    return carom.joint_fit(sets, share=share, pair=pairs, **options)
 
 
 def _tell_template(source: str | None, as_json: bool) -> None:
@@ -247,22 +259,24 @@ def _tell_template(source: str | None, as_json: bool) -> None:
 
 
 def _sources(data: Sequence[str] | None, dataset: str | None) -> Sequence[str | Path]:
+    names = carom.datasets.names()
     if bool(data) == (dataset is not None):
-        names = ", ".join(carom.datasets.names())
-        raise InputError(f"data: give a file, or --dataset with one of {names}")
+        both = f"{' and '.join(data)} and --dataset are given; " if data else ""
+        listed = ", ".join(names)
+        raise InputError(f"data: {both}give a file, or --dataset with one of {listed}")
+    shipped = [name for name in data or () if name in names and not Path(name).exists()]
+    refuse(*(f"data: {name} comes with Carom; write --dataset {name}" for name in shipped))
     return data or [carom.datasets.path(str(dataset))]
 
 
-def _pair(
-    case: str | None, thickness: str | None, source: str | Path, how: "TableFormat"
-) -> "Pair | None":
+def _pair(case: str | None, thickness: str | None, table: Any) -> "Pair | None":
     """Return the bodies of a case file, or of the data if these get another thickness."""
     from carom.bodies.cases import LOSSES, RATIO, pair_of
     from carom.fitting.reading import START_FRICTION, case_of_data
 
-    if case is None and thickness is None:
+    if case is None and (thickness is None or table is None):
         return None
-    content = case_of_data(source, how) if case is None else read_case_file(case, losses=True)
+    content = case_of_data(table) if case is None else read_case_file(case, losses=True)
     if thickness is not None:
         content = {**content, "second": {**content.get("second", {}), "thickness": thickness}}
     hint = "a fit finds the restitution; if you know it, leave it out of the case and give --fix, "

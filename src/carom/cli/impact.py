@@ -13,6 +13,7 @@ import carom
 from carom.cli import completion
 from carom.cli.cases import check_outputs, merged, outputs, stored, tell_sweep
 from carom.cli.options import checking, described, file_argument, name_option, whole_option
+from carom.io.progress import advancing
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, one_of, refusal
 from carom.quantities.units import finite, whole
@@ -169,15 +170,17 @@ def impact_command(
         faults.add(*(str(refusal("output file", file, words)) for file in several))
     spin: dict[str, Any] = {} if normal_spin is None else {"normal_spin": normal_spin}
     records, paths = [], list[Path]()
-    for name, one in zip(files, read, strict=True):
-        hit = carom.impact(one.pair, **one.motion | spin, losses=one.losses, method=solver)
-        head = f"{name}\n" if len(read) > 1 else ""
-        told = _record(hit, peaks=peaks) if as_json else head + _text(hit, peaks=peaks)
-        paths += _store(hit, one.files)
-        if as_json:
-            records.append(told)
-        else:
-            typer.echo(told)
+    shown = None if len(read) > 1 else False  # one alone shows its own progress
+    with advancing("solving the impacts", len(read), shown) as advance:
+        for name, one in zip(files, read, strict=True):
+            hit = carom.impact(one.pair, **one.motion | spin, losses=one.losses, method=solver)
+            told = _told(hit, peaks=peaks, as_json=as_json)
+            paths += _store(hit, one.files)
+            if as_json:
+                records.append(told)
+            else:
+                typer.echo(f"{name}\n{told}" if len(read) > 1 else told)
+            advance(1)
     if as_json:
         typer.echo(json.dumps(records if len(records) > 1 else records[0], indent=2))
     for path in paths:
@@ -220,22 +223,17 @@ def _read(path: str | None, flags: Mapping[str, Any]) -> _Case:
     return _Case(pair, motion, losses, files)
 
 
-def _record(hit: "ImpactResult", *, peaks: bool) -> dict[str, Any]:
-    from carom.impacts.peaks import peaks_record
+def _told(hit: "ImpactResult", *, peaks: bool, as_json: bool) -> Any:
+    """Return an impact as a record for JSON, or as a text."""
+    told: Any = hit.to_dict() if as_json else str(hit)
+    if not peaks:
+        return told
+    from carom.impacts.peaks import peaks_record, peaks_text
 
-    return hit.to_dict() | ({"peaks": peaks_record(_peaks(hit))} if peaks else {})
-
-
-def _text(hit: "ImpactResult", *, peaks: bool) -> str:
-    from carom.impacts.peaks import peaks_text
-
-    return f"{hit}\n{peaks_text(_peaks(hit))}" if peaks else str(hit)
-
-
-def _peaks(hit: "ImpactResult") -> Any:
-    if isinstance(hit, carom.results.Impact):
-        return hit.peaks()
-    raise InputError(NO_PEAKS)
+    if not isinstance(hit, carom.results.Impact):
+        raise InputError(NO_PEAKS)
+    found = hit.peaks()
+    return told | {"peaks": peaks_record(found)} if as_json else f"{told}\n{peaks_text(found)}"
 
 
 def _method(name: str, numbers: Mapping[str, str | None]) -> Any:
@@ -249,7 +247,7 @@ def _method(name: str, numbers: Mapping[str, str | None]) -> Any:
         counts = {n: faults.trying(whole, n, text, *RANGES[n]) for n, text in there.items()}
         words = "it is an option of boundary elements; add --method halfspace"
         if name == "exact":
-            faults.add(*(str(refusal(key, value, words)) for key, value in counts.items()))
+            faults.add(*(str(refusal(n, counts[n] or there[n], words)) for n in counts))
     return carom.BoundaryElements(**counts)
 
 

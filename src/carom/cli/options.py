@@ -11,25 +11,21 @@ from collections.abc import Callable, Iterable, Mapping
 from contextvars import ContextVar
 from difflib import get_close_matches
 from inspect import Parameter, Signature, signature
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar, get_origin
+from typing import Annotated, Any, TypeVar, get_origin
 
 import typer
 from typer.core import TyperCommand, TyperGroup, TyperOption
 
-from carom.cli.cases import named_values, stored
-from carom.io.paths import checked_output, replace_whole
 from carom.quantities.glossary import meant, remark
-from carom.quantities.refusals import Faults, clipped, nearest
-
-if TYPE_CHECKING:
-    from carom.io.heads import TableFormat
+from carom.quantities.refusals import Faults, InputError, clipped, nearest
+from carom.quantities.texts import is_unit
 
 Command = TypeVar("Command", bound=Callable[..., None])
 Names = Iterable[str] | Callable[[], Iterable[str]]
 
 ARGUMENTS = "carom.arguments"  # of a command as they were given, in `meta` of its context
 FAULTS = "carom.faults"  # of these arguments, there as well
+VALUELESS = "carom.valueless"  # names of the options that lack their value
 MISSPELT = 0.8  # how similar a word is to the one it stands for
 
 _line: ContextVar[tuple[str, ...]] = ContextVar("line", default=())  # its faults so far
@@ -41,23 +37,8 @@ def file_option(words: str) -> Any:
 
 
 COMMON: dict[str, Any] = {
-    "as_json": typer.Option("--json", help="Print JSON instead of a table."),
+    "as_json": typer.Option("--json", help="Print JSON instead of text."),
     "plot": "Store a figure of the result: .png, .pdf or .svg.",
-}
-TABLE: dict[str, Any] = {  # how a user's table is read
-    "column": Annotated[
-        list[str] | None,
-        typer.Option(
-            help="The quantity in a column of your table that has another name, e.g. omega=spin, "
-            "or 'w=spin [rpm]' with its unit. You can repeat this option."
-        ),
-    ],
-    "columns": file_option(
-        "TOML file that says it for many columns, in a table [columns], as --save-columns writes."
-    ),
-    "sheet": "The sheet of a spreadsheet; FILE:SHEET says it, too.",
-    "decimal": "Decimal sign of the numbers in the file, ',' or '.', where they leave it open.",
-    "save_columns": file_option("Store --column, --sheet and --decimal for --columns: .toml."),
 }
 
 
@@ -94,11 +75,22 @@ class Group(Quick, TyperGroup):
 class Once(Quick, TyperCommand):
     """A command that refuses an option given twice, unless it is one of several values."""
 
+    def __init__(self, *given: Any, **named: Any) -> None:
+        """Make the command, whose help names no types of Python."""
+        super().__init__(*given, **named)
+        for param in self.params:
+            word = "VALUE" if isinstance(param, TyperOption) else ""
+            vars(param)["display_type"] = lambda _, word=word: word
+
     def invoke(self, ctx: Any) -> Any:
         """Run the command; raises Interrupted for a KeyboardInterrupt."""
         token = _line.set(ctx.meta[FAULTS])
         try:
             return super().invoke(ctx)
+        except InputError as error:  # a value that is missing is told once
+            twice = [f"{name}: missing" for name in ctx.meta[VALUELESS]]
+            told = (each for each in error.faults if not any(one in each for one in twice))
+            raise InputError(*told) from None
         except KeyboardInterrupt as error:
             raise Interrupted(*error.args) from None
         finally:
@@ -111,6 +103,7 @@ class Once(Quick, TyperCommand):
         """
         ctx.meta[ARGUMENTS] = tuple(args)
         faults: list[str] = []
+        ctx.meta[VALUELESS] = set[str]()
         given, rest, order = self._parsed(ctx, list(args), faults)
         for option, count in Counter(order).items():
             if count > 1 and isinstance(option, TyperOption) and not option.multiple:
@@ -128,6 +121,8 @@ class Once(Quick, TyperCommand):
                 faults.append(f"{param.name}: missing; give {what}")
         if rest:
             advice = "put a value with blanks into quotes, e.g. '30 deg'"
+            if any(map(os.path.exists, rest)):
+                advice = f"see {ctx.command_path} --help for the files that it takes"
             faults.append(f"{clipped(shlex.join(rest))}: not expected; {advice}")
         ctx.meta[FAULTS], ctx.args = tuple(faults), rest
         return list(rest)
@@ -135,17 +130,39 @@ class Once(Quick, TyperCommand):
     def _parsed(self, ctx: Any, words: list[str], faults: list[str]) -> Any:
         """Return values by name, words left over and the order of parameters; collect faults."""
         while True:
+            words = self._with_values(ctx, words, faults)
             left = list(words)
             try:
                 return self.make_parser(ctx).parse_args(left)
             except typer.TyperException as error:
                 place = len(words) - len(left) - 1
                 near, known = option_meant(error)
+                known = None if known in words else known
                 faults.append(f"{(error.message if near else error.format_message()).rstrip('.')}")
                 faults[-1] += f"; {near}" * bool(near)
                 value = left[:1] if known is None and _is_value(words[place], left) else []
                 instead = [] if known is None else [known, *words[place].split("=", 1)[1:]]
                 words[place : place + 1 + len(value)] = instead
+
+    def _with_values(self, ctx: Any, words: list[str], faults: list[str]) -> list[str]:
+        """Return the words without options whose value is missing, units joined to their numbers.
+
+        Both are faults, which it collects.
+        """
+        options = (each for each in self.get_params(ctx) if isinstance(each, TyperOption))
+        wanting = {n: str(each.help) for each in options if not each.is_flag for n in each.opts}
+        kept = ["", ""]
+        for word, after in zip(words, [*words, "--"][1:], strict=True):
+            option, value = kept[-2:]
+            if word in wanting and after.startswith("--"):
+                faults.append(f"{word}: its value is missing; {wanting[word].rstrip('.')}")
+                ctx.meta[VALUELESS].add(word.strip("-").replace("-", "_"))
+            elif option in wanting and is_unit(word) and not os.path.exists(word):
+                kept[-1] = f"{value} {word}"
+                faults.append(f"{option}: write '{kept[-1]}' in quotes")
+            else:
+                kept.append(word)
+        return kept[2:]
 
 
 def _is_value(option: str, after: list[str]) -> bool:
@@ -160,7 +177,10 @@ def option_meant(error: typer.TyperException) -> tuple[str, str | None]:
     context = getattr(error, "ctx", None)
     if not word or context is None or type(error).__name__ != "NoSuchOption":
         return "", None
-    options = [name for each in context.command.params for name in each.opts]
+    arguments = [each for each in context.command.params if not isinstance(each, TyperOption)]
+    if there := [each.metavar or each.name for each in arguments if each.name == word]:
+        return f"give {there[0]} alone", None
+    options = [name for each in context.command.params for name in each.opts if name[0] == "-"]
     names = {name.strip("-").replace("-", "_"): name for name in options}
     name = meant(word, names)
     if name:
@@ -176,6 +196,7 @@ class Commands(typer.Typer):
     def __init__(self, name: str, words: str, kind: type[Group] = Group) -> None:
         plain: dict[str, Any] = {"rich_markup_mode": None, "pretty_exceptions_enable": False}
         plain |= {"no_args_is_help": True, "add_completion": False, "cls": kind}
+        plain |= {"context_settings": {"help_option_names": ["--help", "-h"]}}
         super().__init__(name=name, help=words, **plain)
 
     def command(self, name: str | None = None, **more: Any) -> Callable[..., Any]:
@@ -203,33 +224,6 @@ def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
     return decorate
 
 
-def table_format_of(given: Mapping[str, Any], example: str = "omega=spin_out") -> "TableFormat":
-    """Return how a table is to be read by the options `TABLE`, or raise InputError."""
-    from carom.io.heads import table_format
-
-    with Faults() as faults:
-        if given["save_columns"] is not None:
-            faults.trying(checked_output, given["save_columns"], (".toml",))
-        own = faults.trying(table_format, given["columns"], given["sheet"], given["decimal"])
-        names = faults.trying(named_values, "column", given["column"], example)
-    how: TableFormat = own._replace(columns={**own.columns, **names})
-    return how
-
-
-def store_format(how: "TableFormat", name: str | None) -> None:
-    """Store how a table is read, if that is asked for."""
-    from carom.io.heads import as_toml
-
-    if name is not None:
-        store_text(as_toml(how), name)
-
-
-def store_text(text: str, name: str) -> None:
-    """Store a text in UTF-8, and tell that."""
-    replace_whole(Path(name), lambda f: f.write_text(text, encoding="utf-8", newline="\n"))
-    stored(name)
-
-
 def _with_help(parameter: Parameter, option: Any) -> Parameter:
     if get_origin(option) is not Annotated:
         told = typer.Option(help=option) if isinstance(option, str) else option
@@ -244,12 +238,7 @@ def file_argument(words: str) -> Any:
 
 def name_option(words: str, names: Names) -> Any:
     """Return the option of a name; shells complete those that there are."""
-    return typer.Option(help=words, autocompletion=completing(names))
-
-
-def completing(names: Names) -> Callable[[], Iterable[str]]:
-    """Return what typer asks for the names that complete a word."""
-    return names if callable(names) else lambda: names
+    return typer.Option(help=words, autocompletion=names if callable(names) else lambda: names)
 
 
 def whole_option(words: str) -> Any:

@@ -1,13 +1,14 @@
-"""`carom lammps`, `carom liggghts build`: the exact contact law in DEM programs."""
+"""What goes to DEM programs: the exact contact law, inputs that use it, the benchmark pack."""
 
 import json
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import typer
 
 from carom.cli.options import Commands, checking, described, name_option
-from carom.io.paths import new_folder
+from carom.io.paths import checked_path, new_folder
 from carom.quantities.refusals import one_of
 
 lammps_app = Commands(
@@ -35,10 +36,7 @@ LAMMPS = {
     ),
     "folder": "Folder for the plugin (default: the folder in which LAMMPS finds it by itself).",
 }
-EXAMPLES = {
-    "folder": typer.Argument(help="New or empty folder for the inputs.", metavar="FOLDER"),
-    "as_json": typer.Option("--json", help="Print JSON instead of a summary."),
-}
+NEW = {"folder": typer.Argument(help="New or empty folder, e.g. bench.", metavar="FOLDER")}
 LIGGGHTS = {
     "source": typer.Option(metavar="PATH", help="Folder or tarball of LIGGGHTS-PUBLIC 3.8.0."),
     "folder": "Folder for the program (default: that in which carom verify liggghts looks).",
@@ -67,11 +65,11 @@ def lammps_command(
 
     with checking() as faults:
         faults.trying(one_of, "sizes", sizes, adapter.SIZES)
+        own = faults.if_given(checked_path, "folder", folder, "folder")
         places = tuple(map(Path, include or ()))
         program = adapter.from_sources(places) if places else adapter.installed()
     program = program._replace(sizes=sizes) if places else program
-    default = adapter.folder(program.version if places else None)
-    target = default if folder is None else Path(folder)
+    target = own or adapter.folder(program.version if places else None)
     with advancing("compiling the plugin", None):
         built = adapter.build(program, target)
     flags = " ".join(word for word in built.command if word.startswith(("-O", "-m", "-f", "-D")))
@@ -85,7 +83,7 @@ def lammps_command(
 
 
 @lammps_app.command("examples")
-@described(EXAMPLES)
+@described(NEW)
 def examples_command(folder: str, as_json: bool = False) -> None:
     """Write inputs for LAMMPS that use the exact law.
 
@@ -95,17 +93,31 @@ def examples_command(folder: str, as_json: bool = False) -> None:
     \b
     Example: carom lammps examples inputs
     """
-    from carom.adapters import lammps as adapter
+    from carom.adapters.lammps import write_examples
 
-    with checking() as faults:
-        if folder is not None:
-            faults.trying(new_folder, folder)
-    files = adapter.write_examples(folder)
-    if as_json:
-        typer.echo(json.dumps({"folder": folder, "files": files}, indent=2))
-        return
-    typer.echo(f"Carom has written {', '.join(files)} into {folder}.")
-    typer.echo(f"Run them after carom lammps build: lmp -in {folder}/in.impact")
+    files = _written(write_examples, folder)
+    words = f"Carom has written {', '.join(files)} into {folder}.\n"
+    words += f"Run them after carom lammps build: lmp -in {folder}/in.impact"
+    _print({"folder": folder, "files": files}, as_json, words)
+
+
+@described(NEW)
+def pack_command(folder: str, as_json: bool = False) -> None:
+    """Write the benchmark pack for developers of DEM codes.
+
+    Use this command to test a DEM code that you write. The pack holds reference impacts with error
+    bars, and inputs of DEM codes for them. A version of the pack has the same numbers, to the last
+    byte, wherever it is written.
+
+    \b
+    Example: carom verify pack bench
+    """
+    from carom.verify.pack import VERSION, write_pack
+
+    files = _written(write_pack, folder)
+    what = f"benchmark pack {VERSION}, {len(files)} files, into {folder}"
+    words = f"Carom has written {what}. Start with its README.md."
+    _print({"version": VERSION, "folder": folder, "files": files}, as_json, words)
 
 
 @liggghts_app.command("build")
@@ -121,14 +133,25 @@ def liggghts_command(source: str, folder: str | None = None, as_json: bool = Fal
     """
     from carom.adapters import liggghts
 
-    checking().settle()
-    target = liggghts.program().parent if folder is None else Path(folder)
-    built = liggghts.build(Path(source), target)
+    with checking() as faults:
+        own = faults.if_given(checked_path, "folder", folder, "folder")
+    built = liggghts.build(Path(source), own or liggghts.program().parent)
     what = f"LIGGGHTS {built.version} with tangential model carom"
     advice = "Write this into the input: pair_style gran model hertz tangential carom"
     _tell(built, as_json, [f"Carom has built {what}: {built.path}", advice])
 
 
+def _written(write: Callable[[str], Sequence[str]], folder: str) -> Sequence[str]:
+    with checking() as faults:
+        if folder is not None:
+            faults.trying(new_folder, folder)
+    return write(folder)
+
+
 def _tell(built: Any, as_json: bool, lines: list[str]) -> None:
     record = {"file": str(built.path), "version": built.version, "command": list(built.command)}
-    typer.echo(json.dumps(record, indent=2) if as_json else "\n".join(lines))
+    _print(record, as_json, "\n".join(lines))
+
+
+def _print(record: dict[str, Any], as_json: bool, words: str) -> None:
+    typer.echo(json.dumps(record, indent=2) if as_json else words)

@@ -11,15 +11,8 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, outputs, read_case_file, require_some, stored, tell
-from carom.cli.options import (
-    TABLE,
-    checking,
-    described,
-    file_argument,
-    store_format,
-    table_format_of,
-    whole_option,
-)
+from carom.cli.options import checking, described, file_argument, whole_option
+from carom.cli.tables import TABLE, store_format, table_format_of
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
 from carom.quantities.refusals import refusal

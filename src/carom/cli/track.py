@@ -7,14 +7,8 @@ import typer
 
 import carom
 from carom.cli.cases import check_outputs, stored
-from carom.cli.options import (
-    TABLE,
-    checking,
-    described,
-    file_argument,
-    store_format,
-    table_format_of,
-)
+from carom.cli.options import checking, described, file_argument
+from carom.cli.tables import TABLE, store_format, table_format_of
 
 OPTIONS = {
     "data": file_argument(
@@ -44,7 +38,7 @@ def track_command(
     as_json: bool = False,
     **given: Any,
 ) -> None:
-    """Find speeds and spins before and after an impact from positions in a video.
+    """Find the motion before and after an impact in a video.
 
     Use this command before carom fit if you have tracked the ball in a video. The columns of a
     track are x and y of the centre, time or frame, and for spins mark_x and mark_y of a mark on the

@@ -9,21 +9,18 @@ import typer
 
 import carom
 from carom.cli import completion
-from carom.cli.cases import check_outputs, read_case_file, store, stored
+from carom.cli.cases import check_outputs, read_case_file, store, store_text, stored
 from carom.cli.options import (
-    TABLE,
     Commands,
     checking,
     described,
     file_argument,
     file_option,
     name_option,
-    store_format,
-    store_text,
-    table_format_of,
     whole_option,
 )
-from carom.cli.pack import pack_command
+from carom.cli.programs import pack_command
+from carom.cli.tables import TABLE, store_format, table_format_of
 from carom.io.paths import checked_output
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import one_of
@@ -268,14 +265,18 @@ def score_command(
     Velocities or forces: carom verify score results.csv --case examples/steel_ball.toml
     A damped contact: carom verify score rebounds.csv --chi 1.44 --restitution 0.9
     """
+    from carom.io.tables import read_table
+
     with checking() as faults:
         faults.trying(check_outputs, {"plot": plot, "output": output}, results=results, case=case)
         limit = faults.trying(positive, "tolerance", tolerance, "1")
         table = faults.trying(table_format_of, given)
         content = None if case is None else faults.trying(read_case_file, case, losses=True)
+        if None not in (results, table):
+            read = faults.trying(read_table, results, **table._asdict(), lenient=True)
         faults.settle()
-        how = table._asdict() | {n: value for n, value in given.items() if n not in TABLE}
-        score = carom.verify.score(results, case=content, tolerance=limit, **how)
+        how = {name: value for name, value in given.items() if name not in TABLE}
+        score = carom.verify.score(read, case=content, tolerance=limit, **how)
     store_format(table, given["save_columns"])
     store(score, output, plot)
     typer.echo(json.dumps(score.to_dict(), indent=2) if as_json else str(score))

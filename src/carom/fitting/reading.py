@@ -23,7 +23,6 @@ from carom.fitting.bounces import about_air
 from carom.fitting.groups import GROUP
 from carom.fitting.plates import DURATION, THICKNESS
 from carom.fitting.problem import NO_SPEED, Bounces, FitProblem, IncomingMotion
-from carom.io.heads import TableFormat
 from carom.io.remedies import REMEDIES
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
@@ -63,13 +62,12 @@ def read_rebounds(data: Any, **how: Any) -> UserTable:
         raise
 
 
-def case_of_data(data: Any, how: TableFormat) -> Mapping[str, Any]:
+def case_of_data(table: UserTable) -> Mapping[str, Any]:
     """Return the case that stands in the data, or raise InputError if there is none."""
-    case = read_rebounds(data, **how._asdict()).case
-    if case is None:
+    if table.case is None:
         raise InputError(NO_BODIES)
-    check_case(case)
-    return case
+    check_case(table.case)
+    return table.case
 
 
 def read_problem(table: UserTable, pair: Pair | None) -> FitProblem:

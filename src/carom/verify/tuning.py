@@ -299,9 +299,9 @@ def setting_of(
     speeds = {name: motion.get(name) for name in SPEEDS}
     moves = any(value is not None for value in speeds.values())
     with Faults() as faults:
-        given = {name: value for name, value in (("chi", chi), ("kappa", kappa)) if value}
         words = "it follows from the case; leave it out"
-        faults.add(*(str(refusal(name, value, words)) for name, value in given.items()))
+        given = ((n, text) for n, text in (("chi", chi), ("kappa", kappa)) if text is not None)
+        faults.add(*(str(refusal(name, text, words)) for name, text in given))
         wanted: Any = restitution
         if restitution is None:
             wanted = errors.constant_restitution(faults.trying(losses_of, case)) or 1.0
