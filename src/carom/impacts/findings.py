@@ -14,7 +14,7 @@ from carom.bodies.shapes import HalfSpace, Sphere
 from carom.impacts.adhesive import JKR_FROM, lost_by_maugis, pull_off_work, tabor, work_of_adhesion
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding
-from carom.quantities import elementwise
+from carom.quantities import arrays
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal, refuse
@@ -199,9 +199,7 @@ def _half_wave(plate: HalfSpace, duration: float) -> Any:
     """Return half a bending wave of the contact, pi (D/(rho h))^(1/4)/sqrt(pi/t_c)."""
     stuff, thickness = plate.material, cast(float, plate.thickness)
     stiffness = stuff.young * thickness**2 / (12.0 * (1.0 - stuff.poisson**2))
-    return elementwise.sqrt(
-        pi * duration * elementwise.sqrt(stiffness / cast(float, stuff.density))
-    )
+    return arrays.sqrt(pi * duration * arrays.sqrt(stiffness / cast(float, stuff.density)))
 
 
 def refuse_thin(pair: Pair, scales: Scales, losses: LossLaw | None) -> None:
