@@ -49,9 +49,14 @@ def pytest_xdist_make_scheduler(config, log):
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Of many cases of a test, the first is tried at once and the others are slow."""
+    """Of many cases of a test, the first is tried at once and the others are slow; so is what needs
+    LAMMPS's plugin, which a compiler makes first, or jax, which compiles each of its functions.
+    """
     seen = set()
     for item in items:
+        library = item.nodeid.rstrip("]").replace("[", "-").split("-")
+        if "plugin" in item.fixturenames or "jax" in library:
+            item.add_marker(pytest.mark.slow)
         if item.get_closest_marker("first_case") and not item.get_closest_marker("slow"):
             test = item.nodeid.partition("[")[0]
             if test in seen:

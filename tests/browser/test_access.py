@@ -4,7 +4,7 @@ import pytest
 from tests.browser.conftest import PREPARED
 from tests.browser.scripts import script
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 CONTROLS = (
     *("link", "copy", "theme", "play", "back", "forth", "time", "pace", "slow", "preset", "given"),
     *("angle", "speed", "spin", "friction", "radius", "material", "against", "second_material"),

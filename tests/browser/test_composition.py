@@ -5,7 +5,7 @@ import itertools
 import pytest
 from tests.browser.scripts import script
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 WIDTHS = [400, 1024, 1440, 1920]
 CHARTS = ("rebounds", "forces", "energies")
 STATES = {

@@ -7,7 +7,7 @@ import pytest
 import carom
 from carom.verify.entries import named
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
 AFTER, BEFORE = "psi_out", "psi_in"
 LAWS = ("mindlin", "YADE Mindlin", "Walton & Braun")
 BODIES = {"radius": "3.5", "material": "brass", "against": "sphere", "second_radius": "7.25"}

@@ -30,6 +30,7 @@ def faults(words, width, height, **_):
                 yield f"{text}: over {other}"
 
 
+@pytest.mark.first_case
 @pytest.mark.parametrize(
     "query",
     [

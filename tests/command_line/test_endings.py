@@ -75,7 +75,11 @@ def left(folder):
 
 MODULES = {
     "typer": IMPACT,
-    "unicodedata": IMPACT,  # while the parser of Python needs it, which makes a SyntaxError of it
+    "unicodedata": [
+        *IMPACT,
+        "--output",
+        "hit.nc",
+    ],  # while the parser of Python needs it, which makes a SyntaxError of it
     "carom.bodies.cases": IMPACT,
     "numpy": IMPACT,
     "numpy._core._multiarray_umath": IMPACT,

@@ -21,7 +21,7 @@ ACCURACY = ROOT / "docs" / "accuracy.md"
 SLOW = (
     *("fitting", "halfspace", "normal_spin", "glass", "dem-codes", "contact-mechanics"),
     *("drop-test", "validity", "measuring", "simulations", "collisions", "erosion", "peening"),
-    "cluster",
+    *("cluster", "cheatsheet"),
 )
 
 
