@@ -75,11 +75,8 @@ def left(folder):
 
 MODULES = {
     "typer": IMPACT,
-    "unicodedata": [
-        *IMPACT,
-        "--output",
-        "hit.nc",
-    ],  # while the parser of Python needs it, which makes a SyntaxError of it
+    # while the parser of Python needs it, which makes a SyntaxError of it
+    "unicodedata": [*IMPACT, "--output", "hit.nc"],
     "carom.bodies.cases": IMPACT,
     "numpy": IMPACT,
     "numpy._core._multiarray_umath": IMPACT,
