@@ -212,8 +212,9 @@ def tabs():
 
 @pytest.fixture
 def page(visit, tabs):
-    """The page whatever it shows, for its functions."""
-    return (tabs[0] if tabs else visit()).page
+    """The page with all of it shown, whatever the impact, for its functions."""
+    seen = tabs and tabs[0].page.evaluate("Carom.level.isFull()")
+    return (tabs[0] if seen else visit()).page
 
 
 @pytest.fixture
