@@ -166,9 +166,10 @@ def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     if set(BEFORE + AFTER) & set(names):
         return "velocities", BEFORE + AFTER
     columns = ("psi_1", "psi_2", *BEFORE, *AFTER, *HISTORY)
-    hint = next(filter(None, (nearest(name, columns) for name in names)), "")
+    hints = filter(None, (nearest(name, columns) for name in names))
     raise InputError(
-        f"results: no column of {', '.join(names)} is known; {hint} Give psi_1, psi_2; or "
+        f"results: no column of {', '.join(names)} is known; {next(hints, '')}".rstrip()
+        + " give psi_1, psi_2; or "
         "normal_speed, tangential_speed, spin, tangential_speed_out, spin_out; or time, "
         "normal_force, tangential_force"
     )
