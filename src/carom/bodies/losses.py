@@ -55,7 +55,7 @@ class LossLaw:
 
     def __post_init__(self) -> None:
         """Keep each value as one number that is checked, or an array, checked point by point."""
-        for name, value in LossLaw._describe(self).items():
+        for name, value in self._describe().items():
             if value is not None:
                 array = numbers(name, value, NUMBERS)
                 set_fields(self, **{name: array if array.ndim else READERS[name](name, value)})

@@ -43,7 +43,7 @@ LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """A law fitted: its criterion, by how much that exceeds the least, and Akaike's weight."""
+    """A law fitted: its criterion, the excess of that over the least, and Akaike's weight."""
 
     law: str
     criterion: float
