@@ -90,7 +90,7 @@ class RowSource:
         except InputError as error:
             raise InputError(*self.wrong, *error.faults) from None
         columns = [Cells(letter_of(place), decimal) for place in range(len(heads))]
-        above, numbers = start, list[array[int]]()
+        above, numbers = start, list["array[int]"]()
         odd: dict[int, list[int]] = {}
         with advancing("reading the table", None, unit="rows") as advance:
             while block := list(islice(below, BLOCK_ROWS)):
