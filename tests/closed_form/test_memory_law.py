@@ -65,7 +65,7 @@ def left_with(phase, steps, alpha, psi=3.0, chi=1.4412):
     for _ in range(4 * steps):
         v, psi = v - 0.5 * dt * ELASTIC_PULL * load[0], psi - dt * ELASTIC_PULL * chi * load[1]
         d += dt * v
-        lattice.step(memory, 64, d, np.array([v, psi, 0.0]), dt, alpha, alpha, load)
+        lattice.step(memory, 64, d, np.array([v, psi, 0.0]), dt, alpha, alpha, chi, load)
         if v < 0.0 and load[0] <= 0.0:
             break
         v, psi = v - 0.5 * dt * ELASTIC_PULL * load[0], psi - dt * ELASTIC_PULL * chi * load[1]
@@ -85,7 +85,7 @@ def turned(steps, springs=64):
     for i in range(1, steps):
         middle, now = (i - 0.5) * dt, hertz.penetration_and_speed(i * dt)[0]
         motion = np.array([(now - depth) / dt, 1.2 * np.cos(2 * middle), 1.2 * np.sin(2 * middle)])
-        lattice.step(memory, springs, now, motion, dt, 0.0, 0.0, load)
+        lattice.step(memory, springs, now, motion, dt, 0.0, 0.0, 1.4, load)
         entries.append(load[1:].copy())
         depth = now
     return np.array(entries)
@@ -164,7 +164,7 @@ def lost_in_a_cycle(springs, part, depth, steps=200):
     memory, load, rate = np.zeros(lattice.places(springs)), np.empty(3), depth / steps
     pressed = np.array([1.0, 0.0, 0.0])
     for i in range(steps):
-        lattice.step(memory, springs, (i + 1) * rate, pressed, rate, 0.0, 0.0, load)
+        lattice.step(memory, springs, (i + 1) * rate, pressed, rate, 0.0, 0.0, 1.4, load)
     largest, lost = 1.0 - (1.0 - part) ** (2.0 / 3.0), 0.0
     for way in (0.5, -1.0, 1.0, -1.0, 1.0):
         if way < 0.0:
@@ -172,7 +172,7 @@ def lost_in_a_cycle(springs, part, depth, steps=200):
         shear = np.array([0.0, 2.0 * way * depth * largest / steps, 0.0])
         for _ in range(steps):
             before = load[1]
-            lattice.step(memory, springs, depth, shear, 1.0, 0.0, 0.0, load)
+            lattice.step(memory, springs, depth, shear, 1.0, 0.0, 0.0, 1.4, load)
             lost += 0.5 * (before + load[1]) * shear[1]
     exact = largest - 0.4 * (1.0 - (1.0 - largest) ** 2.5) - 0.5 * part * largest
     return lost / (8.0 * exact * depth**2.5)

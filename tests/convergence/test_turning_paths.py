@@ -89,7 +89,7 @@ def test_springs_one_by_one_are_another_law():
     path = circle(0.9, 40)
     memory, load, forces, before = np.zeros(lattice.places(32)), np.zeros(3), [], np.zeros(3)
     for now in np.column_stack(parted(*path, 10)):
-        lattice.step(memory, 32, now[0], now - before, 1.0, 0.0, 0.0, load)
+        lattice.step(memory, 32, now[0], now - before, 1.0, 0.0, 0.0, 1.4, load)
         forces.append(load[1:] / 1.5)
         before = now
     assert 0.12 < away(np.array(forces)[9::10], pull(follow(*path)), path[0]) < 0.17

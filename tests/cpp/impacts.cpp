@@ -9,8 +9,9 @@ using namespace carom;
 
 template <int N, class Real, unsigned P>
 double impact(double steps, double psi, double chi, double phase, double alpha, bool both) {
-    const double step = 2.9432751843247047 / steps, friction = 0.3, kappa = 0.8, radius = 1e3;
-    const double mass = 16.0 / 15.0, shear_mass = 0.5 * kappa * mass / chi;
+    const double step = 2.9432751843247047 / steps, friction = 0.3, radius = 1e3;
+    const double mass = 16.0 / 15.0, shear_mass = mass / 3.5;  // of solid spheres
+    const double kappa = 2.0 * chi / 3.5;
     const Pair pair{1.0 / std::sqrt(radius), radius, kappa, friction, mass, alpha, both};
     Contact<N, Real, P> contact{};
     Motion motion{-phase * step, 1.0, psi * friction / kappa, 0.0, step};

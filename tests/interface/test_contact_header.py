@@ -165,7 +165,7 @@ class Stepped:
     def twin(self, d, v, slide, aside, dt):
         load = np.empty(3)
         motion = np.array([v, slide, aside])
-        values = d, motion, dt, self.alpha, self.shear_alpha, load
+        values = d, motion, dt, self.alpha, self.shear_alpha, 1.75 * KAPPA, load
         lattice.step(self.own, self.springs, *values)
         return load
 
@@ -433,8 +433,8 @@ def test_macros_of_a_program_do_not_matter(folder):
 
 def test_kinds_that_are_not_offered(functions):
     assert functions.carom_contact_size(32, 0) == 8 * (2 + 2 * 32)
-    assert functions.carom_contact_size(32, VISCOUS) == 8 * (2 + 3 * 32 + 5)
-    assert functions.carom_contact_size(32, VISCOUS | SINGLE) == 4 * (2 + 3 * 32 + 5)
+    assert functions.carom_contact_size(32, VISCOUS) == 8 * (2 + 3 * 32 + 11)
+    assert functions.carom_contact_size(32, VISCOUS | SINGLE) == 4 * (2 + 3 * 32 + 11)
     assert functions.carom_contact_size(33, 0) == functions.carom_contact_size(32, 9) == 0
     contact = Stepped(functions, 32)
     values = (contact.memory, 33, 0, *map(ctypes.byref, (contact.pair, Motion(), contact.load)))

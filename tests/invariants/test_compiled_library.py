@@ -126,7 +126,7 @@ def laws(rng):
         law.rebound(psi, 1.44, steps=40)
         law.history(0.7, 1.44, steps=40)
     memory, load = np.zeros(lattice.places(16)), np.empty(3)
-    lattice.step(memory, 16, 0.1, np.array([1.0, 0.5, 0.2]), 0.1, 0.2, 0.2, load)
+    lattice.step(memory, 16, 0.1, np.array([1.0, 0.5, 0.2]), 0.1, 0.2, 0.2, 1.4, load)
     carom.laws.ReboundLaw((1.4, 1.45))(psi, 1.42)
     for kind in (np.float32, np.float64):
         velocity = rng.normal(size=(700, 3)).astype(kind)

@@ -17,12 +17,14 @@ from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.quantities.arrays import Array
 
-# What is remembered: the spacing, 0 while apart; s at the edge; velocities of the step before, then
-# two deflections of each spring, and how far it is pressed that was let go.
-SPACING, EDGE, SPEED, ALONG, ACROSS, FIRST = range(6)
+# What is remembered: the spacing, 0 while apart; s at the edge; of the step before three velocities in
+# its middle, the forces at its end, and what dashpots took of velocities in half of it; then two
+# deflections of each spring, and how far it is pressed that was let go.
+SPACING, EDGE, SPEED, FORCE, DAMPED, FIRST = 0, 1, 2, 5, 8, 11
 MARGIN = 1.04  # of the lattice beyond the impact that is expected
 COARSER, FINER = 1.0, 0.0625  # of the depth that the lattice holds, where it is made so
 MOST_LEVELS = 64
+CROWD = 16.0  # times as fast as one pair alone the dashpots of a packing slow its bodies, at most
 
 
 class Now(NamedTuple):
@@ -139,6 +141,39 @@ def mean_at_end(half: float, d: float, before: float) -> float:
 
 
 @kernel
+def crowding(memory: Array, motion: Array, first: int, end: int, given: float) -> float:
+    """Return S, how many times as much as a contact's own dashpot all of them slow its bodies.
+
+    It is 1 if the contact alone has changed the velocities, of which it looks at some components;
+    `given` is the velocity that a force of one gives in half a step. Rounding is no force.
+    """
+    by_others, by_own, speed = 0.0, 0.0, 0.0
+    for i in range(first, end):
+        own = given * memory[FORCE + i]
+        by_others += (0.5 * (motion[i] - memory[SPEED + i]) + own) ** 2
+        by_own += own * own
+        speed += motion[i] ** 2
+    share = by_others / (by_others + by_own + 1e-12 * speed + 1e-300)
+    return 1.0 + (CROWD - 1.0) * min(4.0 * share, 1.0)
+
+
+@kernel
+def at_end(memory: Array, motion: Array, i: int, crowd: float, damping: float) -> float:
+    """Return a velocity at the end of the step, and remember what the next one needs of it.
+
+    Forces go on as in the step before, but for what dashpots take in half a step, g e/2:
+
+        e = v + (v - v_before)/2 - S/2 (g e - g e_before),
+
+    which is of second order for any S, and stable for a large one (Steihaug & Wolfbrandt 1979).
+    """
+    ahead = motion[i] + 0.5 * (motion[i] - memory[SPEED + i])
+    speed = (ahead + crowd * memory[DAMPED + i]) / (1.0 + crowd * damping)
+    memory[SPEED + i], memory[DAMPED + i] = motion[i], damping * speed
+    return float(speed)
+
+
+@kernel
 def move(memory: Array, springs: int, now: Now, moved: tuple[float, float]) -> None:
     """Let springs follow the bodies, as far as friction allows."""
     h = memory[SPACING]
@@ -199,35 +234,51 @@ def step(
     dt: float,
     alpha: float,
     shear_alpha: float,
+    chi: float,
     load: Vector,
 ) -> None:
-    """Step a contact; write its three forces. `motion` has velocities of the middle of the step."""
+    """Step a contact; write its three forces. `motion` has velocities of the middle of the step.
+
+    `chi` is that of the bodies without others: by it dashpots know how much of their acceleration
+    is their own.
+    """
     load[:] = 0.0
     if d <= 0.0:
         memory[:] = 0.0
         return
+
     v, slide, aside = motion[0], motion[1], motion[2]
     before, depth, fade, edge, drag = d - v * dt, d, 1.0, d, (0.0, 0.0)
     if memory[SPACING] == 0.0:
         memory[:] = 0.0
-        memory[SPEED], memory[ALONG], memory[ACROSS] = v, slide, aside
+        for i in range(3):
+            memory[SPEED + i] = motion[i]
         fit_lattice(memory, springs, d, v)
         begin(memory, springs, before)
     else:
         fit_lattice(memory, springs, d, v)
+
     if alpha > 0.0:
-        speed = v + 0.5 * (v - memory[SPEED])
+        given = 0.5 * dt * ELASTIC_PULL
+        damping = 1.5 * given * np.sqrt(d)
+        speed = at_end(memory, motion, 0, crowding(memory, motion, 0, 1, given), damping * alpha)
+
+        given *= 2.0 * chi
+        damping *= 2.0 * chi * shear_alpha
+        crowd = crowding(memory, motion, 1, 3, given)
         mean = mean_at_end(0.5 * speed * dt, d, before)
+        drag = (
+            shear_alpha * mean * at_end(memory, motion, 1, crowd, damping),
+            shear_alpha * mean * at_end(memory, motion, 2, crowd, damping),
+        )
+
         depth += alpha * mean * speed
         fade = -np.expm1(-dt / alpha)
-        drag = (
-            shear_alpha * mean * (slide + 0.5 * (slide - memory[ALONG])),
-            shear_alpha * mean * (aside + 0.5 * (aside - memory[ACROSS])),
-        )
         edge = max(depth, 0.0)
         if depth >= memory[EDGE]:
             edge = min(grown_edge(memory, springs, d, v * dt, fade), depth)
-    memory[SPEED], memory[ALONG], memory[ACROSS], memory[EDGE] = v, slide, aside, edge
+    memory[EDGE] = edge
+
     now = Now(d, v * dt, depth, edge, fade, fade if shear_alpha > 0.0 else 1.0)
     move(memory, springs, now, (slide * dt, aside * dt))
     along, across = pull(memory, springs, now, drag)
@@ -236,6 +287,8 @@ def step(
     part = length(load[1], load[2], load[0])  # but for rounding it holds already
     load[1] *= part
     load[2] *= part
+    for i in range(3):
+        memory[FORCE + i] = load[i]
 
 
 @entry_point()
@@ -252,10 +305,9 @@ def impact(
 ) -> tuple[int, float]:
     """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part.
 
-    The same if steps are too long, so that springs and dashpots would give energy: with velocities
-    that are extrapolated by half a step, k dt (dt/4 + tau) must be below the mass. Velocity Verlet,
-    as `stepping.stepped`; memory has the places of `places`, load six: forces, and room for the
-    motion.
+    The same if steps are too long to follow springs and dashpots: k dt (dt/4 + tau) must be below
+    the mass. Velocity Verlet, as `stepping.stepped`; memory has the places of `places`, load six:
+    forces, and room for the motion.
     """
     dt = DURATION / steps
     memory[:], load[:] = 0.0, 0.0
@@ -270,7 +322,7 @@ def impact(
         psi -= dt * ELASTIC_PULL * chi * load[1]
         d += dt * v
         motion[0], motion[1], motion[2] = v, psi, 0.0
-        step(memory, springs, d, motion, dt, alpha, shear_alpha, load[:3])
+        step(memory, springs, d, motion, dt, alpha, shear_alpha, chi, load[:3])
         if v < 0.0 and load[0] <= 0.0:
             return i + 1, psi
         if moved * np.sqrt(memory[EDGE]) > 1.0:

@@ -114,18 +114,62 @@ bool FixWallCarom::changes(int i, int count) const {
 /// is lost at last.
 void FixWallCarom::change(int i, int count) {
     std::vector<double> list;
+    std::vector<int> handed_on;
     for (int k = 0; k < count; ++k) {
         const int wall = region->contact[k].iwall;
         const double *memory = memories.of(i, wall);
-        if (touches(i, k, memory)) memories.add(list, wall, memory);
+        if (!touches(i, k, memory)) continue;
+        if (!memory && (memory = left_for(i, k, count)))
+            handed_on.push_back(static_cast<int>(memory[WALL]));
+        memories.add(list, wall, memory);
     }
     memories.swap(i, list);
     for (std::size_t at = 0; at < list.size(); at += memories.length()) {
-        if (memories.of(i, static_cast<int>(list[at + WALL]))) continue;
+        const int wall = static_cast<int>(list[at + WALL]);
+        const bool is_kept = std::find(handed_on.begin(), handed_on.end(), wall) != handed_on.end();
+        if (is_kept || memories.of(i, wall)) continue;
+        if (atom->mask[i] & groupbit) see_end(&list[at], i);
         const double last = kind.stored(&list[at] + SPRINGS);
         sums[options.viscous ? VISCOSITY : FRICTION] += last;
         of_spheres.add(i, options.viscous ? 0.0 : last, options.viscous ? last : 0.0);
     }
+}
+
+/// Return the memory of a wall that the sphere leaves for this one in the same plane, as at a seam of
+/// two walls; nullptr if there is none.
+const double *FixWallCarom::left_for(int i, int k, int count) const {
+    const Region::Contact &wall = region->contact[k];
+    const double depth = atom->radius[i] - wall.r;
+    const double speed = std::sqrt(carom::dot(carom_vector(atom->v[i]), carom_vector(atom->v[i])));
+    const carom::Vector apart = {wall.delx, wall.dely, wall.delz};
+    for (const double *memory = memories.first(i); memory != memories.end(i);
+         memory += memories.length()) {
+        bool stays = false;
+        for (int n = 0; n < count; ++n) stays = stays || region->contact[n].iwall == memory[WALL];
+        const carom::Vector force = carom_vector(memory + FORCE);
+        const double along = carom::dot(force, apart) / wall.r;
+        const bool is_in_plane = 2.0 * along * along > carom::dot(force, force) && along > 0.0;
+        const double moved = speed * update->dt + 1e-9 * atom->radius[i];
+        if (!stays && is_in_plane && std::fabs(memory[DEPTH] - depth) <= moved) return memory;
+    }
+    return nullptr;
+}
+
+/// See whether a sphere came to the wall, or the wall to it.
+void FixWallCarom::see_begin(const carom::Encounter &now, int i) {
+    if (update->setupflag) return;
+    const double speed = std::sqrt(carom::dot(now.velocity, now.velocity));
+    watch.jump(now.penetration, -carom::dot(now.velocity, now.normal), speed, now.step, atom->radius[i],
+               atom->tag[i]);
+}
+
+/// See whether a sphere left the wall, or the wall it; of a wall that moves it is not known.
+void FixWallCarom::see_end(const double *memory, int i) {
+    const carom::Vector force = carom_vector(memory + FORCE), velocity = carom_vector(atom->v[i]);
+    const double size = std::sqrt(carom::dot(force, force));
+    if (update->setupflag || moves() || !(size > 0.0)) return;
+    watch.jump(memory[DEPTH], carom::dot(velocity, force) / size,
+               std::sqrt(carom::dot(velocity, velocity)), update->dt, atom->radius[i], atom->tag[i]);
 }
 
 /// Return how far from its centre a sphere meets a wall.
@@ -151,6 +195,7 @@ void FixWallCarom::meet(int i, int k, double *memory, Meetings &met) {
     met.batch.memories[n] = memory;
     carom::Pair &pair = met.batch.pairs[n] = known.pair;
     pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
+    pair.mass = styles.front()->mass_of(i);
     if (known.loss > 0.0) pair.retardation = memory[RETARDATION];
     if (!has_touched(memory) || known.cohesion || watch.limits()) met.is_plain = false;
     met.radius[n] = radius;
@@ -176,6 +221,11 @@ void FixWallCarom::step(Meetings &met) {
     CaromBatch &batch = met.batch;
     look(met);
     for (int n = 0; n < batch.count && !met.is_plain; ++n) prepare(met, n);
+    for (int n = 0; n < batch.count; ++n) {
+        const double depth =
+            carom::in_lane(batch.meetings[n / carom::lanes].penetration, n % carom::lanes);
+        watch.press(batch.pairs[n], depth, update->dt, atom->tag[met.spheres[n]], CaromWatch::wall);
+    }
     carom_step(kind, batch, update->setupflag);
     for (int n = 0; n < batch.count; ++n) apply(met, n);
     batch.count = 0;
@@ -207,8 +257,7 @@ void FixWallCarom::prepare(Meetings &met, int n) {
     carom::Pair &pair = met.batch.pairs[n];
     carom::Encounters *meetings = met.batch.meetings;
     if (!has_touched(memory)) {
-        pair.mass = styles.front()->mass_of(i);
-        watch.meet(pair, carom::one_of(meetings, n), atom->tag[i], CaromWatch::wall);
+        see_begin(carom::one_of(meetings, n), i);
         if (known.loss > 0.0)
             pair.retardation = memory[RETARDATION] = carom_retardation(known, pair);
     }

@@ -64,6 +64,9 @@ class FixWallCarom : public Fix {
     bool touches(int, int, const double *) const;
     bool changes(int, int) const;
     void change(int, int);
+    const double *left_for(int, int, int) const;
+    void see_begin(const carom::Encounter &, int);
+    void see_end(const double *, int);
     double reach_of(int) const;
     void meet(int, int, double *, Meetings &);
     void step(Meetings &);

@@ -64,7 +64,7 @@ template <int N, class Real, unsigned P> CaromKind kind_of(bool tangential) {
     static_assert(alignof(Kind) <= alignof(double), "it lies in doubles");
     CaromKind kind{};
     kind.doubles = (sizeof(Kind) + sizeof(double) - 1) / sizeof(double);
-    constexpr double version = 10000.0;  // raised when the memory of a contact changes
+    constexpr double version = 30000.0;  // raised when the memory of a contact changes
     kind.number = (tangential ? 2.0 : 1.0) * version + 100.0 * N + 10.0 * sizeof(Real) + P;
     if constexpr ((P & carom::ledger) != 0) {
         kind.lost = kind.doubles;

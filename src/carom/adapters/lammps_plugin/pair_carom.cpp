@@ -40,10 +40,12 @@ struct Spheres {
                 {of(omega, 0), of(omega, 1), of(omega, 2)},
                 carom::Wide::each([&](int lane) { return radius[which[lane]]; })};
     }
+    carom::Wide::Type masses(const int *which) const {
+        return carom::Wide::each([&](int lane) { return mass[which[lane]]; });
+    }
     double radius_of(int i, int j) const {
         return radius[i] * radius[j] / (radius[i] + radius[j]);
     }
-    double mass_of(int i, int j) const { return mass[i] * mass[j] / (mass[i] + mass[j]); }
 };
 
 }  // namespace
@@ -143,14 +145,23 @@ void PairCarom::meet(Meetings &met) {
     const auto known_of = [&](int k) -> const CaromBodies & {
         return bodies[atom->type[met.one[k]]][atom->type[met.other[k]]];
     };
-    carom::Wide::Type radii[CaromBatch::most / carom::lanes];
+    carom::Wide::Type radii[CaromBatch::most / carom::lanes], weights[CaromBatch::most / carom::lanes];
+    bool is_stiff = false;
     for (int k = 0; k < batch.count; k += carom::lanes) {
+        using carom::Wide;
         const carom::Bodies one = spheres.in_lanes(met.one + k);
         const carom::Bodies other = spheres.in_lanes(met.other + k);
-        radii[k / carom::lanes] = one.radius * other.radius / (one.radius + other.radius);
-        batch.meetings[k / carom::lanes] =
-            carom::encounter(one, other, dt,
-                             carom::Wide::each([&](int lane) { return known_of(k + lane).share; }));
+        const auto share = Wide::each([&](int lane) { return known_of(k + lane).share; });
+        const carom::Encounters seen = carom::encounter(one, other, dt, share);
+        batch.meetings[k / carom::lanes] = seen;
+
+        const Wide::Type radius = one.radius * other.radius / (one.radius + other.radius);
+        const Wide::Type first = spheres.masses(met.one + k), second = spheres.masses(met.other + k);
+        const Wide::Type mass = first * second / (first + second);
+        const auto modulus = Wide::each([&](int lane) { return known_of(k + lane).pair.modulus; });
+        is_stiff = is_stiff || carom::is_too_stiff(modulus, radius, mass, seen.penetration, dt);
+        radii[k / carom::lanes] = radius;
+        weights[k / carom::lanes] = mass;
     }
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
@@ -162,9 +173,8 @@ void PairCarom::meet(Meetings &met) {
         const CaromBodies &known = known_of(k);
         batch.pairs[k] = known.pair;
         batch.pairs[k].radius = carom::in_lane(radii[k / carom::lanes], k % carom::lanes);
+        batch.pairs[k].mass = carom::in_lane(weights[k / carom::lanes], k % carom::lanes);
         if (!*met.touches[k]) {  // what matters at the first touch
-            batch.pairs[k].mass = spheres.mass_of(i, j);
-            watch.meet(batch.pairs[k], carom::one_of(batch.meetings, k), atom->tag[i], atom->tag[j]);
             memory[KIND] = kind.number;
             if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, batch.pairs[k]);
         }
@@ -174,9 +184,11 @@ void PairCarom::meet(Meetings &met) {
             carom_cohere(known.cohesion, batch.pairs[k].radius, now);
             carom::set_one(batch.meetings, k, now);
         }
+        const double depth =
+            carom::in_lane(batch.meetings[k / carom::lanes].penetration, k % carom::lanes);
+        if (is_stiff) watch.press(batch.pairs[k], depth, dt, atom->tag[i], atom->tag[j]);
         if (watch.limits())
-            watch.soften(batch.pairs[k], carom::one_of(batch.meetings, k).penetration, atom->tag[i],
-                         atom->tag[j]);
+            watch.soften(batch.pairs[k], depth, atom->tag[i], atom->tag[j]);
     }
 }
 

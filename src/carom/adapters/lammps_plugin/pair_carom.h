@@ -77,6 +77,7 @@ class PairCarom : public Pair {
     void require_material(int) const;
     void read_granular();
     void compare(int, int) const;
+    void shrink_pages();
     void fit_pages();
     void find_radii();
     void find_masses();

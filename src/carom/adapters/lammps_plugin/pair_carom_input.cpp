@@ -22,6 +22,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr int restart_format = 1000004;  // raised when what a restart file holds changes
+constexpr int small_page = 20000;        // what LAMMPS' default of `one` needs
 }  // namespace
 
 /// Read words with values, or stop LAMMPS with a line that begins with `where`.
@@ -67,7 +68,7 @@ PairCarom::PairCarom(LAMMPS *lmp)
          ++n)
         history_id = fmt::format("NEIGH_HISTORY_CAROM_{}", n);  // of another carom in a hybrid
     modify->add_fix(history_id + "_DUMMY all DUMMY");
-    fit_pages();
+    shrink_pages();
 }
 
 PairCarom::~PairCarom() {
@@ -135,20 +136,7 @@ void PairCarom::coeff(int narg, char **arg) {
                           "a pair_style that has such a normal force");
     for (int i = ilo; i <= ihi; ++i)
         for (int j = std::max(jlo, i); j <= jhi; ++j) {
-            CaromMaterial &now = materials[i][j];
-            if (given.young >= 0.0) now.young = given.young;
-            if (given.poisson > -2.0) now.poisson = given.poisson;
-            if (given.friction >= 0.0) now.friction = given.friction;
-            if (given.retardation >= 0.0 || given.restitution >= 0.0) {
-                now.retardation = given.retardation;
-                now.restitution = given.restitution;
-                now.speed = given.speed;
-            }
-            if (coheres) {
-                now.jkr = given.jkr;
-                now.dmt = given.dmt;
-                now.pulloff = given.pulloff;
-            }
+            materials[i][j] = given;  // whole: nothing of a line before is left
             setflag[i][j] = 1;
         }
 }
@@ -213,13 +201,17 @@ void PairCarom::init_style() {
     find_radii();
 }
 
-/// Keep histories in small pages unless the input says how large: each is made whole, also for few
-/// spheres. A sphere may have `one` neighbours, as always, and LAMMPS wants ten times that.
+/// Keep histories in small pages unless the input says how large, behind pair_style: each is made whole,
+/// also for few spheres.
+void PairCarom::shrink_pages() {
+    constexpr int usual = 100000;  // LAMMPS' default
+    if (neighbor->pgsize == usual) neighbor->pgsize = small_page;
+}
+
+/// A sphere may have `one` neighbours, of which LAMMPS wants ten times as many in a page.
 void PairCarom::fit_pages() {
-    constexpr int usual = 100000, small = 20000;  // LAMMPS' default, and what its `one` needs
     int &page = neighbor->pgsize;
-    if (page == usual || page == small)
-        page = std::min(std::max(10 * neighbor->oneatom, small), usual);
+    if (page == small_page) page = std::max(10 * neighbor->oneatom, small_page);
 }
 
 void PairCarom::find_radii() {

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "watch.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "carom/impacts.hpp"
@@ -12,24 +13,11 @@
 
 using namespace LAMMPS_NS;
 
-namespace {
-
-constexpr double fewest_steps = 20.0;  // an elastic impact loses or gains up to 0.1 % of its energy
-
-/// Return how long bodies will touch, without losses; those that are pressed have energy of Hertz.
-double duration_of(const carom::Pair &pair, const carom::Encounter &now) {
-    const double approach = carom::dot(now.velocity, now.normal);
-    const double pressed = 2.0 * carom_pressed(pair, now.penetration) / pair.mass;
-    return carom::duration_of(pair, std::sqrt(approach * approach + pressed));
-}
-
-}  // namespace
-
 void CaromWatch::begin() {
     constexpr int minimizing = 2;
     minimize = update->whichflag == minimizing;
     limit = !modify->get_fix_by_style("^nve/limit").empty();
-    coarse = deep = false;
+    stiff = jumped = deep = false;
 }
 
 std::string CaromWatch::who(tagint one, tagint other) const {
@@ -37,15 +25,25 @@ std::string CaromWatch::who(tagint one, tagint other) const {
     return fmt::format("{}: atoms {} and {}", style, one, other);
 }
 
-void CaromWatch::meet(const carom::Pair &pair, const carom::Encounter &now, tagint one,
-                      tagint other) {
-    if (limit || minimize || coarse) return;
-    const double duration = duration_of(pair, now);
-    if (!(duration < fewest_steps * now.step)) return;
-    coarse = true;
-    error->warning(FLERR, "{}: their contact lasts {:.1f} time steps, but at least {:.0f} keep the "
-                          "energy; give timestep {:.3g} or less (said once a run)", who(one, other),
-                   duration / now.step, fewest_steps, duration / fewest_steps);
+void CaromWatch::tell_stiff(const carom::Pair &pair, double depth, double step, tagint one,
+                            tagint other) {
+    stiff = true;
+    const double longest = carom::longest_step(pair, depth);
+    error->warning(FLERR, "{}: pressed by {:.3g} they are too stiff for the timestep, their motion may "
+                          "gain energy: k dt^2/m* is {:.3g}, of at most {:.2g}; give timestep {:.3g} or "
+                          "less (said once a run)", who(one, other), depth,
+                   carom::stiffest_step * step * step / (longest * longest), carom::stiffest_step, longest);
+}
+
+void CaromWatch::jump(double depth, double normal_speed, double speed, double step, double radius,
+                      tagint atom) {
+    const double moved = speed * step;
+    const double farthest = 2.0 * std::max(normal_speed, 0.0) * step + moved * moved / radius;
+    if (jumped || minimize || depth <= farthest + 1e-9 * radius) return;
+    jumped = true;
+    error->warning(FLERR, "{}: the wall begins or ends where it is pressed by {:.3g}, further than they move "
+                          "in a step, and energy is gained or lost; parts of a union must not overlap, and "
+                          "spheres not begin inside a wall (said once a run)", who(atom, wall), depth);
 }
 
 void CaromWatch::soften(carom::Pair &pair, double depth, tagint one, tagint other) {
@@ -63,7 +61,8 @@ void CaromWatch::check(carom::Status status, const carom::Pair &pair, double dep
     if (status == carom::Status::ok) return;
     if (depth >= pair.radius)
         error->one(FLERR, "{}: overlap {:.4g} must be below R* = {:.4g}; part the spheres at first by "
-                          "minimize or fix nve/limit, or give a shorter timestep", who(one, other),
+                          "minimize or fix nve/limit, or give a shorter timestep; those of a clump do not "
+                          "see each other by neigh_modify exclude molecule/intra all", who(one, other),
                    depth, pair.radius);
     error->one(FLERR, "{}: {}", who(one, other), carom::message(status));
 }

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "carom/impacts.hpp"
 #include "kinds.h"
 #include "pointers.h"
 
@@ -18,8 +19,14 @@ class CaromWatch : protected Pointers {
     /// Begin a run: spheres are moved as far as their forces say, by fix nve/limit, or by minimize.
     void begin();
 
-    /// See bodies that touch for the first time: by too few steps they gain energy.
-    void meet(const carom::Pair &, const carom::Encounter &, tagint one, tagint other);
+    /// See bodies that are pressed: where steps are too long for their stiffness they gain energy.
+    void press(const carom::Pair &pair, double depth, double step, tagint one, tagint other) {
+        if (!stiff && !limit && !minimize && carom::is_too_stiff(pair, depth, step))
+            tell_stiff(pair, depth, step, one, other);
+    }
+
+    /// See a wall that a sphere is pressed into at once, or let go by, further than it moves in a step.
+    void jump(double depth, double normal_speed, double speed, double step, double radius, tagint atom);
 
     /// Let bodies overlap by more than R* under fix nve/limit: they are taken to be flatter then.
     void soften(carom::Pair &, double depth, tagint one, tagint other);
@@ -34,9 +41,10 @@ class CaromWatch : protected Pointers {
 
   private:
     std::string who(tagint one, tagint other) const;
+    void tell_stiff(const carom::Pair &, double depth, double step, tagint one, tagint other);
 
     const char *style;
-    bool limit = false, minimize = false, coarse = false, deep = false;
+    bool limit = false, minimize = false, stiff = false, jumped = false, deep = false;
 };
 
 }  // namespace LAMMPS_NS

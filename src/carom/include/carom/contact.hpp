@@ -33,9 +33,6 @@ inline void enter(const Row<T, Contact<N, Real, P>>& row, const MotionOf<T>& m,
     if constexpr ((P & viscous) != 0) twice += (load.normal + row.get(&Kind::normal)) * m.approach;
     row.keep(&Kind::stored,
              row.get(&Kind::stored) + (0.5 * m.step * twice - load.friction - load.viscosity));
-    row.keep(&Kind::normal, load.normal);
-    row.keep(&Kind::shear_x, load.x);
-    row.keep(&Kind::shear_y, load.y);
 }
 
 /// Let go: what is still stored goes into the dashpots, or was rubbed off at last.
@@ -139,6 +136,11 @@ template <class T, int N, class Real, unsigned P> struct Stage {
             row.keep(&Kind::power, power);
         }
         if constexpr ((P & ledger) != 0) enter(row, motion, load);
+        if constexpr (P != elastic) {
+            row.keep(&Kind::normal, load.normal);
+            row.keep(&Kind::shear_x, load.x);
+            row.keep(&Kind::shear_y, load.y);
+        }
     }
 };
 
@@ -152,7 +154,7 @@ inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Moti
     stage.row.all[0] = &contact;
     springs::set_pairs(stage.pair, &pair, 1);
     Status status;
-    springs::set_statuses<Real>(stage.pair, motion, &status, 1);
+    springs::set_statuses<Real, (P & viscous) != 0>(stage.pair, motion, &status, 1);
     if (status != Status::ok) return status;
     if (motion.penetration > 0.0) {
         stage.look(motion);

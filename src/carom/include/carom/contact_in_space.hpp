@@ -159,7 +159,7 @@ template <int N, class Real, unsigned P> struct StageInSpace : Stage<Wide::Type,
         set_pairs(this->pair, pairs, count);
         plane = plane_of(axes_of(contacts, e, count), e);
         motion = {e.penetration, plane.approach, plane.slide_x, plane.slide_y, e.step};
-        set_statuses<Real>(this->pair, motion, statuses, std::min(count, lanes));
+        set_statuses<Real, (P & viscous) != 0>(this->pair, motion, statuses, std::min(count, lanes));
         parted = LoadOf<Wide::Type>{};
         for (int k = 0; k < lanes; ++k) {
             const bool is_good = k < count && statuses[k] == Status::ok;
@@ -260,9 +260,10 @@ template <int N, class Real, unsigned P> void mirror(ContactInSpace<N, Real, P>&
     for (Real& each : contact.y) each = -each;
     if constexpr ((P & viscous) != 0) {
         contact.slide_y = -contact.slide_y;
+        contact.damped_y = -contact.damped_y;
         if constexpr ((P & ledger) != 0) contact.drag_y = -contact.drag_y;
     }
-    if constexpr ((P & ledger) != 0) contact.shear_y = -contact.shear_y;
+    if constexpr (P != elastic) contact.shear_y = -contact.shear_y;
 }
 }  // namespace carom
 

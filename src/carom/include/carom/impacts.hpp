@@ -57,6 +57,26 @@ inline double duration_of(const Pair& pair, double speed) {
     return 2.9432751843247047 * retardation_of(1.0, pair, speed);
 }
 
+/// k dt^2/m* of a contact, k = 2 E* a, up to which bodies keep their energy, however many touch.
+constexpr double stiffest_step = 0.1;
+
+/// Return whether a step is too long for a contact that is pressed so far, or for any in the lanes of T.
+template <class T>
+bool is_too_stiff(const T& modulus, const T& radius, const T& mass, const T& penetration, double step) {
+    const T stiffness = 2.0 / stiffest_step * step * step * modulus;
+    return springs::any(stiffness * stiffness * radius * penetration > mass * mass);
+}
+
+inline bool is_too_stiff(const Pair& pair, double penetration, double step) {
+    return is_too_stiff(pair.modulus, pair.radius, pair.mass, penetration, step);
+}
+
+/// Return the longest step that is not too long.
+inline double longest_step(const Pair& pair, double penetration) {
+    const double stiffness = 2.0 * pair.modulus * std::sqrt(pair.radius * penetration);
+    return std::sqrt(stiffest_step * pair.mass / stiffness);
+}
+
 }  // namespace carom
 
 #include "own_names.h"

@@ -18,13 +18,17 @@ namespace springs {
 template <int N, class Real, bool> struct Recovery {};
 template <int N, class Real> struct Recovery<N, Real, true> {
     Real pressed[N];  ///< how far springs are pressed that were let go
-    Real approach, slide_x, slide_y;  ///< velocities of the step before
+    Real approach, slide_x, slide_y;  ///< velocities in the middle of the step before
+    Real damped, damped_x, damped_y;  ///< what dashpots took of velocities in half of it
     Real steps, fade;  ///< in retardation times, and what fades in it: it is seldom another
+};
+template <class Real, bool> struct Forces {};
+template <class Real> struct Forces<Real, true> {
+    Real normal, shear_x, shear_y;  ///< of the step before
 };
 template <class Real, unsigned> struct Ledger {};
 template <class Real> struct Ledger<Real, ledger> {
     Real stored;  ///< work done on the contact that is not lost
-    Real normal, shear_x, shear_y;  ///< forces of the step before
 };
 template <class Real> struct Ledger<Real, viscous | ledger> : Ledger<Real, ledger> {
     Real power;  ///< that dashpots took in compression in the step before
@@ -35,6 +39,7 @@ template <class Real> struct Ledger<Real, viscous | ledger> : Ledger<Real, ledge
 /// The memory of a contact: N springs; plain numbers, all zeros while the bodies are apart.
 template <int N = 16, class Real = double, unsigned P = elastic>
 struct Contact : springs::Recovery<N, Real, (P & viscous) != 0>,
+                 springs::Forces<Real, P != elastic>,
                  springs::Ledger<Real, P> {
     static_assert(N >= 8 && N <= 4096 && N % 4 == 0, "8 to 4096 springs, a multiple of 4");
     Real spacing;  ///< of the springs; 0 while the bodies are apart

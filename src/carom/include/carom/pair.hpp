@@ -20,7 +20,7 @@ struct Pair {
     double friction;         ///< mu, 0 for none
     double mass;             ///< m_1 m_2/(m_1 + m_2): how deep an impact goes, from which springs
                              ///< get their places; forces do not depend on it
-    double retardation = 0;  ///< time, of a Contact that is viscous
+    double retardation = 0;  ///< time, of a Contact that is viscous; 0 for others
     bool viscous_shear = true;  ///< whether shear loses energy, too; if not, friction is exceeded
     double share = 0.5;  ///< of the penetration, by which the first body is flattened
 };
@@ -49,7 +49,8 @@ enum class Status { ok, bad_pair, bad_motion };
 inline const char* message(Status status) {
     if (status == Status::bad_pair)
         return "modulus, radius and mass must be from 1e-30 to 1e30, stiffness_ratio from 1e-6 to "
-               "1e6, friction from 0 to 1e6, retardation from 0 to 1e30";
+               "1e6, friction from 0 to 1e6, retardation from 0 to 1e30; a contact with a retardation "
+               "is viscous";
     if (status == Status::bad_motion)
         return "the motion must be within 1e30, the penetration below the radius, the step at "
                "least 1e-30 and, in single precision, 1e-12 of the retardation";
@@ -99,11 +100,12 @@ template <class T> auto is_good(const MotionOf<T>& m, const T& radius, const T& 
     return (all <= largest * largest) & (m.step >= shortest) & (m.penetration < radius);
 }
 
-/// Say of steps whether they can be taken, by numbers of this precision.
-template <class Real, class T>
+/// Say of steps whether they can be taken, by numbers of this precision; losses by viscous contacts.
+template <class Real, bool viscous, class T>
 inline void set_statuses(const PairOf<T>& pair, const MotionOf<T>& motion, Status statuses[], int count) {
     constexpr double part = sizeof(Real) < sizeof(double) ? 1e-12 : 0.0;
-    const auto pair_good = is_good(pair);
+    auto pair_good = is_good(pair);
+    if constexpr (!viscous) pair_good = pair_good & (pair.retardation == 0.0);
     const T shortest = 1.0 / largest + part * pair.retardation;
     const auto motion_good = is_good(motion, pair.radius, shortest);
     for (int k = 0; k < count; ++k)

@@ -59,7 +59,75 @@ inline T fade_of(const Row<T, Contact<N, Real, P>>& row, const T& steps) {
     return row.get(&Kind::fade);
 }
 
-/// Velocities at the end of the step follow from those of its middle and of the one before.
+/// Velocities at the end of a step, which dashpots have there.
+template <class T> struct Ends {
+    T approach, slide_x, slide_y;
+};
+
+/// How many times as fast as one pair alone the dashpots of a packing slow its bodies, at most.
+/// Velocities stay bounded at any loss if k dt^2/m* + 4/crowd, summed by the geometry of the packing,
+/// is below 4: among equal spheres, closely packed, up to k dt^2/m* = 0.1 from 12 on.
+constexpr double crowd = 16.0;
+
+/// Return S, by how much more than the contact's own dashpot all of them slow its bodies: 1 if nothing
+/// else acts on these, more where others do. Squares of velocities: gained by the forces of others and
+/// by its own in half a step, and those by which to tell them from rounding.
+template <class T> inline T crowding(const T& by_others, const T& by_own, const T& speed) {
+    const T share = by_others / (by_others + by_own + 1e-12 * speed + 1e-300);
+    return 1.0 + (crowd - 1.0) * smaller(4.0 * share, T{} + 1.0);
+}
+
+/// Return velocities at the end of a step, for a contact of this radius.
+///
+/// They follow from those of its middle, v, and the acceleration of the step before, but for what
+/// dashpots do: these take g e in a step, g = k tau dt/m*, and bodies that many of them slow would be
+/// thrown back by what they did a step ago. So what they change by since counts at once,
+///
+///     e = v + (v - v_before)/2 - S/2 (g e - g e_before),
+///
+/// which is of second order for any S, and stable where S is as large as all dashpots of the bodies
+/// demand (a W-method; Steihaug & Wolfbrandt 1979).
+template <class T, int N, class Real, unsigned P>
+inline Ends<T> ends_of(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
+                       const MotionOf<T>& m, const T& radius) {
+    using Kind = Contact<N, Real, P>;
+    const auto square = [](const T& each) { return each * each; };
+    constexpr double lever = 3.5;  // m*/m_t of solid spheres, which turn, too
+    const T half = 0.5 * m.step / pair.mass;
+
+    // gained in half a step: in all, and by this contact
+    const T approach = 0.5 * (m.approach - row.get(&Kind::approach));
+    const T slide_x = 0.5 * (m.slide_x - row.get(&Kind::slide_x));
+    const T slide_y = 0.5 * (m.slide_y - row.get(&Kind::slide_y));
+    const T own = half * row.get(&Kind::normal);
+    const T own_x = lever * half * row.get(&Kind::shear_x);
+    const T own_y = lever * half * row.get(&Kind::shear_y);
+    const T crowded = crowding(square(approach + own), square(own), square(m.approach));
+    const T crowded_aside =
+        crowding(square(slide_x + own_x) + square(slide_y + own_y), square(own_x) + square(own_y),
+                 square(m.slide_x) + square(m.slide_y));
+
+    // half of what dashpots take in a step, over e
+    const T damping = 2.0 * pair.modulus * radius * half * pair.retardation;
+    const T damping_aside =
+        lever * 2.0 * pair.modulus * radius * half * pair.stiffness_ratio * pair.shear_retardation;
+    const T less = 1.0 / (1.0 + crowded * damping);
+    const T less_aside = 1.0 / (1.0 + crowded_aside * damping_aside);
+
+    Ends<T> end;
+    end.approach = less * (m.approach + approach + crowded * row.get(&Kind::damped));
+    end.slide_x = less_aside * (m.slide_x + slide_x + crowded_aside * row.get(&Kind::damped_x));
+    end.slide_y = less_aside * (m.slide_y + slide_y + crowded_aside * row.get(&Kind::damped_y));
+
+    row.keep(&Kind::damped, damping * end.approach);
+    row.keep(&Kind::damped_x, damping_aside * end.slide_x);
+    row.keep(&Kind::damped_y, damping_aside * end.slide_y);
+    row.keep(&Kind::approach, m.approach);
+    row.keep(&Kind::slide_x, m.slide_x);
+    row.keep(&Kind::slide_y, m.slide_y);
+    return end;
+}
+
 template <class T, int N, class Real, unsigned P>
 inline void look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
                  const MotionOf<T>& m, Now<T>& now) {
@@ -79,7 +147,8 @@ inline void look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
     now.moved_y = moved * m.slide_y;
     if constexpr ((P & viscous) != 0) {
         const auto losing = pair.retardation > 0.0;
-        const T approach = (1.5 * m.approach - 0.5 * row.get(&Kind::approach)) * per_unit;
+        const Ends<T> end = ends_of(row, pair, m, spacing * root(now.depth));
+        const T approach = end.approach * per_unit;
         const T half = losing ? 0.5 * approach * m.step : none;
         now.before = now.depth - now.rises;
         const T mean = mean_at_end(now.depth, now.before, half);
@@ -89,12 +158,9 @@ inline void look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
         const T all = none + 1e3;  // or more retardation times: nothing is left of a deflection
         now.fade = fade_of(row, losing ? smaller(m.step / pair.retardation, all) : all);
         const T drag = slope * pair.shear_retardation * mean;
-        now.drag_x = drag * (1.5 * m.slide_x - 0.5 * row.get(&Kind::slide_x));
-        now.drag_y = drag * (1.5 * m.slide_y - 0.5 * row.get(&Kind::slide_y));
+        now.drag_x = drag * end.slide_x;
+        now.drag_y = drag * end.slide_y;
         shorten<Real>(now.drag_x, now.drag_y, one);
-        row.keep(&Kind::approach, m.approach);
-        row.keep(&Kind::slide_x, m.slide_x);
-        row.keep(&Kind::slide_y, m.slide_y);
     }
     shorten<Real>(now.moved_x, now.moved_y, now.most);
 }
