@@ -43,6 +43,8 @@ def loads(folder, request):
     program = built(folder, SOURCES / "loads.cpp", request.param)
 
     def run(kind, rows):
+        if "elastic" in kind:  # its pair has no retardation
+            rows = [(friction, 0.0, *motion) for friction, _, *motion in rows]
         text = "\n".join(" ".join(map(repr, row)) for row in rows)
         return np.array(printed(program, kind, text=text)).reshape(-1, 3).T
 
@@ -112,11 +114,14 @@ def test_a_first_touch_has_coulombs_friction_however_shallow(loads, kind):
 @pytest.mark.first_case
 @pytest.mark.parametrize("kind", KINDS[2:])
 def test_short_steps_move_springs_in_single_precision(loads, kind):
-    """After a time t of sliding, springs are at 1 - exp(-t/tau) of the limit, and stay there."""
+    """After a time t of sliding, springs are at 1 - exp(-t/tau) of the limit, and stay there.
+
+    Within some steps at rest dashpots, whose velocity lags, take no part any longer.
+    """
     for part in (1e-2, 1e-4, 1e-6):
         steps = round(0.7 / part)
         ((_, along, _),) = loads(
-            kind, [(0.3, RETARDATION, DEPTH, 0.0, 1e3, part * RETARDATION, steps, 2)]
+            kind, [(0.3, RETARDATION, DEPTH, 0.0, 1e3, part * RETARDATION, steps, 6)]
         ).T
         limit = 0.3 * 4.0 / 3.0 * 5e5 * np.sqrt(0.1) * DEPTH**1.5
         assert along == pytest.approx(-limit * np.expm1(-0.7), rel=5e-4)

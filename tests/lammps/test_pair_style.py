@@ -339,3 +339,28 @@ def test_what_the_style_needs_of_lammps(lammps):
     ):
         mass = "mass * 1.0\n" if "atomic" in head else ""
         assert answer in lammps.fails(f"{head}{BOX}{mass}{rest}")
+
+
+ONE = f"{HEAD}{BOX}set group all diameter 0.01 density 2500\npair_style carom\n"
+FULL = words(young=5e7, poisson=0.3, friction=0.3)
+STEP = "fix 1 all nve/sphere\ntimestep 1e-6\nrun 1\n"
+
+
+def test_a_line_of_pair_coeff_is_whole(lammps):
+    """Nothing of a line before is left: losses end, and what is needed is asked for."""
+    lossy = f"pair_coeff * * {FULL} restitution 0.5 speed 1\n"
+    told = "with losses, energies of contacts are told by ledger yes only"
+    end = f"compute c all pair carom\n{STEP}"
+    assert told in lammps(f"{ONE}{lossy}{end}")
+    assert told not in lammps(f"{ONE}{lossy}pair_coeff * * {FULL}\n{end}")
+    printed = lammps.fails(f"{ONE}{lossy}pair_coeff * * friction 0.2\n{end}")
+    assert "type 1 has no young, poisson or friction" in printed
+
+
+PAGES = {"": 20000, "neigh_modify one 5000\n": 50000, "neigh_modify page 100000\n": 100000}
+
+
+@pytest.mark.parametrize(("said", "page"), PAGES.items())
+def test_pages_are_as_the_input_says_behind_the_style(lammps, said, page):
+    printed = lammps(f"{ONE}pair_coeff * * {FULL}\n{said}{STEP}")
+    assert f"page size: {page}" in printed

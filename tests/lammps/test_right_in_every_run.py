@@ -7,14 +7,11 @@ import pytest
 from tests.lammps.test_walls import HEAD, on_the_floor
 
 import carom
-from carom.dimensionless.numerics.hertz import DURATION
 
 pytestmark = pytest.mark.engine
 RADIUS, SPEED = 5e-3, 0.1
 SOLID = "young 5e7 poisson 0.3 friction 0.3"
 BALL = carom.Sphere(radius=RADIUS, material=carom.Material(young=5e7, poisson=0.3, density=2500.0))
-PAIR = carom.Pair(BALL, BALL, friction=0.3)
-WALL = carom.Pair(BALL, carom.HalfSpace(material=BALL.material), friction=0.3)
 BOX = f"{HEAD}newton off\natom_modify map array\nregion b block 0 0.1 0 0.1 0 0.1\ncreate_box 1 b\n"
 STYLE = f"pair_style carom precision double\npair_coeff * * {SOLID}\n"
 
@@ -24,49 +21,9 @@ def balls(*places):
     return f"{made}set group all diameter {2.0 * RADIUS} density 2500\n"
 
 
-def step_of(pair, steps):
-    """The time step of which so many are in a contact."""
-    return float(DURATION * pair.scales(SPEED).time / steps)
-
-
 def warnings(printed, words):
     lines = printed.splitlines()
     return [line for line in lines if line.startswith("WARNING") and words in line]
-
-
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_steps_too_coarse_for_a_contact_are_told_once_a_run(lammps, ranks):
-    """By 12 steps in a contact, not by 25; two pairs meet, both on the second processor."""
-    places = [(0.07 + 0.0101 * k, y, 0.05) for y in (0.02, 0.08) for k in (0, 1)]
-    moves = "variable v atom 0.05*(1-2*((id-1)%2))\nvelocity all set v_v 0 0\n"
-    for steps, times in ((12, 1), (25, 0)):
-        step = step_of(PAIR, steps)
-        run = f"run {int(1e-4 / (SPEED * step)) + 3 * steps}\n"
-        printed = lammps(
-            f"{BOX}{balls(*places)}{moves}{STYLE}fix 1 all nve/sphere\ntimestep {step!r}\n{run}",
-            ranks,
-        )
-        lines = warnings(printed, "time steps")
-        assert len(lines) == times, printed
-        if lines:
-            assert "pair_style carom" in lines[0]
-            assert f"lasts {steps}.0 time steps" in lines[0]
-            assert "at least 20" in lines[0]
-
-
-def test_steps_too_coarse_for_a_wall_are_told_once_a_run(lammps):
-    places = [(x, 0.05, 0.0051) for x in (0.02, 0.05, 0.08)]
-    for steps, times in ((12, 2), (25, 0)):
-        step = step_of(WALL, steps)
-        run = f"run {int(1e-4 / (SPEED * step)) + 3 * steps}\n"
-        printed = lammps(
-            f"{BOX}{balls(*places)}velocity all set 0 0 {-SPEED}\n{STYLE}"
-            f"region w plane 0 0 0 0 0 1\nfix w all wall/carom {SOLID} region w\n"
-            f"fix 1 all nve/sphere\ntimestep {step!r}\n{run}velocity all set 0 0 {-SPEED}\n{run}"
-        )
-        lines = warnings(printed, "time steps")
-        assert len(lines) == times, printed
-        assert all("fix wall/carom" in line and f"lasts {steps}.0" in line for line in lines)
 
 
 DEEP = balls((0.05, 0.05, 0.05), (0.0565, 0.05, 0.05))  # by 0.7 R, R* is R/2
@@ -75,7 +32,14 @@ DEEP = balls((0.05, 0.05, 0.05), (0.0565, 0.05, 0.05))  # by 0.7 R, R* is R/2
 def test_overlap_above_the_radius_stops_lammps_with_what_to_do(lammps):
     printed = lammps.fails(f"{BOX}{DEEP}{STYLE}fix 1 all nve/sphere\ntimestep 1e-6\nrun 10\n")
     (line,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
-    for words in ("atoms 1 and 2", "overlap 0.0035 ", "R* = 0.0025", "minimize", "fix nve/limit"):
+    for words in (
+        "atoms 1 and 2",
+        "overlap 0.0035 ",
+        "R* = 0.0025",
+        "minimize",
+        "fix nve/limit",
+        "exclude molecule/intra",
+    ):
         assert words in line
 
 

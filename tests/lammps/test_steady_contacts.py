@@ -173,7 +173,8 @@ def test_friction_brakes_and_nothing_gains_energy(lammps, folder):
         brakes, aside = balls.frictions(forces[1:])  # walls begin to move in the first step
         assert brakes[:, slides & ~free].min() > 0.0, kind
         np.testing.assert_allclose(brakes[-1, slides & ~free], 1.0, atol=2e-7, err_msg=kind)
-        assert aside[:, (still | slides) & ~free].max() < 5e-5, kind  # all of it where balls roll
+        late = 15 if kind[1] else 0  # velocities of dashpots lag, of walls that begin to move, too
+        assert aside[late:, (still | slides) & ~free].max() < 5e-5, kind  # all of it if balls roll
         energy = balls.energies(*(each[1:, free] for each in motion))
         assert np.all(energy <= energy[0] * (1.0 + 1e-9)), kind
         gained = np.diff(energy, axis=0) / energy[0]  # not by what shear had stored

@@ -239,3 +239,67 @@ def test_bad_input_stops_lammps_with_one_line(lammps, pair, wall, answer):
     )
     (line,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
     assert answer in line
+
+
+JUMPS = "the wall begins or ends where it is pressed"
+
+
+@pytest.mark.parametrize("rooms", [True, False], ids=["rooms", "tiles"])
+@pytest.mark.parametrize(("half", "told"), [(0.0, 0), (0.0005, 1)], ids=["touch", "overlap"])
+def test_a_ball_rolls_over_a_seam_of_parts_that_touch(lammps, half, told, rooms):
+    """LAMMPS has no surface where parts overlap: a ball sinks in there and is thrown out with 1.3
+    times its energy, which is told."""
+    low, high, side, join = -0.04, 0.0, "side out", "intersect"
+    if rooms:
+        low, high, side, join = 0.0, 0.04, "", "union"
+    solid = "young 5e6 poisson 0.25 friction 0.5"
+    printed = lammps(
+        f"""{HEAD}newton off
+region box block -0.1 0.1 -0.1 0.1 -0.05 0.1 units box
+create_box 1 box
+create_atoms 1 single -0.002 0 0.0049834 units box
+set group all diameter 0.01 density 2500
+pair_style carom
+pair_coeff * * {solid}
+region a block -0.1 {half} -0.1 0.1 {low} {high} {side}
+region b block {-half} 0.1 -0.1 0.1 {low} {high} {side}
+region c {join} 2 a b
+fix w all wall/carom {solid} region c
+fix 1 all nve/sphere
+fix g all gravity 9.81 vector 0 0 -1
+velocity all set 0.2 0 0
+set atom 1 omega 0 40.13 0
+timestep 1e-5
+compute z all reduce sum z
+compute r all erotate/sphere
+variable e equal (ke+c_r)/mass(all)+9.81*c_z
+thermo_style custom step v_e
+thermo 2500
+run 2500
+"""
+    )
+    first, last = (float(row) for row in re.findall(r"(?m)^ +\d+ +(0\.\d+)", printed))
+    assert printed.count(JUMPS) == told
+    assert (abs(last / first - 1.0) < 2e-3) == (not told)
+
+
+def test_a_sphere_put_into_a_wall_is_told_and_one_that_falls_on_it_is_not(lammps):
+    """Falling by 0.5 m/s it moves 5e-7 m in a step; poured in, it would be pressed by 1e-5 m."""
+    start = f"""{HEAD}newton off
+region b block -1 1 -1 1 -1 1
+create_box 1 b
+create_atoms 1 single 0 0 {{}}
+set group all diameter {2 * RADIUS} density 2500
+pair_style carom
+pair_coeff * * {SOLID}
+region w plane 0 0 0 0 0 1
+fix w all wall/carom {SOLID} region w
+fix 1 all nve/sphere
+timestep 1e-6
+"""
+    falls, put = start.format(RADIUS + 1e-6), start.format(RADIUS - 1e-5)
+    assert JUMPS not in lammps(f"{falls}velocity all set 0 0 -0.5\nrun 60\n")
+    assert JUMPS not in lammps(f"{put}run 3\n")  # what a run begins with is as it is
+    rises = "region w plane 0 0 v_z 0 0 1\nvariable z equal 1e-5*(step>1)\n"
+    jumps = falls.replace("region w plane 0 0 0 0 0 1\n", rises)
+    assert JUMPS in lammps(f"{jumps}run 5\n")

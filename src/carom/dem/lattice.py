@@ -17,9 +17,9 @@ from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.quantities.arrays import Array
 
-# What is remembered: the spacing, 0 while apart; s at the edge; of the step before three velocities in
-# its middle, the forces at its end, and what dashpots took of velocities in half of it; then two
-# deflections of each spring, and how far it is pressed that was let go.
+# What is remembered: the spacing, 0 while apart; s at the edge; of the step before three velocities
+# in its middle, the forces at its end, and what dashpots took of velocities in half of it; then
+# two deflections of each spring, and how far it is pressed that was let go.
 SPACING, EDGE, SPEED, FORCE, DAMPED, FIRST = 0, 1, 2, 5, 8, 11
 MARGIN = 1.04  # of the lattice beyond the impact that is expected
 COARSER, FINER = 1.0, 0.0625  # of the depth that the lattice holds, where it is made so
@@ -249,27 +249,28 @@ def step(
 
     v, slide, aside = motion[0], motion[1], motion[2]
     before, depth, fade, edge, drag = d - v * dt, d, 1.0, d, (0.0, 0.0)
+    given = 0.5 * dt * ELASTIC_PULL  # velocity by a force of one in half a step
+    slowed = 1.5 * given * shear_alpha * 2.0 * chi
+    rates = (1.5 * given * alpha, slowed, slowed)  # taken by dashpots of a contact of radius one
     if memory[SPACING] == 0.0:
         memory[:] = 0.0
-        for i in range(3):
-            memory[SPEED + i] = motion[i]
         fit_lattice(memory, springs, d, v)
         begin(memory, springs, before)
+        for i in range(3):
+            memory[SPEED + i] = motion[i]
+            memory[DAMPED + i] = rates[i] * np.sqrt(max(before, 0.0)) * motion[i]
     else:
         fit_lattice(memory, springs, d, v)
 
     if alpha > 0.0:
-        given = 0.5 * dt * ELASTIC_PULL
-        damping = 1.5 * given * np.sqrt(d)
-        speed = at_end(memory, motion, 0, crowding(memory, motion, 0, 1, given), damping * alpha)
-
-        given *= 2.0 * chi
-        damping *= 2.0 * chi * shear_alpha
-        crowd = crowding(memory, motion, 1, 3, given)
+        width = np.sqrt(d)
+        crowd = crowding(memory, motion, 0, 1, given)
+        aside_crowd = crowding(memory, motion, 1, 3, 2.0 * chi * given)
+        speed = at_end(memory, motion, 0, crowd, rates[0] * width)
         mean = mean_at_end(0.5 * speed * dt, d, before)
         drag = (
-            shear_alpha * mean * at_end(memory, motion, 1, crowd, damping),
-            shear_alpha * mean * at_end(memory, motion, 2, crowd, damping),
+            shear_alpha * mean * at_end(memory, motion, 1, aside_crowd, rates[1] * width),
+            shear_alpha * mean * at_end(memory, motion, 2, aside_crowd, rates[2] * width),
         )
 
         depth += alpha * mean * speed

@@ -137,9 +137,9 @@ template <class T, int N, class Real, unsigned P> struct Stage {
         }
         if constexpr ((P & ledger) != 0) enter(row, motion, load);
         if constexpr (P != elastic) {
-            row.keep(&Kind::normal, load.normal);
-            row.keep(&Kind::shear_x, load.x);
-            row.keep(&Kind::shear_y, load.y);
+            row.keep(&Kind::normal, held<Real>(load.normal));
+            row.keep(&Kind::shear_x, held<Real>(load.x));
+            row.keep(&Kind::shear_y, held<Real>(load.y));
         }
     }
 };

@@ -92,7 +92,6 @@ inline Ends<T> ends_of(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& 
                        const MotionOf<T>& m, const T& radius) {
     using Kind = Contact<N, Real, P>;
     const auto square = [](const T& each) { return each * each; };
-    constexpr double lever = 3.5;  // m*/m_t of solid spheres, which turn, too
     const T half = 0.5 * m.step / pair.mass;
 
     // gained in half a step: in all, and by this contact
@@ -107,10 +106,8 @@ inline Ends<T> ends_of(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& 
         crowding(square(slide_x + own_x) + square(slide_y + own_y), square(own_x) + square(own_y),
                  square(m.slide_x) + square(m.slide_y));
 
-    // half of what dashpots take in a step, over e
-    const T damping = 2.0 * pair.modulus * radius * half * pair.retardation;
-    const T damping_aside =
-        lever * 2.0 * pair.modulus * radius * half * pair.stiffness_ratio * pair.shear_retardation;
+    const T damping = damping_of(pair, radius, m.step);
+    const T damping_aside = shear_damping_of(pair, radius, m.step);
     const T less = 1.0 / (1.0 + crowded * damping);
     const T less_aside = 1.0 / (1.0 + crowded_aside * damping_aside);
 
