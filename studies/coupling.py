@@ -27,7 +27,8 @@ TABLE = Path(__file__).with_name("coupling.csv")
 FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "coupling.png"
 SOLID, SPEED, RADIUS = 1.75, 3.9, 2.5e-3  # chi/kappa of a solid sphere on a half-space
 BALL = carom.Sphere(radius=RADIUS, material="alumina")
-PAIR = carom.Pair(BALL, carom.HalfSpace(material="soda-lime-glass"), 0.092)
+GLASS = carom.material("soda-lime-glass", poisson=0.25)  # as the data sets have it
+PAIR = carom.Pair(BALL, carom.HalfSpace(material=GLASS), 0.092)
 KAPPA, BETA, FRICTION = PAIR.kappa, PAIR.dundurs_beta, PAIR.friction
 SHOWN, SPINS = (1.84, 3.703, 9.496, 20.012, 30.127), (6.143, 10.991, 21.251, 31.157)
 ANGLES = np.array(sorted((*SHOWN, *SPINS)))

@@ -7,7 +7,6 @@ import pytest
 
 import carom
 from carom import Cup, HalfSpace, InputError, Material, Pair, Sphere
-from carom.bodies.materials import VALUES
 from carom.dimensionless.neglected import not_studied, rebound_error
 
 STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
@@ -241,19 +240,6 @@ def test_bad_input_is_refused_in_one_line(make, message):
     with pytest.raises(InputError, match=message) as caught:
         make()
     assert "\n" not in str(caught.value)
-
-
-def test_catalogue():
-    catalogue = carom.materials()
-    assert len(catalogue) >= 15
-    for name, stuff in catalogue.items():
-        sources = carom.material(name).sources
-        assert stuff.density is not None
-        assert set(sources) <= {*VALUES, "rate_hardening"}, name
-        for key in (*VALUES, "rate_hardening"):
-            assert (getattr(stuff, key) is not None) == (key in sources), (name, key)
-            assert len(sources.get(key, "long enough")) > 8
-    assert carom.material("  Mild Steel ") == carom.material("steel")
 
 
 @pytest.mark.parametrize(

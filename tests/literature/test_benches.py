@@ -13,12 +13,9 @@ import carom
 PHENOLIC = carom.Material(young="5.8 GPa", poisson=0.34, density=1740, name="phenolic resin")
 CELLULOID = carom.Material(young="2.2 GPa", poisson=0.35, density=1400, name="celluloid")
 FELT = carom.Material(young="20 MPa", poisson=0.45, density=1000, name="rubber and felt")
-POLYSTYRENE = carom.Material(
-    young="3.2 GPa", poisson=0.34, density=1050, surface_energy="34 mJ/m^2", name="polystyrene"
-)
 SUPERBALL = carom.Material(young="10 MPa", poisson=0.5, density=910, name="superball")
-ACETATE = carom.Material(young="1.8 GPa", poisson=0.39, density=1319, name="cellulose acetate")
 POLYURETHANE = carom.Material(young="20 MPa", poisson=0.48, density=1200, name="polyurethane")
+UNKNOWN_LOSS = "a polymer: e is below 0.99, but its loss factor is in no handbook at hand"
 BEARING, MILD, STAINLESS = "bearing-steel", "steel", "stainless-steel"
 GLASS, FLOAT = "soda-lime-glass", "float-glass"
 
@@ -44,10 +41,6 @@ ELASTIC = [  # ball, diameter, what it strikes (None: its like), speed in m/s, a
     ("aluminium-7075", "10 mm", None, 0.05, 0, 0.3),
     ("aluminium-7075", "20 mm", "aluminium-7075", 0.1, 10, 0.3),
     ("aluminium-6061", "20 mm", None, 0.01, 0, 0.3),
-    ("alumina", "5 mm", None, 0.1, 0, 0.1),
-    ("alumina", "5 mm", "alumina", 0.1, 0, 0.1),
-    ("alumina", "5 mm", BEARING, 0.2, 0, 0.1),
-    ("sintered-alumina", "10 mm", "sintered-alumina", 0.1, 0, 0.1),
     ("magnesium-az31b", "40 mm", None, 0.02, 0, 0.3),
     (MILD, "50 mm", MILD, 0.003, 0, 0.3),
     (STAINLESS, "50 mm", None, 0.0015, 0, 0.3),
@@ -74,20 +67,21 @@ LOSSY = [  # as above, and e as far as it is known
     ("alumina", "5 mm", GLASS, 3.9, 0, 0.092, "e = 0.98, Kharaz, Gorham & Salman 2001"),
     ("alumina", "5 mm", GLASS, 3.9, 30, 0.092, "e = 0.98, Kharaz, Gorham & Salman 2001"),
     ("pom", "6.35 mm", None, 0.5, 0, 0.14, "e = 0.97 (0.01), Louge 1999"),
-    (ACETATE, "5.99 mm", None, 0.5, 0, 0.25, "e = 0.87 (0.02), Louge 1999"),
+    ("cellulose-acetate", "5.99 mm", None, 0.5, 0, 0.25, "e = 0.87 (0.02), Louge 1999"),
     (POLYURETHANE, "4 mm", None, 0.5, 0, 0.8, "e = 0.60 (0.05), Louge 1999"),
-    ("nylon", "6 mm", None, 1.0, 0, 0.2, "polymers lose"),
-    ("pmma", "10 mm", BEARING, 0.1, 0, 0.3, "polymers lose"),
-    ("polycarbonate", "10 mm", "polycarbonate", 0.1, 0, 0.3, "polymers lose"),
-    ("rubber", "20 mm", MILD, 0.03, 0, 0.8, "rubber loses"),
-    ("rubber", "20 mm", "concrete", 1.0, 0, 0.8, "rubber loses"),
+    ("nylon", "6 mm", None, 1.0, 0, 0.2, "yields at 0.8 m/s"),
+    ("pmma", "10 mm", BEARING, 0.1, 0, 0.3, UNKNOWN_LOSS),
+    ("polycarbonate", "10 mm", "polycarbonate", 0.1, 0, 0.3, UNKNOWN_LOSS),
+    ("rubber", "20 mm", MILD, 0.03, 0, 0.8, UNKNOWN_LOSS),
+    ("rubber", "20 mm", "concrete", 1.0, 0, 0.8, "pressed too flat"),
+    ("ice", "55 mm", "ice", 0.05, 0, 0.1, "loses: e = 0.22, Bridges, Hatzes & Lin 1984"),
     (SUPERBALL, "46 mm", "granite", 2.69, 54, 0.7, "e = 0.91, Cross 2002"),
     (PHENOLIC, "57.15 mm", None, 1.0, 30, 0.06, "e = 0.92 to 0.98, Alciatore"),
     (BEARING, "10 mm", "lead", 0.1, 0, 0.3, "lead dents"),
     (BEARING, "10 mm", "concrete", 1.0, 0, 0.3, "concrete loses"),
     (GLASS, "20 um", GLASS, 0.01, 0, 0.2, "sticks: below some cm/s"),
     (GLASS, "5 um", BEARING, 0.05, 0, 0.2, "sticks: below some dm/s"),
-    (POLYSTYRENE, "1.27 um", "fused-silica", 0.3, 0, 0.2, "sticks, Dahneke 1975"),
+    ("polystyrene", "1.27 um", "fused-silica", 0.3, 0, 0.2, "sticks, Dahneke 1975"),
     (BEARING, "10 um", BEARING, 0.01, 0, 0.2, "sticks: below some cm/s"),
 ]
 
@@ -107,7 +101,19 @@ OPEN = [  # the theory is good, or nobody knows; what a verdict would need is no
     ("zirconia", "10 mm", BEARING, 0.1, 0, 0.1, "loss_factor of zirconia"),
     (BEARING, "10 mm", "bk7", 0.1, 0, 0.1, "fracture_toughness of bk7"),
     ("tungsten", "10 mm", None, 0.005, 0, 0.3, "loss_factor of tungsten"),
-    ("ice", "20 mm", None, 0.1, 0, 0.1, "yield_strength of ice"),
+    ("alumina", "5 mm", None, 0.1, 0, 0.1, "loss_factor of alumina"),
+    ("alumina", "5 mm", "alumina", 0.1, 0, 0.1, "loss_factor of alumina"),
+    ("alumina", "5 mm", BEARING, 0.2, 0, 0.1, "loss_factor of alumina"),
+    (
+        "sintered-alumina",
+        "10 mm",
+        "sintered-alumina",
+        0.1,
+        0,
+        0.1,
+        "loss_factor of sintered-alumina",
+    ),
+    ("tungsten-carbide", "10 mm", None, 0.1, 0, 0.1, "loss_factor of tungsten-carbide"),
     ("granite", "50 mm", None, 0.1, 0, 0.5, "yield_strength of granite"),
     ("cast-iron", "20 mm", None, 0.1, 0, 0.3, "yield_strength of cast-iron"),
 ]
