@@ -146,7 +146,9 @@ def test_addresses_of_files(client):
             assert answered.text == f"{name} angle=50 0.25"
             assert answered.headers["Content-Disposition"] == f"attachment; filename={name}"
     assert 'angle="50.0 deg"' in client.get("/view.py?angle=50&time=0.3").text
-    assert client.get("/curve.png?time=7").text.endswith(" 1.0")
+    assert "hit.fields(1.0 * hit.duration)" in client.get("/view.py?time=1.6").text
+    assert client.get("/contact.png?time=7").text.endswith(" 1.6")  # where the film ends
+    assert client.get("/contact.png?time=-7").text.endswith(" -0.6")
     for wrong in ("curve.png?angle=x", "view.py?angle=x", "history.nc?time=soon"):
         answered = client.get(f"/{wrong}")
         assert answered.status_code == 400
