@@ -23,10 +23,10 @@ from carom.quantities.texts import Unreadable, read_text
 from carom.quantities.units import or_none
 
 OWN_HOST_ONLY = (
-    "default-src 'self'; script-src 'self' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; font-src 'self' data:; object-src 'none'; base-uri 'none'; "
     "form-action 'self'; frame-ancestors 'none'"
-)  # plotly writes styles; who drives the page by a program evaluates questions
+)  # plotly writes styles; the solver is compiled for browsers
 HEADERS = {
     "Content-Security-Policy": OWN_HOST_ONLY,
     "Referrer-Policy": "no-referrer",
