@@ -9,14 +9,12 @@ Carom.losses = (() => {
 
   function percent(value) {
     const digits = value > 0.999 && value < 1 ? 5 : 3;
-    return `${Carom.quantities.plain(100 * value, digits)}\u00a0%`;
+    return `${Carom.quantities.plain(100 * value, digits)} %`;
   }
 
   // The shares that are lost of the energy of all bodies before, each with its words.
-  function shares({ scene, history, lossy, numbers }) {
-    const rubbed = history.energies.frictional_work.at(-1);
-    const rest = lossy ? Math.max(0, 1 - numbers.energy_kept - rubbed) : 0;
-    return [[rubbed, WORDS.friction], [rest, sink(scene)]].filter(([share]) => share > 0);
+  function shares({ scene, lossy, numbers: { energy_rubbed: rubbed, energy_lost: lost } }) {
+    return [[rubbed, WORDS.friction], [lossy ? lost : 0, sink(scene)]].filter(([share]) => share > 0);
   }
 
   // All that is lost, in a sentence.
