@@ -40,7 +40,10 @@ def told(query):
 
 def test_the_first_level_tells_what_fails_and_by_how_much(visit):
     seen = visit(RUBBER, level="first")
-    assert "✗ The theory does not hold here: rubber is pressed too flat for it: " in judged(seen)
+    assert (
+        "✗ The theory does not hold here: rubber is pressed too flat for this theory: "
+        in judged(seen)
+    )
     assert "0.1 allowed" in line(seen)
     seen.page.fill("#speed", "0.03")
     seen.until(lambda: "pressed too flat" not in line(seen) and WAITS not in line(seen))

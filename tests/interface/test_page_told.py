@@ -51,7 +51,17 @@ def test_findings_speak_of_the_page(view):
 
 PAGE_STATES = {  # what decides, and what is said of it
     "material=rubber&second_material=steel&speed=30": (
-        *("FAILS", "a_max/R*", "rubber is pressed too flat for it: {value}, 0.1 allowed"),
+        *("FAILS", "a_max/R*", "rubber is pressed too flat for this theory: {value}, 0.1 allowed"),
+    ),
+    "material=own&young=0.01&poisson=0.5&density=910&speed=4": (
+        *(
+            "FAILS",
+            "a_max/R*",
+            "the ball is pressed too flat for this theory: {value}, 0.1 allowed",
+        ),
+    ),
+    "second_material=own&second_young=0.01&speed=4": (
+        *("FAILS", "a_max/R*", "what it strikes is pressed too flat for this theory: {value}"),
     ),
     "speed=5": ("FAILS", "von Mises stress/Y", "the material yields: {value} of its strength, 1"),
     "thickness=300&speed=0.6": ("FAILS", "bending wave/h", "so thick a plate is a wall"),
@@ -89,9 +99,7 @@ def test_what_is_beside_its_limit_is_told_apart_from_it():
 def test_findings_that_the_page_does_not_know_are_told_in_their_own_words():
     pair = View().pair
     new = Finding("roughness/d", 0.3, 0.1, False, "the surfaces are too rough")
-    lacks = Finding(
-        "roughness/d", 0.3, 0.1, None, "not judged: no roughness of own", "roughness"
-    )
+    lacks = Finding("roughness/d", 0.3, 0.1, None, "not judged: no roughness of own", "roughness")
     assert plain(new, pair) == "the surfaces are too rough"
     assert plain(lacks, pair) == "no roughness of your material is known"
 

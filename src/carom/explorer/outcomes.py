@@ -7,6 +7,7 @@ from functools import lru_cache
 from math import isfinite, isnan
 
 from carom.bodies.losses import ZENER, LossLaw, ZenerPlate
+from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
 from carom.dem.base import SOLID
 from carom.dimensionless.solution import solve
@@ -114,9 +115,15 @@ def apart(value: float, limit: float) -> tuple[str, str]:
 
 def softer(pair: Pair) -> str:
     """Return what the body is called that is pressed flatter."""
+
+    def gives(stuff: Material) -> float:
+        return 0.0 if stuff.is_rigid else (1.0 - stuff.poisson**2) / stuff.young
+
     first, second = pair.first.material, pair.second.material
-    softest = max(first, second, key=lambda m: 0.0 if m.is_rigid else (1.0 - m.poisson**2) / m.young)
-    return "your material" if softest.name == OWN else str(softest.name).replace("-", " ")
+    softest = first if gives(first) >= gives(second) else second
+    if softest.name != OWN:
+        return str(softest.name).replace("-", " ")
+    return "the ball" if softest is first else "what it strikes"
 
 
 @contextmanager
