@@ -20,7 +20,10 @@ pytestmark = pytest.mark.browser
 DRAWN = 28
 MATERIALS = ("bearing-steel", "soda-lime-glass", "alumina", "nylon", "own")
 AGAINST = ("half-space", "plate", "cup", "sphere")
-SPECIAL = ("", "friction=0", "angle=0", "angle=0&spin=50", "friction=0&spin=-9&restitution=0.8")
+SPECIAL = (
+    *("", "friction=0", "angle=0", "angle=0&spin=50", "friction=0&spin=-9&restitution=0.8"),
+    "against=sphere&angle=85&friction=10&spin=1000",  # thrown back while they touch
+)
 NUMBERS = (
     *("psi=1.5", "psi=-3&chi=0.2&restitution=0.9", "psi=0.4&chi=7&restitution=0.35"),
     *("psi=2&inelasticity=0.5", "psi=-6&chi=2.5&friction=0.7&inelasticity=1.6", "psi=0"),

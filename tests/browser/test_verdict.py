@@ -148,6 +148,23 @@ def test_a_verdict_out_of_date_is_not_shown(slow):
     assert "rubber" not in last
 
 
+def test_an_impact_that_is_still_computed_has_no_verdict(visit):
+    """A unit is read by the server, which is slow: what is shown meanwhile is the impact before."""
+    seen = visit(RUBBER, level="first")
+    assert "rubber" in judged(seen)
+    held = []
+    seen.page.route("**/number?*", lambda route: held.append(route))
+    seen.page.fill("#speed", "3 cm/s")
+    seen.until(lambda: held)
+    assert WAITS in line(seen)
+    seen.page.click("#level")
+    assert WAITS in folds(seen)
+    seen.page.click("#level")
+    held[0].continue_()
+    seen.page.unroute("**/number?*")
+    assert "pressed too flat" not in judged(seen)
+
+
 def test_what_is_no_impact_has_no_verdict(visit):
     seen = visit(RUBBER, level="first")
     assert "rubber" in judged(seen)

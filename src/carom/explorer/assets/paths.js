@@ -47,6 +47,7 @@ Carom.paths = (() => {
     const depth = most(closer);
     const travel = most(along.map(Math.abs));
     let [deep, wide] = [DEEPEST, 0.5 * WIDEST];
+    if (kind === "sphere") [deep, wide] = [DEEPEST * Math.min(1, size), ROLLED * (1 + size)];
     if (kind === "cup") {
       const lifted = most(closer.map((value) => -value)) / depth;
       [deep, wide] = [Math.min(DEEPEST, (0.5 * (size - 1)) / lifted), STEEPEST * (size - 1)];
@@ -81,8 +82,7 @@ Carom.paths = (() => {
     const inRadii = (values) => values.map((value) => value / radius);
     const way = inRadii(summed(along, duration));
     const closer = inRadii(penetration);
-    const angle = rolled(way[way.length - 1], along, speed);
-    const large = Math.min((DEEPEST * Math.min(1, size)) / most(closer), (angle * (1 + size)) / most(way.map(Math.abs)));
+    const large = magnification("sphere", size, closer, way);
 
     const middle = 0.5 * way[way.length - 1];
     const apart = way.map((value, i) => placed("sphere", size, large * (value - middle), large * closer[i]));
@@ -98,17 +98,6 @@ Carom.paths = (() => {
       caption: captionOf(large, "sphere"),
       bodies: [body("sphere", 1, free(first, "first"), turns[0]), body("sphere", size, free(second, "second"), turns[1])],
     };
-  }
-
-  // The angle by which the first ball may roll around the second, half of it on either side: not so
-  // far that it would fly into the other from there.
-  function rolled(way, along, speed) {
-    const last = along.length - 1;
-    const halves = [0, last].map((i) => {
-      const against = -Math.sign(way) * along[i];
-      return against > 0 ? Math.atan2(Math.abs(speed[i]), against) : Infinity;
-    });
-    return Math.min(ROLLED, 2 * halves[0], 2 * halves[1]);
   }
 
   // What both bodies have of a component of their relative velocity.
