@@ -99,6 +99,7 @@ def folds(seen):
     return seen.page.locator("#findings").inner_text() if seen.page.is_visible("#findings") else ""
 
 
+@pytest.mark.slow
 def test_a_verdict_that_is_on_its_way_is_not_the_old_one(slow):
     """In the line, and in the list of all findings."""
     seen, server = slow
@@ -115,6 +116,7 @@ def test_a_verdict_that_is_on_its_way_is_not_the_old_one(slow):
     judged(seen)
 
 
+@pytest.mark.slow
 def test_a_verdict_that_fails_is_none(slow):
     seen, _ = slow
     seen.page.unroute("**/verdict?*")
@@ -132,6 +134,7 @@ def test_a_verdict_that_fails_is_none(slow):
     assert "Not judged: the page" not in judged(seen)
 
 
+@pytest.mark.slow
 def test_a_verdict_out_of_date_is_not_shown(slow):
     """The answer to the question before comes after that to the last one."""
     seen, server = slow

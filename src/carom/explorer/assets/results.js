@@ -24,6 +24,7 @@ Carom.results = (() => {
     normal_restitution: "normal restitution",
     shear_lost_energy: "lost in shear",
   };
+  const OF_BALLS = "θ′ and V′ are of the first ball as seen from the other. Pictures and energies are as one sees them: the other at rest before.";
   const SHORTER = { [Carom.losses.WORDS.waves]: "lost to waves" };
   let unfolded = false;
   const { make } = Carom.elements;
@@ -49,7 +50,7 @@ Carom.results = (() => {
   // What the energy is lost to, where that is the same in both impacts.
   function sinkOf(answers) {
     const sinks = new Set(answers.filter((answer) => answer?.lossy).map(({ scene }) => Carom.losses.sink(scene)));
-    return sinks.size === 1 ? [...sinks][0] : "lost otherwise";
+    return sinks.size === 1 ? [...sinks][0] : "lost energy";
   }
 
   function line([first, second], both, sink) {
@@ -101,15 +102,19 @@ Carom.results = (() => {
     return [mark, mark === "ok" ? "the theory holds" : `the theory ${SHORTLY[mark]} in ${count} of ${all.length}`];
   }
 
-  // What a plate comes to; of two balls, whose frame the pictures have.
-  function notes({ scene, view, numbers, ...answer }, title) {
+  // What a plate comes to; and of two balls, in which frame the pictures show them.
+  function notes(answer, title) {
+    const { scene, view } = answer;
     const said = [];
-    if (scene.plate < 1) {
-      const taken = numbers ? Carom.losses.told({ scene, numbers, ...answer }) : `${Carom.losses.percent(1 - scene.plate ** 2)} of the normal energy is ${Carom.losses.sink(scene)}.`;
-      said.push(`${title}e = ${scene.plate.toPrecision(3)}. ${taken}`);
-    }
-    if (view?.against === "sphere") said.push(`${title}θ′ and V′ are of the first ball as seen from the other. Pictures and energies are as one sees them: the other at rest before.`);
-    return said.map((words) => make("p", "carom-note", words));
+    if (scene.plate < 1) said.push(`e = ${scene.plate.toPrecision(3)}. ${takenByPlate(answer)}`);
+    if (view?.against === "sphere") said.push(OF_BALLS);
+    return said.map((words) => make("p", "carom-note", title + words));
+  }
+
+  function takenByPlate(answer) {
+    if (answer.numbers) return Carom.losses.told(answer);
+    const share = Carom.losses.percent(1 - answer.scene.plate ** 2); // two numbers tell no more
+    return `${share} of the normal energy is ${Carom.losses.sink(answer.scene)}.`;
   }
 
   const titled = (answers) => (answers[1] ? ["This: ", "Beside: "] : ["", ""]);

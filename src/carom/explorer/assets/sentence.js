@@ -149,7 +149,8 @@ Carom.sentence = (() => {
     const [before, after] = [scene.psiAt(0), scene.psiAt(1)];
     if (before === null) return `${left}: no force acts any more`;
     const part = after / before;
-    if (Math.abs(part) < SPENT) return `${left}: friction has brought ${isBalls(scene) ? "their contact points to move alike" : "its contact point to rest"}`;
+    const rest = isBalls(scene) ? "their contact points to move alike" : "its contact point to rest";
+    if (Math.abs(part) < SPENT) return `${left}: friction has brought ${rest}`;
     const way = sign(after) === arrival(scene) ? "forwards" : "backwards";
     const share = Math.round(100 * Math.abs(part));
     const how = part > 0 ? "still moves" : "now moves";
