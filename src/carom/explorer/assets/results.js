@@ -24,7 +24,7 @@ Carom.results = (() => {
     normal_restitution: "normal restitution",
     shear_lost_energy: "lost in shear",
   };
-  const OF_BALLS = "θ′ and V′ are of the first ball as seen from the other. Pictures and energies are as one sees them: the other at rest before.";
+  const OF_BALLS = "θ′, V′ and e_t are of the first ball as seen from the other. Pictures and energies are as one sees them: the other at rest before.";
   const SHORTER = { [Carom.losses.WORDS.waves]: "lost to waves" };
   let unfolded = false;
   const { make } = Carom.elements;
