@@ -52,6 +52,70 @@ def test_every_control_has_a_name(visit, query):
     assert nameless == []
 
 
+PICTURES = """() => [...document.querySelectorAll('canvas, [role=img], svg, figure, .carom-chart')]
+  .filter(each => each.checkVisibility() && !each.closest('[aria-hidden=true], .carom-plot'))
+  .filter(each => !(each.ariaLabel || each.getAttribute('aria-label')
+    || each.querySelector('h2, figcaption'))).map(each => each.outerHTML.slice(0, 80))"""
+
+
+@pytest.mark.parametrize("level", ["first", "full"])
+def test_pictures_have_names_before_anything_is_computed(visit, level):
+    """The solver is held back: nothing is drawn, and each picture says what it is to show."""
+    seen = visit(level=level, fresh=True)
+    held = []
+    seen.page.route("**/assets/wasm.js", lambda route: held.append(route))
+    seen.page.goto(seen.page.url, wait_until="commit")
+    seen.until(lambda: held)
+    assert seen.page.evaluate("!window.Carom?.page")
+    assert seen.page.evaluate(PICTURES) == []
+    for name in ("stage", "patch"):
+        assert seen.page.get_attribute(f"#{name}", "aria-label")
+        assert seen.page.get_attribute(f"#{name}-beside", "aria-label")
+    for route in held:
+        route.continue_()
+    seen.page.unroute("**/assets/wasm.js")
+    seen.until(lambda: seen.page.evaluate("Boolean(Carom.page.answers()[0])"))
+    assert seen.page.evaluate(PICTURES) == []
+
+
+def test_pictures_are_named_as_they_are(visit):
+    """At an instant, of both impacts; while the film runs, the film and no instant that is past."""
+    seen = visit("?time=0.5&beside=angle%3D60")
+    for beside, way in (("", "backwards"), ("-beside", "forwards")):
+        name = seen.until(
+            lambda at=beside: "µs" in (label(seen, f"stage{at}")) and label(seen, f"stage{at}")
+        )
+        assert "largest compression" in name
+        assert way in name
+        assert "19.9 µs" in label(seen, f"patch{beside}")
+    seen.page.click("#play")
+    seen.until(lambda: label(seen, "patch") == "The contact from above as the film runs")
+    assert label(seen, "stage") == "The bodies as the film runs."
+    seen.page.click("#play")
+    seen.until(lambda: "µs" in label(seen, "stage"))
+
+
+def label(seen, name):
+    return seen.page.get_attribute(f"#{name}", "aria-label")
+
+
+def test_no_text_is_evaluated_on_the_page(visit):
+    """The policy refuses it, and the page computes, draws, fits and judges without."""
+    seen = visit("?tab=Measurements&data=kharaz2001&law=mindlin", fresh=True)
+    seen.until(lambda: "friction" in seen.page.inner_text("#fit"), PREPARED)
+    words = """() => { const found = []; document.addEventListener("securitypolicyviolation",
+      ({ blockedURI }) => found.push(blockedURI));
+      try { setTimeout("window.evaluated = true"); } catch { found.push("refused"); }
+      return new Promise(done => setTimeout(() => done([window.evaluated ?? false, found]), 100));
+    }"""
+    evaluated, found = seen.page.evaluate(words)
+    assert evaluated is False
+    assert found
+    refused = [line for line in seen.trouble if "evaluate" in line or "eval" in line]
+    assert refused == seen.trouble
+    seen.trouble.clear()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_words_stand_out(visit, theme):

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+import carom
 from carom.explorer.page import stories
 
 pytestmark = pytest.mark.browser
@@ -111,6 +112,120 @@ def test_the_first_level_has_words_and_no_symbols(visit):
     assert not set("ψχκθω") & set(words)
     assert all(told in words for told in ("18.6°", "turns", "94.3 %"))
     assert not shown(seen, "#tabs", "#results")
+
+
+def tiles(seen):
+    """Return the words of the three results."""
+    return [" ".join(tile.split()) for tile in seen.page.locator(".carom-tile").all_inner_texts()]
+
+
+def test_two_balls_are_told_as_one_sees_them(visit):
+    """A half-ball hit of billiard balls; the numbers by the impulses, the struck ball at rest."""
+    seen = visit("?preset=throw&time=1.5", level="first")
+    leaves, spins, left = tiles(seen)
+    assert "at 90° to the line of centres" in leaves
+    assert "The other ball is thrown 3.43° off the line of centres." in leaves
+    assert "with 0.724 turns/s, side spin against the motion" in spins
+    assert "96.7 % 3.31 % is lost to friction." in left
+    fields = seen.page.locator(".carom-field:visible label").all_inner_texts()
+    assert "Side spin" in fields
+    assert "Backspin" not in fields
+    assert not {"topspin", "backspin"} & set(seen.page.inner_text("body").lower().split())
+    assert "The balls have parted" in seen.page.inner_text("#sentence")
+    arrows = seen.page.evaluate(ARROWS)
+    assert abs(math.degrees(math.atan2(*arrows["after"]))) == pytest.approx(90.0, abs=0.2)
+    assert math.degrees(math.atan2(*arrows["before"])) == pytest.approx(150.0, abs=0.2)
+    assert "thrown" in seen.page.inner_text("#summary")
+    seen = visit("?angle=20", level="first")
+    assert "Backspin" in seen.page.locator(".carom-field:visible label").all_inner_texts()
+
+
+ARROWS = """() => Object.fromEntries(
+  Carom.stage.last(document.getElementById("stage")).seen.arrows
+  .filter(({ first }) => first)
+  .map(({ when, from, to }) => [when, [to[0] - from[0], to[1] - from[1]]]))"""
+
+
+@pytest.mark.parametrize(
+    ("query", "leaves"),
+    [
+        ("against=sphere&second_radius=5&angle=0", "It stops where it struck"),
+        ("against=sphere&second_radius=2&angle=10&friction=0.05", "onwards"),
+        ("against=sphere&second_radius=30&angle=10&friction=0.05", "back"),
+        ("against=sphere&second_radius=5&angle=5&spin=200", "to the side it came from"),
+    ],
+)
+def test_where_a_ball_goes_that_struck_another(visit, query, leaves):
+    assert leaves in tiles(visit(f"?{query}", level="first"))[0]
+
+
+def test_what_is_too_little_to_be_told_is_not_told_as_nothing(visit):
+    """Balls that all but gear: the throw and the loss are both told as less than something."""
+    seen = visit("?preset=gearing", level="first")
+    seen.page.fill("#spin", "-17.5")
+    seen.until(lambda: seen.page.evaluate("Carom.page.answers()[0].view.spin") == -17.5)
+    told = seen.page.inner_text("#summary")
+    assert "thrown less than 0.01° off the line of centres." in told
+    assert "Less than 0.01 % is lost." in told
+    assert "Nothing is lost" not in told
+    seen.page.fill("#friction", "0")
+    seen.until(lambda: "Nothing is lost." in seen.page.inner_text("#summary"))
+    assert "The other ball leaves along the line of centres." in seen.page.inner_text("#summary")
+
+
+@pytest.mark.parametrize(
+    ("query", "hit", "words"),
+    [
+        ("thickness=4&speed=2", {"thickness": 4e-3}, "lost to waves in the plate"),
+        ("restitution=0.8&speed=2", {"restitution": 0.8}, "lost in the bodies"),
+    ],
+)
+def test_what_is_lost_is_told_in_the_same_words_everywhere(visit, query, hit, words):
+    """In the tile, in the sentence, in the key of the chart and beside the results."""
+    seen = visit(f"?{query}&time=1.5", level="first")
+    wall = carom.HalfSpace(material="bearing-steel", thickness=hit.get("thickness"))
+    ball = carom.Sphere(radius="5 mm", material="bearing-steel")
+    losses = carom.KelvinVoigt(restitution=0.8) if "restitution" in hit else None
+    pair = carom.Pair(ball, wall, friction=0.2)
+    struck = carom.impact(pair, speed=2.0, angle="30 deg", losses=losses)
+    whole = 0.5 * ball.mass * 2.0**2
+    lost = (struck.lost_energy + struck.shear_lost_energy) / whole
+    left = tiles(seen)[2]
+    assert f"{100.0 * struck.dissipated_energy / whole:.3g} % is lost to friction" in left
+    assert f"{100.0 * lost:.3g} % is {words}" in left
+    assert f"part of the energy is {words}" in seen.page.inner_text("#sentence")
+    seen.page.click("#level")
+    seen.until(lambda: words in seen.page.inner_text("#energies"))
+    assert words.partition(" in the plate")[0] in seen.page.inner_text("#results")
+    everything = seen.page.inner_text("body")
+    assert not any(old in everything for old in ("inside the bodies", "carr", "rubbed away"))
+
+
+SCREENS = [(320, 568), (360, 640), (390, 844), (640, 360), (800, 360), (932, 430), (1280, 560)]
+COVERED = """() => { const film = document.getElementById("film").getBoundingClientRect();
+  const seen = Math.min(innerHeight, film.bottom) - Math.max(0, film.top);
+  return Math.max(0, seen) / innerHeight; }"""
+STICKY = "getComputedStyle(document.getElementById('film')).position === 'sticky'"
+
+
+@pytest.mark.parametrize("level", ["first", "full"])
+def test_a_low_screen_has_room_for_what_is_below_the_film(visit, level):
+    """Where the film stays it covers less than two thirds; where it would cover more it scrolls."""
+    seen = visit(level=level)
+    for width, height in SCREENS:
+        seen.page.set_viewport_size({"width": width, "height": height})
+        seen.settle()
+        if seen.page.evaluate(STICKY):
+            seen.page.evaluate("scrollTo(0, 1e6)")
+            assert seen.page.evaluate(COVERED) < 0.62, (width, height)
+        slider = seen.page.locator("#friction-slider")
+        slider.blur()  # or it would not be scrolled to
+        slider.focus()
+        box, film = slider.bounding_box(), seen.page.locator("#film").bounding_box()
+        apart = box["x"] >= film["x"] + film["width"] or box["x"] + box["width"] <= film["x"]
+        assert apart or box["y"] >= film["y"] + film["height"] - 1, (width, height)
+        assert 0 <= box["y"] < height, (width, height)
+        seen.page.evaluate("scrollTo(0, 0)")
 
 
 def test_the_levels_are_one_switch_in_the_link(visit):

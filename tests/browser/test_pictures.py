@@ -109,7 +109,11 @@ def test_hatches_tell_the_sign(page):
         ("angle=0", 0.3, "no tangential velocity and sticks: only the normal force acts"),
         ("friction=0", 0.3, "the surfaces slide freely: without friction"),
         ("friction=0", 1.3, "no friction acted"),
-        ("angle=15&restitution=0.7", 1.3, "viscosity has taken part of its energy"),
+        ("angle=15&restitution=0.7", 1.3, "part of the energy is lost in the bodies: its"),
+        ("thickness=4&speed=2", 1.3, "part of the energy is lost to waves in the plate: its"),
+        ("against=sphere", 0.2, "As the balls are pressed together, the whole contact slips"),
+        ("against=sphere", 1.3, "The balls have parted: .* as seen from the other, now moves"),
+        ("against=sphere&friction=0", 0.3, "only the normal force acts and drives the struck"),
         ("angle=20&spin=-300&speed=0.5", -0.3, "it spins so fast that .* moves backwards"),
     ],
 )

@@ -151,6 +151,20 @@ def test_what_needs_the_program_is_a_sentence(offline):
     assert odd.endswith("not fitted in this copy")
 
 
+def test_nothing_is_judged_here(offline):
+    """In both levels, and after another impact is set, nothing is said to hold or to fail."""
+    verdict, findings = (offline.locator(place) for place in ("#verdict", "#findings"))
+    words = "Not judged here: the program tells whether the theory holds."
+    for speed in ("0.6", "30"):
+        offline.fill("#speed", speed)
+        offline.wait_for_function(f"Carom.page.answers()[0].view.speed === {speed}")
+        assert findings.inner_text() == words
+        offline.click("#level")
+        assert verdict.inner_text() == f"? {words}"
+        offline.click("#level")
+    offline.fill("#speed", "0.6")
+
+
 def test_the_law_of_a_story_is_as_the_program_says(offline):
     """To what its curve, with 241 points, allows."""
     query = "law=mindlin&angle=22.2&speed=0.6"

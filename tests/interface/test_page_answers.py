@@ -46,7 +46,7 @@ def test_the_page_asks_only_what_is_here(client):
             with client.get(address) as response:
                 assert response.status_code == 200, address
     policy = html.headers["Content-Security-Policy"]
-    assert "script-src 'self' 'unsafe-eval';" in policy  # nor scripts within the page
+    assert "script-src 'self' 'wasm-unsafe-eval';" in policy  # nor texts, nor scripts in the page
     assert text.count('src="assets/server.js"') == 1
     assert "assets/copy.js" not in text
 
@@ -146,7 +146,9 @@ def test_addresses_of_files(client):
             assert answered.text == f"{name} angle=50 0.25"
             assert answered.headers["Content-Disposition"] == f"attachment; filename={name}"
     assert 'angle="50.0 deg"' in client.get("/view.py?angle=50&time=0.3").text
-    assert client.get("/curve.png?time=7").text.endswith(" 1.0")
+    assert "hit.fields(1.0 * hit.duration)" in client.get("/view.py?time=1.6").text
+    assert client.get("/contact.png?time=7").text.endswith(" 1.6")  # where the film ends
+    assert client.get("/contact.png?time=-7").text.endswith(" -0.6")
     for wrong in ("curve.png?angle=x", "view.py?angle=x", "history.nc?time=soon"):
         answered = client.get(f"/{wrong}")
         assert answered.status_code == 400

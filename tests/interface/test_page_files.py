@@ -46,6 +46,20 @@ def test_every_picture_is_written_in_both_modes(name, tmp_path):
             assert len(image.convert("RGB").getcolors(2**24)) > 50  # not an empty sheet
 
 
+@pytest.mark.parametrize("name", STATES)
+@pytest.mark.parametrize("time", [-0.6, 0.0, 1.0, 1.6])
+def test_the_contact_outside_its_time_is_apart(name, time):
+    """As the page says at that time of its film, and with that time."""
+    axis = contact_figure(STATES[name], time).axes[0]
+    assert [text.get_text() for text in axis.texts] == ["apart"]
+    title = axis.get_title()
+    assert title.startswith("apart, $t$ = ")
+    lasts = NumbersImpact(STATES[name]) if "numbers" in name else impact_of(STATES[name])
+    unit = 1.0 if "numbers" in name else 1e-6
+    told = float(title.removeprefix("apart, $t$ = ").split("\xa0")[0].replace("\u2212", "-"))
+    assert told == pytest.approx(time * lasts.duration / unit, rel=5e-3, abs=1e-12)
+
+
 def test_a_picture_is_written_as_pdf(tmp_path):
     assert files.write("contact.pdf", BODIES, 0.6, tmp_path).read_bytes().startswith(b"%PDF")
 

@@ -11,11 +11,12 @@ import pytest
 
 pytest.importorskip("flask")
 
-from carom.explorer.outcomes import impact_of, outcome_of, verdict
+from carom.explorer.outcomes import apart, impact_of, outcome_of, plain, verdict
 from carom.explorer.overlays import law_curves, laws
 from carom.explorer.page import REGIMES, config
-from carom.explorer.views import FIELDS, LAWS, NUMBERS, PAGE, View
+from carom.explorer.views import FIELDS, LAWS, MATERIALS, NUMBERS, PAGE, View
 from carom.impacts.curves import REGIMES as LONG
+from carom.io.labels import Finding
 from carom.plots.bands import BANDS
 from carom.plots.impact import ENERGIES as IN_FIGURES, LOST
 from carom.plots.regimes import REGIMES as OF_FIGURES
@@ -48,6 +49,81 @@ def test_findings_speak_of_the_page(view):
             assert not re.search(rf"\b{word}", row["text"])
 
 
+PAGE_STATES = {  # what decides, and what is said of it
+    "material=rubber&second_material=steel&speed=30": (
+        *("FAILS", "a_max/R*", "rubber is pressed too flat for this theory: {value}, 0.1 allowed"),
+    ),
+    "material=own&young=0.01&poisson=0.5&density=910&speed=4": (
+        *(
+            "FAILS",
+            "a_max/R*",
+            "the ball is pressed too flat for this theory: {value}, 0.1 allowed",
+        ),
+    ),
+    "second_material=own&second_young=0.01&speed=4": (
+        *("FAILS", "a_max/R*", "what it strikes is pressed too flat for this theory: {value}"),
+    ),
+    "speed=5": ("FAILS", "von Mises stress/Y", "the material yields: {value} of its strength, 1"),
+    "thickness=300&speed=0.6": ("FAILS", "bending wave/h", "so thick a plate is a wall"),
+    "thickness=2&speed=20": ("FAILS", "a_max/h", "too large for the plate: {value} of its"),
+    "material=nylon&second_material=steel&speed=0.1": (
+        *("FAILS", "energy lost in the material", "always loses energy: {value} of it, 0.02"),
+    ),
+    "material=own": ("?", "von Mises stress/Y", "no yield strength of your material is known"),
+    "restitution=0.9&angle=20": ("?", "e", "what the bodies lose sideways is assumed"),
+}
+
+
+@pytest.mark.parametrize("query", PAGE_STATES)
+def test_a_verdict_is_told_in_plain_words_with_its_numbers(query):
+    """The first level of the page shows the number and the limit, and no letters."""
+    mark, name, words = PAGE_STATES[query]
+    view = View.of(query)
+    actual = {finding.name: finding for finding in impact_of(view).validity.findings}[name]
+    (row,) = [
+        row
+        for row in verdict(view)
+        if row["text"].startswith(f"{name} ") or (row["text"].startswith(f"{name}:"))
+    ]
+    assert row["mark"] == mark
+    assert words.format(value=f"{actual.value:.2g}") in row["plain"]
+    assert not set(row["plain"]) & set("ψχκ_*=µ")
+
+
+def test_what_is_beside_its_limit_is_told_apart_from_it():
+    assert apart(0.31, 0.1) == ("0.31", "0.1")
+    assert apart(0.1004, 0.1) == ("0.1004", "0.1")
+    assert apart(213.0, 1.0) == ("210", "1")
+
+
+def test_findings_that_the_page_does_not_know_are_told_in_their_own_words():
+    pair = View().pair
+    new = Finding("roughness/d", 0.3, 0.1, False, "the surfaces are too rough")
+    lacks = Finding("roughness/d", 0.3, 0.1, None, "not judged: no roughness of own", "roughness")
+    assert plain(new, pair) == "the surfaces are too rough"
+    assert plain(lacks, pair) == "no roughness of your material is known"
+
+
+def test_no_finding_on_random_impacts_is_told_in_letters():
+    """Each is told; each that has plain words has its number and its limit in them."""
+    random = np.random.default_rng(63)
+    for _ in range(60):
+        view = View(
+            material=str(random.choice(MATERIALS)),
+            second_material=str(random.choice(MATERIALS)),
+            against=str(random.choice(["half-space", "sphere"])),
+            angle=float(random.choice([0.0, 20.0, 60.0])),
+            speed=float(10.0 ** random.uniform(-2.0, 1.5)),
+            friction=float(random.choice([0.0, 0.2, 0.6])),
+            restitution=float(random.choice([1.0, 0.8])),
+            radius=float(10.0 ** random.uniform(-1.0, 1.5)),
+        )
+        for row in verdict(view):
+            assert row["plain"]
+            if row["mark"] != "ok":
+                assert not set(row["plain"]) & set("ψχκ_*=µβ"), row
+
+
 def test_the_page_is_told_all_that_it_shows():
     record = json.loads(json.dumps(config(), allow_nan=False))
     assert set(record["fields"]) == {field.name for field in fields(View)}
@@ -60,7 +136,12 @@ def test_the_page_is_told_all_that_it_shows():
     assert record["materials"]["rigid"]["young"] is None
     assert record["materials"]["steel"] == {"young": 210e9, "poisson": 0.3, "density": 7850}
     assert tuple(OF_FIGURES) == REGIMES
-    assert {name: words[0] for name, words in (IN_FIGURES | LOST).items()} == PAGE["energies"]
+    assert set(PAGE["energies"]) == {*IN_FIGURES, *LOST}
+    assert {name: PAGE["energies"][name] for name in IN_FIGURES} == {
+        name: words for name, (words, *_) in IN_FIGURES.items()
+    }
+    assert PAGE["energies"]["normal_loss"] == PAGE["lost"]["bodies"]  # the page knows which it is
+    assert PAGE["energies"]["frictional_work"] == PAGE["lost"]["friction"]
     assert set(record["energies"]) == {*PAGE["energies"], *PAGE["energies_of_contact"]}
     for preset in record["presets"]:
         verdict(View.of(preset["query"]))

@@ -142,3 +142,77 @@ def test_the_middle_of_a_sliding_contact_has_its_arrow(hit):
     time = 0.5 * hit.phases[0].end
     actual = arrows(hit.fields(time), reach=1.28 * hit.contact(time).radius)
     assert np.hypot(actual.x, actual.y).min() == 0.0
+
+
+LAWS = {
+    "elastic": {},
+    "viscous": {"losses": carom.KelvinVoigt(restitution=0.9)},
+    "relaxing": {"losses": carom.StandardLinearSolid(modulus_ratio=2.0, relaxation_time="10 us")},
+    "yielding": {"losses": carom.ElasticPlastic(yield_velocity="0.1 m/s")},
+    "metal": {"losses": carom.Metal(flow_stress="1 GPa")},
+    "plate": {"thickness": "5 mm"},
+    "frictionless": {"friction": 0.0},
+}
+MAPS = {"fields": (plots.plot_patch, plots.plot_profiles), "radial": (plots.plot_profiles,)}
+
+
+def struck(pair, losses=None, friction=0.2, **wall):
+    """Return an impact on a wall, by one of the laws of losses."""
+    struck = carom.HalfSpace(material=pair.second.material, **wall)
+    pair = carom.Pair(pair.first, struck, friction)
+    return carom.impact(pair, speed=2.0, angle="30 deg", losses=losses)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("share", [0.0, 1.0])
+def test_at_first_touch_and_separation_nothing_is_pressed(pair, law, share):
+    """Whatever the engine: the contact is a point, without pressure, traction or slipping."""
+    hit = struck(pair, **LAWS[law])
+    fields = hit.fields(share * hit.duration)
+    assert float(fields.contact_radius) == float(fields.stick_radius) == 0.0
+    for name in ("pressure", "traction_x", "slip_velocity_x", "slip_velocity_y", "zone"):
+        assert not fields[name].any(), name
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("share", [0.0, 1.0])
+def test_pictures_outside_the_contact_say_apart(pair, law, share):
+    """No circle, arrows, speed or phase of a contact that is none; within it there are."""
+    hit = struck(pair, **LAWS[law])
+    time = share * hit.duration
+    for method, functions in MAPS.items():
+        for draw in functions:
+            figure = draw(getattr(hit, method)(time))
+            title = figure.axes[0].get_title() or figure.get_suptitle()
+            assert title.startswith("apart, $t$ = ")
+            assert "\n" not in title
+            assert not [c for c in figure.axes[0].collections if isinstance(c, Quiver)]
+    figure = plots.plot_patch(hit.fields(time), "pressure")
+    assert [text.get_text() for text in figure.axes[0].texts] == ["apart"]
+    assert plots.plot_patch(hit.fields(0.5 * hit.duration)).axes[0].get_title().count("apart") == 0
+
+
+def test_the_stress_below_no_contact_has_no_largest(pair):
+    hit = struck(pair)
+    for time, marks in ((0.0, 0), (hit.duration, 0), (0.999 * hit.duration, 1)):
+        figure = plots.plot_stress(hit.stress(time))
+        assert sum(line.get_marker() == "+" for line in figure.axes[0].lines) == marks
+        assert ("apart" in figure.axes[0].get_title()) == (marks == 0)
+
+
+def test_a_film_and_a_row_of_patches_say_apart_at_their_ends(pair):
+    hit = struck(pair, **LAWS["viscous"])
+    frames = [hit.fields(share * hit.duration) for share in (0.0, 0.5, 1.0)]
+    patches, _, _ = panels(plots.plot_contact(hit.history(), frames), 3)
+    told = [axis.get_title().split(",")[0] for axis in patches]
+    assert (told[0], told[2]) == ("apart", "apart")
+    assert told[1] != "apart"
+
+
+def test_just_inside_its_ends_a_contact_is_drawn(pair):
+    for law in ("elastic", "viscous", "plate"):
+        hit = struck(pair, **LAWS[law])
+        for share in (1e-6, 1.0 - 1e-6):
+            fields = hit.fields(share * hit.duration)
+            assert float(fields.contact_radius) > 0.0
+            assert not plots.plot_patch(fields).axes[0].get_title().startswith("apart")

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.pairs import ContactScales, Pair, Scales
 from carom.dimensionless.fields import peaks, surface
-from carom.dimensionless.fields.profile import Profile, borne
+from carom.dimensionless.fields.profile import NO_PANELS, Profile, borne
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.numerics.chebyshev import evaluate
@@ -34,6 +34,7 @@ OUTSIDE, STICK, SLIP = 0, 1, 2
 ZONES = {"long_name": "zone of the contact", **flags(("outside", "stick", "slip"))}
 BODIES = ("first", "second")
 BELOW_EDGE = 0.02  # contact radii: where stresses begin if those at the edge are infinite
+NOTHING = Profile(np.zeros(1), NO_PANELS, NO_PANELS)  # of a contact that is a point
 Places = ArrayLike | None
 
 
@@ -105,6 +106,9 @@ def contact_in_impact(
     phase = solution.phase_at(instant)
     kind, sign = ("gross slip", int(np.sign(drift))) if drift else (phase.kind, phase.sign)
     now, state = now_at(solution.at(instant)), solution.contact_at(instant)
+    # At the first touch and at separation nothing is pressed, whatever rounding leaves of it.
+    if not 0.0 < instant < solution.duration:
+        state = state._replace(radius=0.0, rim=0.0, profile=NOTHING)
 
     def slid(radii: Array) -> Array:
         if drift:
@@ -204,7 +208,7 @@ def _radial(contact: Contact, r: Array) -> Array:
     """Return pressure, traction, u_z, u_0, u_2, w_0, w_2 for dimensionless radii."""
     out = np.empty((r.size, 5))
     d = contact.penetration
-    square = contact._edge**2 if contact._viscous else d
+    square = contact._edge**2 if contact._viscous or not contact._edge else d
     surface.sample(contact.profile, d, square, contact._rim, r, out)
     return np.hstack((out, contact._slid(r)))
 

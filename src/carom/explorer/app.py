@@ -23,10 +23,10 @@ from carom.quantities.texts import Unreadable, read_text
 from carom.quantities.units import or_none
 
 OWN_HOST_ONLY = (
-    "default-src 'self'; script-src 'self' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; font-src 'self' data:; object-src 'none'; base-uri 'none'; "
     "form-action 'self'; frame-ancestors 'none'"
-)  # plotly writes styles; who drives the page by a program evaluates questions
+)  # plotly writes styles; the solver is compiled for browsers
 HEADERS = {
     "Content-Security-Policy": OWN_HOST_ONLY,
     "Referrer-Policy": "no-referrer",
@@ -40,6 +40,7 @@ WRITTEN_FILES = (  # of a view, which take time
 UPLOADED = ("contents", "name", "bodies", "columns")
 ASSETS = Path(__file__).with_name("assets")
 ANSWERED_IN_JSON = ("/verdict", "/laws", "/number", "/fit")  # whose errors are JSON, of others text
+FILM = (-0.6, 1.6)  # durations of the contact, as in clock.js
 MOST_LOGGED = 300  # characters
 
 log = logging.getLogger(__name__)
@@ -128,10 +129,10 @@ def _add_files(server: Flask, worker: Worker) -> None:
 
 
 def _time_of(query: str) -> float:
-    """Return the time in a link, within the contact, as a share of its duration."""
+    """Return the time in a link, within the film, as a share of the contact's duration."""
     text = parse_qs(query).get("time", ["0.5"])[-1]
     try:
-        return min(max(read_text(text, "1"), 0.0), 1.0)
+        return min(max(read_text(text, "1"), FILM[0]), FILM[1])
     except Unreadable:
         raise Refused("", "time: must be a share of the duration, e.g. 0.5") from None
 

@@ -87,9 +87,12 @@ def history_figure(view: View, _: float = 0.0) -> Figure:
 
 
 def contact_figure(view: View, time: float) -> Figure:
-    """Return the contact from above at a time that is a share of the duration."""
+    """Return the contact from above at a time that is a share of the duration, or "apart"."""
     hit = _impact(view)
-    return plot_patch(hit.fields(time * hit.duration))
+    touching = min(max(time, 0.0), 1.0)
+    patch = hit.fields(touching * hit.duration)
+    patch["time"].values += (time - touching) * hit.duration  # before the touch, after the last
+    return plot_patch(patch)
 
 
 def course_figure(view: View, _: float = 0.0) -> Figure:

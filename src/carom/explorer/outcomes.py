@@ -4,13 +4,15 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import isfinite
+from math import isfinite, isnan
 
 from carom.bodies.losses import ZENER, LossLaw, ZenerPlate
+from carom.bodies.materials import Material
+from carom.bodies.pairs import Pair
 from carom.dem.base import SOLID
 from carom.dimensionless.solution import solve
 from carom.dimensionless.states import History
-from carom.explorer.views import Refused, View, in_words
+from carom.explorer.views import OWN, PAGE, Refused, View, in_words
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
 from carom.io.labels import MARKS, Finding
@@ -66,17 +68,62 @@ def verdict(view: View) -> tuple[dict[str, str], ...]:
     if view.in_numbers:
         return ()
     with refusals("friction"):
-        return _told(impact_of(view).validity.findings)
+        return told(impact_of(view).validity.findings, view.pair)
 
 
-def _told(findings: Iterable[Finding]) -> tuple[dict[str, str], ...]:
-    """Return findings in the page's words, those first in which the theory does not hold."""
+def told(findings: Iterable[Finding], pair: Pair) -> tuple[dict[str, str], ...]:
+    """Return findings in the page's words, those first in which the theory does not hold.
+
+    Each is told whole, and as `plain` in words without letters.
+    """
     first = {False: 0, None: 1, True: 2}
     ordered = sorted(findings, key=lambda finding: first[finding.holds])
     return tuple(
-        {"mark": MARKS[each.holds].strip(), "text": in_words(f"{each.label}: {each.verdict}")}
+        {
+            "mark": MARKS[each.holds].strip(),
+            "text": in_words(f"{each.label}: {each.verdict}"),
+            "plain": plain(each, pair),
+        }
         for each in ordered
     )
+
+
+def plain(finding: Finding, pair: Pair) -> str:
+    """Return what a finding comes to, with its number and the limit, in words of the page."""
+    if finding.missing:
+        lacks, _, _ = in_words(finding.verdict).removeprefix("not judged: ").partition("; ")
+        return f"{lacks} is known" if lacks.startswith("no ") else lacks
+
+    kind = "fails"
+    if finding.holds is None:
+        kind = "unknown" if isnan(finding.value) else "open"
+    words = PAGE["verdicts"][kind].get(finding.name, "")
+    if finding.holds or not words:
+        return in_words(finding.verdict).removeprefix("not judged: ")
+    value, limit = apart(finding.value, finding.limit)
+    return str(words.format(softer=softer(pair), value=value, limit=limit))
+
+
+def apart(value: float, limit: float) -> tuple[str, str]:
+    """Return two numbers in as few digits, two at least, as tell them apart."""
+    for digits in range(2, 9):
+        told = [f"{float(f'{each:.{digits}g}'):g}" for each in (value, limit)]
+        if told[0] != told[1]:
+            break
+    return told[0], told[1]
+
+
+def softer(pair: Pair) -> str:
+    """Return what the body is called that is pressed flatter."""
+
+    def gives(stuff: Material) -> float:
+        return 0.0 if stuff.is_rigid else (1.0 - stuff.poisson**2) / stuff.young
+
+    first, second = pair.first.material, pair.second.material
+    softest = first if gives(first) >= gives(second) else second
+    if softest.name != OWN:
+        return str(softest.name).replace("-", " ")
+    return "the ball" if softest is first else "what it strikes"
 
 
 @contextmanager

@@ -151,6 +151,7 @@ def config(*, static: bool = False) -> dict[str, Any]:
         "prefixes": {unit: sorted(READ[unit].items()) for unit in PREFIXED},
         "regimes": [{"name": name, "long": long} for name, long in zip(REGIMES, LONG, strict=True)],
         "symbols": SYMBOLS,
+        "lost": PAGE["lost"],
         "energies": PAGE["energies"] | PAGE["energies_of_contact"],
         "presets": presets(),
         "stories": stories(),

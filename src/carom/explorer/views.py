@@ -51,7 +51,8 @@ CHOICES: dict[str, tuple[str, ...]] = {
 class Field(NamedTuple):
     """A field: its label, its letter and a hint; of a number its unit, its range and its slider.
 
-    `plain` is its label in the first level of the page, where only fields that have one are shown.
+    `plain` is its label in the first level of the page, where only fields that have one are shown;
+    `of_balls` that between two balls, if it is another.
 
     `otherwise` is the word for no number, which is an infinite one, `needs` what other fields must
     be for this one to matter.
@@ -59,6 +60,7 @@ class Field(NamedTuple):
 
     label: str
     plain: str = ""
+    of_balls: str = ""
     symbol: str = ""
     hint: str = ""
     unit: str = ""

@@ -37,6 +37,7 @@ BANDS = {
 }
 MINUS = "\u2212"
 SIGNS = {0: "", 1: " +", -1: f" {MINUS}"}
+APART = "apart"  # what a picture says where the bodies press on each other nowhere
 
 
 class PhaseSpan(NamedTuple):
@@ -82,10 +83,17 @@ def slip_band(dataset: Any) -> Band:
     return BANDS[kind, int(dataset.attrs.get("phase_sign", 1))]
 
 
+def is_apart(dataset: Any) -> bool:
+    """Tell whether the bodies of a fields dataset do not touch, or in a point alone."""
+    return "contact_radius" in dataset and not float(dataset["contact_radius"]) > 0.0
+
+
 def moment(dataset: Any, like: ArrayLike | None = None) -> str:
     """Return phase and time of a fields dataset, as far as it has them, in a unit as for `like`."""
     parts = []
-    if "phase_kind" in dataset.attrs:
+    if is_apart(dataset):
+        parts.append(APART)
+    elif "phase_kind" in dataset.attrs:
         sign = SIGNS[int(dataset.attrs.get("phase_sign", 0))]
         parts.append(str(dataset.attrs["phase_kind"]) + sign)
     if "time" in dataset:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle
 
 from carom.plots import style
-from carom.plots.bands import moment, slip_band
+from carom.plots.bands import APART, is_apart, moment, slip_band
 from carom.plots.drawing import Drawable, at_instant, draws
 from carom.plots.look import Look
 from carom.quantities.arrays import Array
@@ -40,6 +40,7 @@ def plot_patch(
     """Draw the contact from above: traction or pressure, stick and slip zones, slip velocities.
 
     The zone that slips is hatched; its arrows are the velocity of the first surface on the second.
+    At the first touch and at separation nothing is pressed, and the map says "apart".
 
     Parameters
     ----------
@@ -89,7 +90,9 @@ def patch_panel(
     shading.set_clip_path(Circle((0.0, 0.0), contact, transform=axis.transData))
     ink = "0.5" if colours["cmap"] == style.SIGNED_MAP else "white"
     _draw_zones(axis, contact, stick, slip_band(dataset).hatch, ink)
-    if stick > ROOM * contact:
+    if is_apart(dataset):
+        word = word and APART
+    if stick > ROOM * contact or is_apart(dataset):
         style.stroke_white(axis.text(0.0, 0.0, word, ha="center", va="center"))
     _draw_arrows(axis, arrows(dataset, reach), length)
     axis.set_aspect("equal")

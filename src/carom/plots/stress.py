@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from carom.plots import style
-from carom.plots.bands import MINUS, moment
+from carom.plots.bands import MINUS, is_apart, moment
 from carom.plots.drawing import Drawable, at_instant, draws
 from carom.plots.look import Look
 from carom.quantities.arrays import Array
@@ -64,20 +64,26 @@ def plot_stress(
         low, high = shading.get_clim()
         ticks = MaxNLocator(TICKS).tick_values(low, high)
         bar.set_ticks([tick for tick in ticks if low <= tick <= high])
-    column, row, largest = _largest(dataset, variable)
     if "contact_radius" in dataset:
         contact = float(dataset["contact_radius"]) * length
         bar_below: Any = {"color": "black", "lw": 3.0, "solid_capstyle": "butt"}
         axis.plot([-contact, contact], [0.0, 0.0], clip_on=False, **bar_below)
-    place = column * length, row * length
-    (mark,) = axis.plot(*place, "+", ms=7.0, mew=1.3, color="black", clip_on=False, zorder=5)
-    style.stroke_white(mark, 2.8)
+    said = [moment(dataset)]
+    if not is_apart(dataset):
+        column, row, largest = _largest(dataset, variable)
+        _mark(axis, column * length, row * length)
+        said.append(f"+: {largest * scale:.3g}\u00a0{stress_unit}".replace("-", MINUS))
+
     axis.set_aspect("equal")
     axis.set(xlim=(x[0], x[-1]), ylim=(z.max(), z.min()))
     axis.set(xlabel=style.label("x", unit), ylabel=style.label("z", unit))
-    said = [moment(dataset), f"+: {largest * scale:.3g}\u00a0{stress_unit}".replace("-", MINUS)]
     axis.set_title("; ".join(text for text in said if text), pad=5.0)
     return figure
+
+
+def _mark(axis: Axes, x: float, z: float) -> None:
+    (mark,) = axis.plot(x, z, "+", ms=7.0, mew=1.3, color="black", clip_on=False, zorder=5)
+    style.stroke_white(mark, 2.8)
 
 
 def _contours(axis: Axes, x: Array, z: Array, values: Array, signed: bool) -> ContourSet:

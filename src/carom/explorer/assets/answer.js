@@ -141,8 +141,8 @@ Carom.answer = (() => {
       speed: of(impact.speed, speed),
       penetration: of(impact.depth, scales.length),
       energies: {
-        normal_kinetic_energy: Array.from(impact.speed, (value) => value * value * scales.energy),
-        tangential_kinetic_energy: now.map(([value]) => 0.5 * pair.normalMass * value ** 2),
+        normal_kinetic_energy: Array.from(impact.speed, (value) => Carom.pair.kineticEnergy(pair, speed, speed * value)),
+        tangential_kinetic_energy: now.map(([value]) => Carom.pair.kineticEnergy(pair, before[0], value)),
         spin_kinetic_energy: now.map(([, ...spins]) => Carom.pair.spinEnergy(pair, spins)),
         normal_elastic_energy: of(impact.normalStored, scales.energy),
         tangential_elastic_energy: of(impact.stored, energy),
@@ -178,16 +178,26 @@ Carom.answer = (() => {
     };
   }
 
-  // What stories ask for: by how much friction throws the body that is struck off the line of
-  // centres, the share of the duration in which all slides, what is left of psi_1 and of the energy.
-  function ofStories({ psi_in: psi, psi_out: out, normal_restitution: e }, { velocity, scales, speed, rubs }, pair, { phases, energies }) {
+  // What the first level and stories tell: where the bodies go as people see them, by angles from the
+  // line of centres to the side of the motion; by how much friction throws the body that is struck
+  // off it; the share of the duration in which all slides; what is left of psi_1; and what of the
+  // energy is left, what friction has taken of it, and what the normal motion and shear have lost.
+  function asSeen({ psi_in: psi, psi_out: out, normal_restitution: e, ...numbers }, { velocity, scales, speed, before, rubs }, pair, { phases, energies }) {
+    const whole = Object.values(energies).reduce((total, [first]) => total + first, 0) || 1;
     const change = rubs ? velocity - out * scales.tangentialSpeed : 0;
+    const [impulse, pushed] = [pair.tangentialMass * change, pair.normalMass * speed * (1 + e)];
+    const [along] = Carom.pair.shared(pair, before[0], before[0] - impulse / pair.normalMass);
+    const [onwards] = Carom.pair.shared(pair, speed, -e * speed);
     const last = Object.entries(energies).filter(([name]) => name.endsWith("kinetic_energy"));
     return {
-      throw: Math.atan2(pair.tangentialMass * change, pair.normalMass * speed * (1 + e)),
+      along,
+      onwards,
+      throw: Math.atan2(impulse, pushed),
       slides: phases.reduce((sum, { kind, start, end }) => sum + (kind === "gross slip" ? end - start : 0), 0),
       contact_kept: Math.abs(psi - out),
-      energy_kept: last.reduce((sum, [, values]) => sum + values[values.length - 1], 0),
+      energy_kept: last.reduce((sum, [, values]) => sum + values[values.length - 1], 0) / whole,
+      energy_rubbed: numbers.dissipated_energy / whole,
+      energy_lost: (numbers.lost_energy + (numbers.shear_lost_energy ?? 0)) / whole,
     };
   }
 
@@ -214,7 +224,7 @@ Carom.answer = (() => {
     return {
       lossy,
       view,
-      numbers: { ...numbers, ...ofStories(numbers, met, pair, { ...shown, energies }) },
+      numbers: { ...numbers, ...asSeen(numbers, met, pair, { ...shown, energies: moving.energies }) },
       shape: [pair.chi, pair.kappa, alpha, met.give].join(),
       carried: met.rubs ? { psi: digits(met.psi), chi: digits(pair.chi), inelasticity: digits(ZENER * met.give) } : null,
       scene: { ...scene(impact, shown), ...(met.rubs ? {} : { psi: null }) },

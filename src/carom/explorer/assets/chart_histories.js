@@ -12,7 +12,6 @@ Carom.histories = (() => {
     normal_loss: "x",
     shear_loss: "-",
   };
-  const OF_PLATE = { normal_loss: "waves in the plate" };
   const NONE = { sample: "", text: "none: the contact point does not move" };
   const PADDING = 1.06; // of the largest force
   const TIP = "<br>%{y:.4g} at %{x:.4g}<extra></extra>";
@@ -130,7 +129,8 @@ Carom.histories = (() => {
   }
 
   function energies([first, second]) {
-    const names = { ...Carom.config.energies, ...(first.scene.plate === undefined ? {} : OF_PLATE) };
+    const of = Carom.config.energies;
+    const names = first.scene.plate === undefined ? of : { ...of, normal_loss: Carom.losses.sink(first.scene) };
     const keys = shown(first).map((key) => ({ sample: Carom.keys.area(look(key)), text: names[key], follows: true }));
     return {
       traces: energyTraces([first, second]),

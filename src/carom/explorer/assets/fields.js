@@ -16,9 +16,14 @@ Carom.fields = (() => {
   let alone = ""; // the one field of a step of a story
   const box = (name) => document.getElementById(name);
 
+  // What a field is called in the first level: between balls spin has no back and no top.
+  function plainOf(name) {
+    const { plain, of_balls: between } = described[name] ?? {};
+    return (between && box("against")?.value === "sphere" && between) || plain;
+  }
+
   function labelOf(name) {
-    const { label, symbol } = described[name];
-    const { plain } = described[name];
+    const { label, symbol, plain } = described[name];
     const sign = symbol ? [" ", Carom.tips.symbol(symbol)] : [];
     const full = make("span", plain ? "carom-full" : "", label, ...sign);
     const words = plain ? [full, make("span", "carom-first", plain)] : [full];
@@ -96,7 +101,13 @@ Carom.fields = (() => {
     const first = (name) => (alone ? name === alone : plain(name));
     const shown = (name) => counts(name, value) && (Carom.level.isFull() || first(name));
     for (const name of names()) box(`${name}-field`).hidden = !shown(name);
+    names().filter((name) => described[name].of_balls).forEach(rename);
     for (const group of ["numbers", "bodies"]) box(`${group}-fields`).hidden = value("given") !== group;
+  }
+
+  function rename(name) {
+    box(`${name}-field`).querySelector("label .carom-first").textContent = plainOf(name);
+    box(`${name}-slider`).ariaLabel = `${plainOf(name)}, slider`;
   }
 
   const names = () => Object.values(GROUPS).flat().filter((name) => described[name]);
@@ -198,7 +209,7 @@ Carom.fields = (() => {
     complain,
     words,
     plate,
-    label: (name) => (!Carom.level.isFull() && described[name]?.plain) || (described[name]?.label ?? ""),
+    label: (name) => (!Carom.level.isFull() && plainOf(name)) || (described[name]?.label ?? ""),
     reset,
     withUnit,
     hear: (listener) => heard.push(listener),

@@ -16,6 +16,7 @@ Carom.page = (() => {
   let due = false;
   let untouched = true; // the film runs by itself
   let linked = ""; // what was wrong with the link that was opened
+  let described = ""; // what the names of the pictures tell: an instant or the film
   let following = new AbortController();
 
   // Ask for what the controls say; while an answer is on its way, only the last question waits.
@@ -32,6 +33,7 @@ Carom.page = (() => {
 
   async function once(query) {
     following.abort();
+    judge("waits"); // the verdict on what is still shown is not that on what is asked
     try {
       const latest = await Promise.all([Carom.reading.answer(query.toString()), Carom.beside.answered()]);
       if (!again) show(latest);
@@ -49,7 +51,14 @@ Carom.page = (() => {
     if (opening && Carom.fields.reset(field)) return mended(text);
     Carom.fields.complain(field, message);
     notice(text);
+    judge("refused");
     document.body.classList.add("carom-stale");
+  }
+
+  // Say whether the theory holds for what is shown, unless something else is asked for meanwhile.
+  function judge(pending = "") {
+    Carom.verdict.show(answers[0], pending);
+    if (answers[0]) Carom.results.judge(answers, pending);
   }
 
   function mended(text) {
@@ -72,6 +81,7 @@ Carom.page = (() => {
     draw();
     Carom.results.show(answers);
     Carom.summary.show(answers[0]);
+    Carom.verdict.show(answers[0]);
     Carom.stories.show(answers[0]);
     Carom.laws.show(answers[0]);
     soon(() => Carom.charts.show(answers));
@@ -104,23 +114,37 @@ Carom.page = (() => {
   async function follow(mine) {
     following = new AbortController();
     const { signal } = following;
-    const add = async (answer, wanted, ask, shown) => {
-      if (!wanted) return;
-      try {
-        Object.assign(answer, await ask(answer));
-        if (answers === mine) shown();
-      } catch (error) {
-        if (error.name !== "AbortError") notice(error.message);
-      }
-    };
-    const verdict = async ({ query }) => ({ findings: await Carom.source.verdict(query, signal) });
-    mine.filter(Boolean).forEach((each) => add(each, !each.findings, verdict, () => Carom.results.judge(mine)));
-    const laws = async (answer) => ({ ...(await Carom.source.laws(answer, signal)), late: [] });
-    await add(mine[0], mine[0].late.length > 0, laws, () => {
-      Carom.laws.show(mine[0]);
-      Carom.stories.show(mine[0]);
-      Carom.charts.show(mine);
-    });
+    mine.filter(Boolean).forEach((each) => judged(each, mine, signal));
+    await lawsOf(mine, signal);
+  }
+
+  // A verdict that fails or is too late is none, and never that on another impact.
+  async function judged(answer, mine, signal) {
+    if (answer.findings) return;
+    try {
+      answer.unjudged = "";
+      answer.findings = await Carom.source.verdict(answer.query, signal);
+    } catch (error) {
+      if (signal.aborted) return;
+      answer.unjudged = error.message;
+      if (answers === mine) notice(error.message);
+    }
+    if (answers === mine && !signal.aborted) judge();
+  }
+
+  async function lawsOf(mine, signal) {
+    const [first] = mine;
+    if (!first.late.length) return;
+    try {
+      Object.assign(first, await Carom.source.laws(first, signal), { late: [] });
+    } catch (error) {
+      if (error.name !== "AbortError" && answers === mine) notice(error.message);
+      return;
+    }
+    if (answers !== mine) return;
+    Carom.laws.show(first);
+    Carom.stories.show(first);
+    Carom.charts.show(mine);
   }
 
   function draw() {
@@ -147,21 +171,29 @@ Carom.page = (() => {
     byId("time").value = time;
     write(byId("play"), Carom.clock.isPlaying() ? "Pause" : "Play");
     byId("sentence").ariaLive = Carom.clock.isPlaying() ? "off" : "polite";
-    const [sentence, other] = scenes.map((scene) => scene && Carom.sentence.of(scene, time));
+    const sentences = scenes.map((scene) => scene && Carom.sentence.of(scene, time));
+    const [sentence, other] = sentences;
     const both = sentence === other ? `Both: ${sentence}` : `This impact: ${sentence} Beside it: ${other}`;
     write(byId("sentence"), other ? both : sentence);
-    if (!Carom.clock.isPlaying()) describe(clock, sentence);
+    if (!Carom.clock.isPlaying() || described !== "film") describe(clock, sentences);
+    described = Carom.clock.isPlaying() ? "film" : "instant";
   }
 
   function write(element, text) {
     if (element.textContent !== text) element.textContent = text;
   }
 
-  // Pictures in words, for those who hear the page.
-  function describe(clock, sentence) {
+  // Pictures in words, for those who hear the page: of an instant, or of the film while it runs.
+  function describe(clock, sentences) {
     byId("time").setAttribute("aria-valuetext", clock);
-    byId("stage").setAttribute("aria-label", `The bodies at ${clock}. ${sentence}`);
-    byId("patch").setAttribute("aria-label", `The contact from above at ${clock}`);
+    const running = Carom.clock.isPlaying();
+    const at = running ? "as the film runs" : `at ${clock}`;
+    for (const [row, beside] of ["", "-beside"].entries()) {
+      const whose = row ? " beside" : "";
+      const sentence = running ? "" : ` ${sentences[row] ?? ""}`;
+      byId(`stage${beside}`).ariaLabel = `The bodies${whose} ${at}.${sentence}`.trim();
+      byId(`patch${beside}`).ariaLabel = `The contact${whose} from above ${at}`;
+    }
   }
 
   // The results stand beside the pictures where there is room, else among the charts; a story

@@ -68,9 +68,21 @@ Carom.pair = (() => {
     return [along - impulse / pair.normalMass, ...turned];
   }
 
+  // The velocities of both bodies, of one component of their relative velocity before and now:
+  // the second was at rest, and a wall stays so.
+  function shared(pair, before, now) {
+    const other = pair.moving[1] ? (pair.normalMass / pair.moving[1].mass) * (before - now) : 0;
+    return [now + other, other];
+  }
+
+  function kineticEnergy(pair, before, now) {
+    const velocities = shared(pair, before, now);
+    return sum(pair.moving, (each) => 0.5 * each.mass * velocities[pair.moving.indexOf(each)] ** 2);
+  }
+
   function spinEnergy(pair, spins) {
     return pair.moving.reduce((total, each, i) => total + 0.5 * each.inertia * spins[i] ** 2, 0);
   }
 
-  return { of, scales, contactVelocity, after, spinEnergy };
+  return { of, scales, contactVelocity, after, shared, kineticEnergy, spinEnergy };
 })();

@@ -1,12 +1,14 @@
 // The balls on their way: where they are and how far they have turned, before, during and after.
-// Lengths are in radii of the first, and motion is magnified so that it can be seen.
+// Lengths are in radii of the first, and motion is magnified so that it can be seen. A ball that is
+// struck is at rest before, as people see it.
 
 Carom.paths = (() => {
   const BEYOND = 0.6; // of the contact's duration that is shown before and after
   const [DEEPEST, WIDEST] = [0.3, 6]; // radii that the bodies may approach, and travel sideways
   const SLAB = 0.3; // ball radii that a plate is thick of which no thickness is known
-  const BENT = { plane: "", plate: ", plate to scale", cup: ", paths bent", sphere: ", paths bent, centre of mass at rest" };
-  const STEEPEST = 0.7; // angle by which a body may travel around another
+  const BENT = { plane: "", plate: ", plate to scale", cup: ", paths bent", sphere: ", the struck ball at rest before" };
+  const STEEPEST = 0.7; // angle by which a ball may travel around in a cup
+  const ROLLED = 0.3; // angle by which a ball may travel around another while they touch
   const ROLLS = 2 / 7; // of the impulse on the contact point of a solid sphere, the centre's part
   const SOLID = 4 / 7; // kappa/chi of a solid sphere
 
@@ -23,12 +25,17 @@ Carom.paths = (() => {
     return [...ahead, ...path, ...behind];
   }
 
-  // The integral of a speed over even times.
-  function travelled(speed, duration) {
+  // The integral of a speed over even times of the contact.
+  function summed(speed, duration) {
     const step = duration / (speed.length - 1);
     const path = [0];
     for (let i = 1; i < speed.length; i++) path.push(path[i - 1] + 0.5 * step * (speed[i - 1] + speed[i]));
-    return continued(path, speed[0], speed[speed.length - 1], duration);
+    return path;
+  }
+
+  // The same with what lies before and after.
+  function travelled(speed, duration) {
+    return continued(summed(speed, duration), speed[0], speed[speed.length - 1], duration);
   }
 
   function times(steps) {
@@ -40,7 +47,7 @@ Carom.paths = (() => {
     const depth = most(closer);
     const travel = most(along.map(Math.abs));
     let [deep, wide] = [DEEPEST, 0.5 * WIDEST];
-    if (kind === "sphere") [deep, wide] = [DEEPEST * Math.min(1, size), STEEPEST * (1 + size)];
+    if (kind === "sphere") [deep, wide] = [DEEPEST * Math.min(1, size), ROLLED * (1 + size)];
     if (kind === "cup") {
       const lifted = most(closer.map((value) => -value)) / depth;
       [deep, wide] = [Math.min(DEEPEST, (0.5 * (size - 1)) / lifted), STEEPEST * (size - 1)];
@@ -63,7 +70,54 @@ Carom.paths = (() => {
   const digits = (value) => Carom.quantities.plain(value, 3);
 
   // Bodies from how they move in time: speeds in m/s, spins in rad/s, penetration in m.
-  function ofBodies(pair, { along, spins, speed, penetration, duration }) {
+  function ofBodies(pair, moving) {
+    return pair.against === "sphere" ? ofBalls(pair, moving) : onGround(pair, moving);
+  }
+
+  // Two balls: before and after the contact both fly straight; while they touch, the first follows
+  // the surface of the second.
+  function ofBalls(pair, { along, spins, speed, penetration, duration }) {
+    const radius = pair.moving[0].radius;
+    const size = pair.otherRadius / radius;
+    const inRadii = (values) => values.map((value) => value / radius);
+    const way = inRadii(summed(along, duration));
+    const closer = inRadii(penetration);
+    const large = magnification("sphere", size, closer, way);
+
+    const middle = 0.5 * way[way.length - 1];
+    const apart = way.map((value, i) => placed("sphere", size, large * (value - middle), large * closer[i]));
+    const [x, y] = [along, speed].map((relative) => ofBoth(pair, inRadii(relative)));
+    const moved = [x, y].map(({ second }) => summed(second, duration).map((value) => large * value));
+    const second = apart.map((_, i) => [moved[0][i], -size - moved[1][i]]);
+    const first = apart.map((from, i) => [second[i][0] + from[0], second[i][1] + from[1]]);
+
+    const free = (points, which) => flown(points, large * duration, [x, y].map((velocity) => velocity[which]));
+    const turns = spins.map((spin) => travelled(spin, duration).map((value) => large * value));
+    return {
+      time: short(times(way.length - 1)),
+      caption: captionOf(large, "sphere"),
+      bodies: [body("sphere", 1, free(first, "first"), turns[0]), body("sphere", size, free(second, "second"), turns[1])],
+    };
+  }
+
+  // What both bodies have of a component of their relative velocity.
+  function ofBoth(pair, relative) {
+    const each = relative.map((now) => Carom.pair.shared(pair, relative[0], now));
+    return { first: each.map(([value]) => value), second: each.map(([, value]) => value) };
+  }
+
+  // A path with the straight ones before and after it, of velocities to the right and down.
+  function flown(points, duration, [right, down]) {
+    const last = points.length - 1;
+    const of = (which, speed, sign) => continued(points.map((point) => point[which]), sign * speed[0], sign * speed[last], duration);
+    const [x, y] = [of(0, right, 1), of(1, down, -1)];
+    return x.map((value, i) => [value, y[i]]);
+  }
+
+  const captionOf = (large, kind) => `motion magnified ${digits(large)} times${BENT[kind]}`;
+
+  // A ball on a plane, on a plate or in a cup.
+  function onGround(pair, { along, spins, speed, penetration, duration }) {
     const radius = pair.moving[0].radius;
     const thick = pair.thickness === Infinity ? "plane" : "plate";
     const kind = pair.against === "half-space" ? thick : pair.against;
@@ -74,16 +128,14 @@ Carom.paths = (() => {
     const fallen = kind === "plate" ? travelled(speed, duration).map((value) => value / radius) : closer;
     const large = magnification(kind, size, fallen, way);
     const turns = spins.map((spin) => travelled(spin, duration).map((value) => large * value));
-    const share = pair.normalMass / pair.moving[0].mass; // of the relative motion, the first body's
-    const height = { sphere: -size, cup: size }[kind] ?? 0;
+    const height = kind === "cup" ? size : 0;
     const sunk = fallen.map((value, i) => large * (value - closer[i])); // a plate, in its middle
     const places = way.map((value, i) => placed(kind, size, large * value, large * closer[i]));
-    const rests = places.map(([x, y]) => [(1 - share) * x, (1 - share) * (y - 1 + height)]);
-    const first = places.map(([x, y], i) => [x - rests[i][0], y - rests[i][1] + height - sunk[i]]);
-    const second = rests.map(([x, y], i) => [-x, height - y - sunk[i]]);
+    const first = places.map(([x, y], i) => [x, y + height - sunk[i]]);
+    const second = sunk.map((value) => [0, height - value]);
     return {
       time: short(times(last)),
-      caption: `motion magnified ${digits(large)} times${BENT[kind]}`,
+      caption: captionOf(large, kind),
       bodies: [body("sphere", 1, first, turns[0]), body(kind, size, second, turns[1])],
     };
   }

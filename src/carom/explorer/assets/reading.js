@@ -104,7 +104,7 @@ Carom.reading = (() => {
     const answer = Carom.answer.of(values);
     const undamped = values.law.filter((label) => answer.lossy && !damped(label));
     const late = values.law.filter((label) => !undamped.includes(label));
-    return { query: canonical(values), ...answer, undamped, late, laws: [], slow: [], findings: values.given === "numbers" ? [] : null };
+    return { query: canonical(values), ...answer, undamped, late, laws: [], slow: [], findings: values.given === "numbers" ? [] : null, unjudged: "" };
   }
 
   // The answer to a query, or a refusal {field, message}.

@@ -22,9 +22,10 @@ Carom.results = (() => {
     max_force: "largest force",
     max_radius: "contact radius",
     normal_restitution: "normal restitution",
-    lost_energy: "normal losses",
-    shear_lost_energy: "losses in shear",
+    shear_lost_energy: "lost in shear",
   };
+  const OF_BALLS = "θ′, V′ and e_t are of the first ball as seen from the other. Pictures and energies are as one sees them: the other at rest before.";
+  const SHORTER = { [Carom.losses.WORDS.waves]: "lost to waves" };
   let unfolded = false;
   const { make } = Carom.elements;
   const box = (id) => document.getElementById(id);
@@ -46,10 +47,17 @@ Carom.results = (() => {
     return cell;
   }
 
-  function line([first, second], both) {
+  // What the energy is lost to, where that is the same in both impacts.
+  function sinkOf(answers) {
+    const sinks = new Set(answers.filter((answer) => answer?.lossy).map(({ scene }) => Carom.losses.sink(scene)));
+    return sinks.size === 1 ? [...sinks][0] : "lost energy";
+  }
+
+  function line([first, second], both, sink) {
     const { name, symbol, meaning } = first || second;
     const sign = Carom.tips.symbol(symbol);
-    const words = make("span", { title: meaning }, SHORT[name] || meaning);
+    const short = name === "lost_energy" ? SHORTER[sink] || sink : SHORT[name] || meaning;
+    const words = make("span", { title: meaning }, short);
     const cells = [value(first), ...(both ? [value(second)] : [])];
     const head = make("th", { className: "carom-sign", scope: "row" }, sign);
     const row = make("tr", "", head, make("td", "carom-meaning", words), ...cells);
@@ -64,7 +72,7 @@ Carom.results = (() => {
 
   function table(answers) {
     const both = Boolean(answers[1]);
-    const body = make("tbody", "", ...rows(answers).map((row) => line(row, both)));
+    const body = make("tbody", "", ...rows(answers).map((row) => line(row, both, sinkOf(answers))));
     return make("table", `carom-table carom-results${both ? " carom-both" : ""}`, ...(both ? [head()] : []), body);
   }
 
@@ -75,38 +83,52 @@ Carom.results = (() => {
   }
 
   // How far the theory holds, in a line; what it is judged by opens, and stays so for other impacts.
-  function findings({ findings: all }, title) {
-    if (!all?.length) return [];
-    const order = Object.keys(MARKS);
-    const sorted = [...all].sort((a, b) => order.indexOf(a.mark) - order.indexOf(b.mark));
-    const worst = sorted[0].mark;
-    const count = sorted.filter(({ mark }) => mark === worst).length;
-    const holds = worst === "ok" ? "the theory holds" : `the theory ${SHORTLY[worst]} in ${count} of ${all.length}`;
+  // Of an impact without a verdict the line says why.
+  function findings({ findings: all }, title, why) {
+    if (why && !Carom.source.live) return make("p", "carom-note", title + why);
+    const { sorted } = Carom.verdict;
+    const [worst, words] = why ? ["?", why] : counted(sorted(all));
     const sign = make("span", `carom-mark carom-${MARKS[worst][1]}`, MARKS[worst][0][0]);
-    const fold = make("details", "", make("summary", "", sign, ` ${title}${holds}`));
+    const fold = make("details", "", make("summary", "", sign, ` ${title}${words}`));
     fold.open = unfolded;
     fold.addEventListener("toggle", () => fold.isConnected && (unfolded = fold.open));
-    fold.append(make("ul", "carom-findings", ...sorted.map(finding)));
-    return [fold];
+    if (!why) fold.append(make("ul", "carom-findings", ...sorted(all).map(finding)));
+    return fold;
   }
 
-  // What a plate comes to.
-  function plate({ scene }, title) {
-    const taken = Carom.sentence.waves(scene);
-    const words = `${title}e = ${scene.plate?.toPrecision(3)}, and waves in the plate carry away ${taken} of the normal energy.`;
-    return taken ? [make("p", "carom-note", words)] : [];
+  function counted(all) {
+    const [{ mark }] = all;
+    const count = all.filter((each) => each.mark === mark).length;
+    return [mark, mark === "ok" ? "the theory holds" : `the theory ${SHORTLY[mark]} in ${count} of ${all.length}`];
   }
+
+  // What a plate comes to; and of two balls, in which frame the pictures show them.
+  function notes(answer, title) {
+    const { scene, view } = answer;
+    const said = [];
+    if (scene.plate < 1) said.push(`e = ${scene.plate.toPrecision(3)}. ${takenByPlate(answer)}`);
+    if (view?.against === "sphere") said.push(OF_BALLS);
+    return said.map((words) => make("p", "carom-note", title + words));
+  }
+
+  function takenByPlate(answer) {
+    if (answer.numbers) return Carom.losses.told(answer);
+    const share = Carom.losses.percent(1 - answer.scene.plate ** 2); // two numbers tell no more
+    return `${share} of the normal energy is ${Carom.losses.sink(answer.scene)}.`;
+  }
+
+  const titled = (answers) => (answers[1] ? ["This: ", "Beside: "] : ["", ""]);
 
   function show(answers) {
     box("results").replaceChildren(table(answers));
     judge(answers);
   }
 
-  // The verdict, which follows: whoever is at it by the keyboard stays there.
-  function judge(answers) {
-    if (answers.some((answer) => answer && !answer.findings) && Carom.source.live) return; // until it is there
-    const titles = answers[1] ? ["This: ", "Beside: "] : ["", ""];
-    const told = (answer, title) => [...plate(answer, title), ...findings(answer, title)];
+  // The verdict, which follows: until it is there the line says so. Whoever is at it by the keyboard
+  // stays there. `pending` as in `Carom.verdict`.
+  function judge(answers, pending = "") {
+    const titles = titled(answers);
+    const told = (answer, title) => [...notes(answer, title), findings(answer, title, Carom.verdict.missing(answer, pending))];
     const held = box("findings").contains(document.activeElement);
     box("findings").replaceChildren(...answers.flatMap((answer, row) => (answer ? told(answer, titles[row]) : [])));
     if (held) box("findings").querySelector("summary")?.focus();

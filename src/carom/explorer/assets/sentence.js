@@ -45,24 +45,30 @@ Carom.sentence = (() => {
       viscous: facts.viscous,
       still: row > 0 && data.phases[row - 1].kind !== "gross slip",
       along: first(scene),
+      balls: isBalls(scene),
       psi: moves ? sign(scene.psiAt(inside)) : null,
       stops: moves && turns(scene.psiAt, share),
       reverses: phase.kind !== "gross slip" && facts.rubs && turns(scene.forceAt, share),
       before: share < facts.peak,
       peak: Math.abs(share - facts.peak) <= PEAK,
       way: (toward) => (toward * arrival(scene) < 0 ? "backwards" : "forwards"),
-      when: whenOf(share, facts.peak),
+      when: whenOf(share, facts.peak, isBalls(scene)),
     };
   }
 
-  function whenOf(share, peak) {
+  // Whether it is two balls that meet: both move.
+  const isBalls = ({ data }) => data.stage.bodies[1].kind === "sphere";
+
+  function whenOf(share, peak, balls) {
     if (Math.abs(share - peak) <= PEAK) return "at the largest compression";
+    if (balls) return share < peak ? "as the balls are pressed together" : "as the balls push each other away";
     return share < peak ? "as the ball is pressed in" : "as the ball is pushed away";
   }
 
   // Where nothing acts along the surface.
-  function withoutFriction({ kind, when, before }) {
-    const normal = before ? "slows the ball down" : "drives the ball away";
+  function withoutFriction({ kind, when, before, balls }) {
+    const alone = before ? "slows the ball down" : "drives the ball away";
+    const normal = balls ? "drives the struck ball away" : alone;
     if (kind === "stick") {
       return `${when}, the contact point has no tangential velocity and sticks: only the normal force acts and ${normal}`;
     }
@@ -133,25 +139,23 @@ Carom.sentence = (() => {
     return "the ball approaches: no force acts yet, and its contact point moves forwards";
   }
 
-  // The share of the energy of the normal motion that waves in a plate carry away, "" if it is none.
-  const waves = ({ plate: e }) => (e === undefined ? "" : `${Number((100 * (1 - e ** 2)).toPrecision(3))}\u00a0%`);
-
   function leaving(scene) {
-    const taken = waves(scene.data);
-    const plate = taken ? `, and waves in the plate have carried away ${taken} of its normal energy` : "";
-    const lost = scene.facts.viscous ? ", and viscosity has taken part of its energy" : plate;
-    const left = `the ball has left${lost}`;
+    const takes = scene.facts.viscous || scene.data.plate < 1;
+    const lost = takes ? `, and part of the energy is ${Carom.losses.sink(scene.data)}` : "";
+    const left = `${isBalls(scene) ? "the balls have parted" : "the ball has left"}${lost}`;
     if (!scene.facts.rubs) {
       return `${left}: no friction acted, so its tangential velocity and its spin are what they were`;
     }
     const [before, after] = [scene.psiAt(0), scene.psiAt(1)];
     if (before === null) return `${left}: no force acts any more`;
     const part = after / before;
-    if (Math.abs(part) < SPENT) return `${left}: friction has brought its contact point to rest`;
+    const rest = isBalls(scene) ? "their contact points to move alike" : "its contact point to rest";
+    if (Math.abs(part) < SPENT) return `${left}: friction has brought ${rest}`;
     const way = sign(after) === arrival(scene) ? "forwards" : "backwards";
     const share = Math.round(100 * Math.abs(part));
     const how = part > 0 ? "still moves" : "now moves";
-    return `${left}: its contact point ${how} ${way}, at ${share}\u00a0% of its speed before the impact`;
+    const point = isBalls(scene) ? "the contact point of the first, as seen from the other," : "its contact point";
+    return `${left}: ${point} ${how} ${way}, at ${share}\u00a0% of its speed before the impact`;
   }
 
   function contact(now) {
@@ -167,5 +171,5 @@ Carom.sentence = (() => {
     return `${capital(text)}.`;
   }
 
-  return { of, waves };
+  return { of };
 })();
