@@ -47,7 +47,7 @@ template <class Random> Ball start(Random& random, double rests, double speed, i
     return ball;
 }
 
-template <class Kind> double excess(unsigned seed, int steps) {
+template <class Kind> double excess(unsigned seed, int steps, double loses) {
     std::mt19937_64 random(seed);
     const auto between = [&](double low, double high) {
         return std::exp(std::uniform_real_distribution<double>(std::log(low), std::log(high))(random));
@@ -58,7 +58,7 @@ template <class Kind> double excess(unsigned seed, int steps) {
     pair.modulus = 0.75 * weight / (std::sqrt(pair.radius) * std::pow(rests, 1.5));
     const double natural = std::sqrt(rests * pair.mass / weight);  // time
     const double speed = rests / natural * between(0.1, 10.0), step = natural * between(0.01, 0.04);
-    pair.retardation = natural * between(0.003, 0.3);
+    pair.retardation = loses * natural * between(0.003, 0.3);
     pair.viscous_shear = seed % 3 != 0;
     const int way = static_cast<int>(seed % 6);
     Ball ball = start(random, rests, speed, way);
@@ -80,9 +80,9 @@ template <class Kind> double excess(unsigned seed, int steps) {
     return most / (whole + weight * rests);
 }
 
-template <class Kind> void print(unsigned seed, unsigned count, int steps) {
+template <class Kind> void print(unsigned seed, unsigned count, int steps, double loses = 1.0) {
     double largest = 0.0;
-    for (unsigned n = 0; n < count; ++n) largest = std::max(largest, excess<Kind>(seed + n, steps));
+    for (unsigned n = 0; n < count; ++n) largest = std::max(largest, excess<Kind>(seed + n, steps, loses));
     std::printf("%.3g\n", largest);
 }
 
@@ -95,5 +95,5 @@ int main(int, char** words) {
     print<Contact<32, float, viscous>>(seed, count, steps);
     print<Contact<32, double, viscous>>(seed, count, steps);
     print<Contact<16, float, viscous | ledger>>(seed, count, steps);
-    print<Contact<32, float>>(seed, count, steps);
+    print<Contact<32, float>>(seed, count, steps, 0.0);
 }
