@@ -13,15 +13,15 @@ from carom.dimensionless.elastic import phases
 from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.jit import ABOVE, EDITED, KEPT
 
-CALLS = '''
+CALLS = """
 from carom.dimensionless.numerics.called import FACTOR, shifted
 from carom.dimensionless.numerics.kernels import kernel
 
 @kernel
 def answer(x: float) -> float:
     return FACTOR * shifted(x)
-'''
-CALLED = '''
+"""
+CALLED = """
 from carom.dimensionless.numerics.kernels import kernel
 
 FACTOR = 2.0
@@ -29,7 +29,7 @@ FACTOR = 2.0
 @kernel
 def shifted(x: float) -> float:
     return x + 1.0
-'''
+"""
 ASK = "from carom.dimensionless.numerics.calls import answer; print(answer(4.0))"
 
 
@@ -84,8 +84,8 @@ def test_an_edit_of_what_a_kernel_uses_gives_new_numbers(copy, tmp_path, told):
 
 @pytest.mark.slow
 def test_what_was_loaded_before_an_edit_is_not_kept(copy):
-    """As where `git pull` meets a notebook: its process goes on with what it has, the next has new."""
-    program = f"""
+    """As where `git pull` meets a notebook: its process goes on, the next one has new numbers."""
+    program = """
 from carom.dimensionless.numerics.calls import answer
 from carom.dimensionless.numerics import jit, kernels
 file = kernels.__file__.replace("kernels.py", "called.py")
@@ -115,7 +115,9 @@ def test_no_kernel_is_in_the_folders_that_are_not_looked_at():
     assert with_kernels == {"collisions", "dem", "dimensionless", "laws"}
     contract = Path(__file__).parents[2].joinpath("pyproject.toml").read_text()
     floors = contract.partition('containers = ["carom"]')[2].partition("]\n")[0].splitlines()
-    heights = {folder: floor for floor, line in enumerate(floors) for folder in line.split('"')[1::2]}
+    heights = {
+        folder: floor for floor, line in enumerate(floors) for folder in line.split('"')[1::2]
+    }
     height = {each: n for line, n in heights.items() for each in line.split(" : ")}
     assert max(map(height.get, ABOVE)) < min(map(height.get, with_kernels))
 
@@ -134,6 +136,5 @@ def test_a_known_impact_that_comes_out_otherwise_is_told_once(call, unchecked, m
     monkeypatch.setattr(phases, "KNOWN_PSI_OUT", phases.KNOWN_PSI_OUT + 2e-12)
     told = r"the solver is wrong: it gives psi_2 = 0\.0471310837788 .* install carom again$"
     with pytest.warns(RuntimeWarning, match=told) as warned:
-        call(0.5, 1.44)
-        call(2.5, 1.44)
+        assert [call(psi, 1.44) for psi in (0.5, 2.5)]
     assert len(warned) == 1

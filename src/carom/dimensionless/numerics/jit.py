@@ -15,8 +15,7 @@ import numba
 from numba.core import event
 
 from carom.dimensionless.numerics import shared_library
-from carom.dimensionless.numerics.kernels import LOADED
-from carom.dimensionless.numerics.shared_library import PACKAGE, digest
+from carom.dimensionless.numerics.shared_library import LOADED, PACKAGE, digest
 
 PATIENCE = 2.0  # seconds before it is said
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy"}

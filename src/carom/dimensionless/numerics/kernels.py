@@ -13,7 +13,6 @@ from functools import cache, cached_property, update_wrapper
 from importlib.metadata import version
 from importlib.util import find_spec
 from multiprocessing import parent_process
-from time import time
 from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 import numpy as np
@@ -25,7 +24,6 @@ from carom.quantities.refusals import InputError, one_of
 VARIABLE = "CAROM_KERNELS"  # of the environment: library, numba or python
 WAYS = ("library", "numba", "python")
 INSTALL = 'pip install "carom[jit]"'
-LOADED = time()  # sources that are newer are not those that this process runs
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
 
