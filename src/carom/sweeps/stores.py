@@ -30,7 +30,7 @@ from zarr.storage import MemoryStore
 
 from carom.dimensionless.numerics.threads import available_cores
 from carom.io.files import STORE_ENDING
-from carom.io.paths import checked_path
+from carom.io.paths import FULL, checked_path, unwritten
 from carom.io.stores import CHUNK, STATUS, SealedStore, freeze, read_store
 from carom.io.version import __version__
 from carom.quantities.refusals import refusal, refuse
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
 LOCK = f"{STATUS}/.lock"  # a place that zarr does not list
 COMPRESSOR = ZstdCodec(level=1)  # floating-point numbers gain nothing from more
 BLANK = {"float64": np.nan, "int8": PointStatus.NOT_RUN.value}  # of points that have not been run
-FULL = (errno.ENOSPC, errno.EDQUOT)
 MOST_DIFFERENCES = 3  # in a refusal
 
 
@@ -131,7 +130,8 @@ def _locked(path: Path) -> Iterator[None]:
     except OSError as error:  # Timeout is one
         busy = isinstance(error, filelock.Timeout) and "another process is writing it; wait for it"
         allowed = busy or f"cannot be written; {error.strerror}"
-        raise refusal("store", str(path), allowed) from None
+        words = f"store: {str(path)!r} {allowed}"
+        raise unwritten(error, words) or refusal("store", str(path), allowed) from None
     try:
         yield
     finally:
@@ -152,7 +152,8 @@ def _create(path: Path, problem: SweepProblem) -> None:
         reason = f"cannot be made; {error.strerror}"
         if error.errno in (errno.EEXIST, errno.ENOTEMPTY):
             reason = "another process has just made it"
-        raise refusal("store", str(path), reason) from None
+        words = f"store: {str(path)!r} {reason}"
+        raise unwritten(error, words) or refusal("store", str(path), reason) from None
     finally:
         shutil.rmtree(new, ignore_errors=True)
 
