@@ -175,7 +175,7 @@ def read_shared(share: Collection[str] | str, free: Sequence[Collection[str]]) -
     common = [each for each in free[0] if all(each in own for own in free)]
     names = _listed("share", share, common)
     for name in names:
-        if name not in common:
+        if not isinstance(name, str) or name not in common:
             hint = f"all sets vary {', '.join(common) or 'nothing in common'}"
             raise refusal("share", name, f"{hint}; chi is shared with kappa")
     return tuple(dict.fromkeys(names))
