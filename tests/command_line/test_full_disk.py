@@ -13,7 +13,19 @@ import carom
 from carom.io.paths import Unwritten
 
 ROOT = Path(__file__).parents[2]
-BALL = "impact --radius 5mm --material steel --friction 0.2 --speed 2 --angle 0.5".split()
+BALL = [
+    "impact",
+    "--radius",
+    "5mm",
+    "--material",
+    "steel",
+    "--friction",
+    "0.2",
+    "--speed",
+    "2",
+    "--angle",
+    "0.5",
+]
 SWEEP = ["sweep", "case.toml"]
 CASE = """
 friction = 0.2

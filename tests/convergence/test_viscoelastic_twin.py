@@ -55,7 +55,8 @@ SMALL = [1e-6, 2.6e-6, 5.3e-6, 1.06e-5, 2.6e-5, 5e-5]  # alpha: 1 - e is 1.9 of 
 @pytest.mark.parametrize(("psi", "chi"), NEARLY_ELASTIC)
 def test_what_small_losses_change_is_in_proportion_to_them(psi, chi):
     """Slip that stops while it is slower than can be told is over: it does not begin anew."""
-    changes = psi_out(psi, chi, SMALL) - carom.rebound(psi, chi)
+    psis, chis = np.full(len(SMALL), psi), np.full(len(SMALL), chi)
+    changes = psi_out(psis, chis, SMALL) - carom.rebound(psi, chi)
     ratio = changes / SMALL
     straight = ratio[0] + (ratio[-1] - ratio[0]) * (np.array(SMALL) - SMALL[0]) / (5e-5 - 1e-6)
     assert np.abs((ratio - straight) * SMALL).max() < 1e-9
