@@ -56,9 +56,9 @@ class SealedStore(LocalStore):
         super().__init__(root, read_only=read_only)
         self._frozen = _checked_list(root)
         _check_codecs(root)
-        arrays = {name.removesuffix(f"/{METADATA}") for name in self._frozen if "/" in name}
+        arrays = {name.partition("/")[0] for name in self._frozen if name.endswith(f"/{METADATA}")}
         written_once = {name.partition(CHUNK)[0] for name in self._frozen if CHUNK in name}
-        self._computed = arrays - written_once - {STATUS, FROZEN}
+        self._computed = arrays - written_once - {STATUS}
 
     def is_sound(self, key: str) -> bool:
         """Tell whether a chunk is there, and as it was written."""

@@ -69,10 +69,14 @@ class StoreRecord:
 
     def _is_finished(self, box: Box) -> bool:
         """Tell whether a block is there as a whole, and none of its files is damaged."""
-        corner = "/".join(str(p.start // n) for p, n in zip(box, self._chunks, strict=True))
-        if not all(self._store.is_sound(f"{name}{CHUNK}{corner}") for name in self._arrays):
+        if not all(self._store.is_sound(key) for key in self._keys(box)):
             return False
         return PointStatus.NOT_RUN not in self._arrays[STATUS][box]
+
+    def _keys(self, box: Box) -> list[str]:
+        """Return the names of the files of a block."""
+        corner = "/".join(str(p.start // n) for p, n in zip(box, self._chunks, strict=True))
+        return [f"{name}{CHUNK}{corner}" for name in self._arrays]
 
     def write(self, box: Box, values: Values) -> None:
         """Write a block, its status last; raises SweepStopped if that fails."""
@@ -80,6 +84,8 @@ class StoreRecord:
             for name in sorted(values, key=STATUS.__eq__):
                 self._arrays[name][box] = values[name]
         except OSError as error:
+            for key in self._keys(box):  # a block that lacks its status alone counts as damaged
+                (self.path / key).unlink(missing_ok=True)
             advice = "; free some space" if error.errno in FULL else ""
             raise SweepStopped(f"{self.path}: {error.strerror}{advice}") from None
         self._finished += 1
