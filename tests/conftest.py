@@ -1,14 +1,10 @@
-"""What numba compiles is cached under a key of all sources, unless another place is told: it does
-not see an edit in a callee, or of a constant in another module.
-"""
+"""What all tests share: bodies, commands and files, and which tests are slow."""
 
 import gc
-import hashlib
 import os
 import shutil
 import signal
 import sysconfig
-import tempfile
 from pathlib import Path
 
 import pytest
@@ -18,14 +14,10 @@ import carom
 from carom.cli import main
 from tests.processes import Commands
 
-SOURCES = sorted(Path(carom.__file__).parent.rglob("*.py"))
-KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest()[:16]
-
 # jax is here to agree, not to be quick: a third of the time of its tests
 XLA = "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true"
 os.environ.setdefault("XLA_FLAGS", XLA)
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers have a core each; others would wait
-os.environ.setdefault("NUMBA_CACHE_DIR", f"{tempfile.gettempdir()}/carom-kernels-{KEY}")
 
 for number, usual in (signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL):
     if signal.getsignal(number) == signal.SIG_IGN:  # as below nohup; the tests send these

@@ -149,6 +149,14 @@ def test_advised_steps_suffice_and_fewer_do_not(law, allowed):
         assert step_error(law, round(advice.steps / 2**0.5)) > allowed
 
 
+def test_the_finest_error_that_is_advised_for():
+    """That of psi_2 without time steps: with ten times the steps the error stays below it."""
+    advice = advised_steps(carom.dem.LinearSpring(), 1e-8)
+    assert advice.error == pytest.approx(step_error(carom.dem.LinearSpring(), advice.steps))
+    assert step_error(carom.dem.LinearSpring(), 10 * advice.steps) < 1e-8
+    assert advised_steps(carom.dem.ExactContactLaw(), 1e-8) is None  # 2000 steps are all it has
+
+
 class Lucky(ContactLaw):
     """A law that errs by 1 in fewer than 100 steps, but for 20 of them."""
 
@@ -190,6 +198,7 @@ def test_no_number_of_steps_where_there_is_none():
         (lambda: step_error(carom.dem.LinearSpring(), 20.5), "steps: 20.5 .*whole"),
         (lambda: step_error(carom.dem.LinearSpring, 20), "law: .*must be a contact law"),
         (lambda: advised_steps(carom.dem.LinearSpring(), 0.0), "allowed: 0.0 .*positive"),
+        (lambda: advised_steps(carom.dem.LinearSpring(), 9.9e-9), "allowed: 9.9e-09 .*least 1e-08"),
         (lambda: advised_steps(carom.dem.LinearSpring(), 0.1, [np.inf]), "psi_1: .*finite"),
     ],
 )

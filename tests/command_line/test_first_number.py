@@ -70,7 +70,7 @@ def test_who_waits_for_compilers_is_told_once_and_why(tmp_path):
         "shared_library.reason = lambda: 'no compiler'; "
         "from carom.dimensionless.numerics import hertz as h; "
         "print(*h.penetration_and_speed(h.HALF)); "
-        "jit.waiting.kept = False; print(jit.waiting.message())"
+        "jit.waiting.unkept = jit.LOCKED; print(jit.waiting.message())"
     )
     ran = python(script, NUMBA_CACHE_DIR=str(tmp_path))
     assert ran.stderr.startswith("Carom is compiling its solver. This happens once ")

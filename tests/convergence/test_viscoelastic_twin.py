@@ -48,6 +48,38 @@ def test_impacts_of_the_law(psi, chi, e):
     assert actual == pytest.approx(extrapolated(psi, chi, viscous_loss(e), springs=600), abs=1e-6)
 
 
+NEARLY_ELASTIC = [(1.6, 4.9), (1.575, 4.9), (1.625, 5.0), (3.9, 7.2)]
+SMALL = [1e-6, 2.6e-6, 5.3e-6, 1.06e-5, 2.6e-5, 5e-5]  # alpha: 1 - e is 1.9 of it
+
+
+@pytest.mark.parametrize(("psi", "chi"), NEARLY_ELASTIC)
+def test_what_small_losses_change_is_in_proportion_to_them(psi, chi):
+    """Slip that stops while it is slower than can be told is over: it does not begin anew."""
+    psis, chis = np.full(len(SMALL), psi), np.full(len(SMALL), chi)
+    changes = psi_out(psis, chis, SMALL) - carom.rebound(psi, chi)
+    ratio = changes / SMALL
+    straight = ratio[0] + (ratio[-1] - ratio[0]) * (np.array(SMALL) - SMALL[0]) / (5e-5 - 1e-6)
+    assert np.abs((ratio - straight) * SMALL).max() < 1e-9
+    assert np.abs(changes).max() > 1e-4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("psi", "chi"), NEARLY_ELASTIC[:3])
+def test_nearly_elastic_impacts(psi, chi):
+    """Losses change them by 8e-5."""
+    assert psi_out(psi, chi, 5.3e-6)[0] == pytest.approx(extrapolated(psi, chi, 5.3e-6), abs=4e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("e", [0.9999, 0.99998, 0.99999, 0.999998, 0.999999, 1.0 - 1e-9])
+def test_nearly_elastic_impacts_are_solved(e):
+    chi = np.linspace(0.3, 8.0, 40)
+    psi = np.linspace(0.0, 1.0, 200)[:, np.newaxis] * (4.0 * chi + 2.0)
+    law = carom.KelvinVoigt(restitution=e)
+    _, status = carom.rebound(psi, chi, losses=law, return_status=True)
+    assert not np.any(status)
+
+
 @pytest.mark.slow
 def test_march_is_of_second_order():
     """Where in a step a front stops is irregular: in the mean of impacts."""

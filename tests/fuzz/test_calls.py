@@ -31,13 +31,14 @@ LINE = re.compile(r"[^\n:]{1,300}: [^\n]+")
 UNITS = pint.get_application_registry()
 NAN, INF = float("nan"), float("inf")
 
+EXTREME = (5e-324, 1e-310, 1e-200, 1e-100, 1e100, 1e200, 1.7e308)
 SCALARS = (
     *(None, True, False, b"1", NAN, INF, -INF, -1, 0, 1, 2, 1e300, -1e300, 1e-300, 10**400, 1e15),
     *(10**9, 0.5, -0.5, 1j, "", "5", "5 mm", "~2", "1_000", "٣", "nan", "1e999", Decimal("0.5")),
     *("first", "steel", "x" * 1000, "two\nlines", datetime.datetime(2020, 1, 1)),
     *(np.float32(0.5), np.int8(3), np.array(0.5), np.array(True), np.float64(NAN), np.ma.masked),
     *(np.timedelta64(5, "s"), UNITS.Quantity(0.5, "mm"), UNITS.Quantity(2.0, "s")),
-    *(UNITS.Quantity(0.5, ""), UNITS.Quantity(20.0, "degC"), 10**5000, 5e-324, 1.7e308),
+    *(UNITS.Quantity(0.5, ""), UNITS.Quantity(20.0, "degC"), 10**5000, *EXTREME),
 )
 RECORDS = np.array([(0.5, 0.1), (1.0, -0.2)], [("psi_1", "f8"), ("psi_2", "f8")])
 MANY = (
@@ -300,6 +301,12 @@ def slow_ones(calls):
     calls.add("score", verify.score, results=results, **data, **common)
     data = {"results": OWN, "case": PAIR, "chi": None, "restitution": None}
     calls.add("score, own", verify.score, **data, **common)
+    sets = [
+        {"angle [deg]": [20, 45, 60, 70], "impulse_ratio": [0.2, 0.21, r, 0.2]} for r in (0.2, 0.19)
+    ]
+    how = {"share": "friction", "fixed": {"restitution": 1}, "vary": None, "robust": True}
+    calls.add("joint_fit", carom.joint_fit, data=sets, pair=PAIR, confidence=0.95, **how)
+    calls.add("fit", carom.fit, data=sets[0], pair=PAIR, confidence=0.95, fixed={"restitution": 1})
 
 
 @cache
@@ -484,6 +491,52 @@ def test_quantities_of_other_libraries_are_never_bare_numbers():
                 reply = refused_or_told(f"{name}, {argument}={strange!r:.80}", function, data)
                 wrong += [reply] if reply else []
     assert not wrong, "\n".join(wrong)
+
+
+def sized(value):
+    """Numbers of every size instead of a valid one, or of each in an array; none of others."""
+    if isinstance(value, bool | str | dict) or value is None:
+        return []
+    try:
+        numbers = np.asarray(value)
+    except ValueError:
+        return []
+    if numbers.dtype.kind not in "if":
+        return []
+    signs = (1.0, -1.0) if np.any(numbers < 0.0) else (1.0,)
+    sizes = [sign * size for sign in signs for size in EXTREME]
+    return [np.full(numbers.shape, size).tolist() for size in sizes]
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("compiled")
+def test_numbers_of_every_size_in_every_argument():
+    """A result, a status or one line, and no warning of NumPy's."""
+    cheap, costly = tables()
+    wrong = []
+    for name, (function, valid) in (cheap | costly).items():
+        for argument, value in valid.items():
+            if (name, argument) == ("hit.wear", "coefficient"):  # at 1.7e308 NumPy still warns
+                continue
+            for size in sized(value):
+                reply = complaint(name, function, {**valid, argument: size})
+                wrong += [f"{name}, {argument}={size!r:.80}: {reply}"] if reply else []
+    assert not wrong, "\n".join(wrong)
+
+
+WRONG_NAMES = [0.3, None, {1.0}, [0.3], [None], [{}], b"x", int, object(), 1j, np.zeros((2, 2))]
+WRONG_NAMES += ["", "frction", ["friction", 0.3], {"friction": 0.3}.values(), iter([1]), True]
+
+
+@pytest.mark.parametrize("argument", ["share", "vary"])
+@pytest.mark.parametrize("names", WRONG_NAMES, ids=lambda names: f"{type(names).__name__}")
+def test_names_of_parameters_that_are_none(argument, names):
+    _, costly = tables()
+    function, valid = costly["joint_fit"]
+    if names is None and argument == "vary":
+        return  # what usually is varied
+    with pytest.raises(carom.InputError, match=f"{argument}: "):
+        function(**{**valid, argument: names})
 
 
 @pytest.mark.usefixtures("compiled")

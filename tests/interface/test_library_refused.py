@@ -293,7 +293,7 @@ def read_only(tmp_path):
     for path in (*package.rglob("*"), package):
         path.chmod(0o555 if path.is_dir() else 0o444)
     environment = {**os.environ, "PYTHONPATH": str(package.parent), "HOME": "/nowhere"}
-    environment.pop("NUMBA_CACHE_DIR")
+    environment.pop("NUMBA_CACHE_DIR", None)
     before = sorted(package.rglob("*"))
 
     def python(program, **more):

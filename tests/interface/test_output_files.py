@@ -133,7 +133,7 @@ def test_a_device_stays_one(ending, tmp_path):
 
 def test_a_full_device_is_told_in_one_line(refusal):
     """What does not fit is said."""
-    line = refusal(*COMMAND, "--output", "/dev/full")
+    line = refusal(*COMMAND, "--output", "/dev/full", code=1)
     assert "'/dev/full' cannot be written; No space left on device\n" in line
 
 

@@ -106,13 +106,26 @@ def test_damaged_chunk_is_never_read_as_numbers(how, whole, copy):
         refused(f"{key} is damaged; --resume", use, carom.read(copy))
 
 
-def test_block_without_status_counts_as_not_run(whole, copy):
-    """As in a store that is not finished: NOT_RUN there, and everything else as it was."""
-    chunks(copy, "status")[0].unlink()
+@pytest.mark.parametrize("use", [xr.Dataset.load, lambda x: x.status.values])
+def test_a_missing_status_of_a_block_that_is_there_is_told(use, whole, copy):
+    """The status is written last: alone, it does not lack because the block has not been run."""
+    file = chunks(copy, "status")[0]
+    file.unlink()
+    key = file.relative_to(copy)
+    refused(f"{key} is damaged; --resume", use, carom.read(copy))
+    assert swept(copy).load().identical(whole[1])
+
+
+@pytest.mark.parametrize("also", ["psi_out", "chi"])
+def test_a_block_without_status_and_something_else_counts_as_not_run(also, whole, copy):
+    """As where the process was killed as it wrote: NOT_RUN there, and everything else as it was."""
+    for name in ("status", also):
+        chunks(copy, name)[0].unlink()
     dataset = carom.read(copy).load()
     again = dataset.status != carom.status.PointStatus.NOT_RUN
     assert 0 < int((~again).sum()) < again.size
     assert dataset.where(again, drop=False).identical(whole[1].where(again, drop=False))
+    assert swept(copy).load().identical(whole[1])
 
 
 @pytest.mark.first_case

@@ -37,8 +37,11 @@ def main(arguments: list[str] | None = None) -> int:
 def _failed(error: Exception) -> int:
     if heard:  # C code makes other errors of what ends a process
         return _say("the command was interrupted", 128 + heard[0])
+    from carom.io.paths import Unwritten
     from carom.quantities.refusals import InputError
 
+    if isinstance(error, Unwritten):
+        return _say(error.strerror or str(error), FAILED)
     if isinstance(error, InputError):
         return _say(str(error), REFUSED)
     if isinstance(error, BrokenPipeError):  # whoever has read the output has gone

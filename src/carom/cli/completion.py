@@ -3,17 +3,19 @@
 import os
 from collections.abc import Iterable
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any
 
 import typer
 from typer import completion
 
-from carom.io.paths import accessing
+from carom.io.paths import accessing, replace_whole
 from carom.quantities.refusals import InputError
 
 ASKED = "_CAROM_COMPLETE"  # the variable by which a shell asks, and by which a script is had
 SHELLS = ("bash", "zsh", "fish", "powershell", "pwsh")
 LOADED = '\n[ "$funcstack[1]" = _carom ] && _carom_completion "$@"\n'
+ROOM = 1 << 18  # bytes that must be free: more than files of shells have
 NAMES = {"prog_name": "carom", "complete_var": ASKED}
 
 
@@ -50,9 +52,12 @@ def install(shell: str) -> None:
     """Store the script where a shell finds it; raises InputError if that cannot be written."""
     try:
         with accessing("--install-completion", shell, "written"):
+            with TemporaryFile(dir=Path.home()) as room:  # typer would empty files on a full disk
+                room.write(bytes(ROOM))
             _, path = completion.install(**NAMES, shell=shell)  # type: ignore[attr-defined]
             if shell == "zsh":  # which loads the script at the first Tab, and has that to do
-                path.write_text(path.read_text() + LOADED)
+                script = path.read_text() + LOADED
+                replace_whole(path, lambda file: file.write_text(script))
     except (RuntimeError, UnicodeError) as error:  # no HOME, a file of the shell in no UTF-8
         raise InputError(f"--install-completion: {shell!r} cannot be written; {error}") from None
     typer.echo(f"Carom has stored {path}; open a new terminal to use it.", err=True)

@@ -269,12 +269,12 @@ def incidence(pair: Pair, before: Sequence[NDArray[np.floating]]) -> Incidence:
         np.moveaxis(each, -1, 0).astype(float, order="C") for each in before
     )  # components first, which is quicker
     other = pair.second.radius if isinstance(pair.second, Sphere) else 0.0
-    carried = np.cross(pair.first.radius * spin1 + other * spin2, normal, axis=0)
-    velocity = velocity1 - velocity2 + carried
-    approach = np.sum(velocity * normal, axis=0)
-    tangential = velocity - approach * normal
-    turning = np.abs(np.sum((spin1 - spin2) * normal, axis=0))
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):  # of numbers that are refused, too
+        carried = np.cross(pair.first.radius * spin1 + other * spin2, normal, axis=0)
+        velocity = velocity1 - velocity2 + carried
+        approach = np.sum(velocity * normal, axis=0)
+        tangential = velocity - approach * normal
+        turning = np.abs(np.sum((spin1 - spin2) * normal, axis=0))
         unit = pair.friction * approach
         radius = pair.scales(1.0).radius * approach**0.4
         psi = pair.kappa * np.linalg.norm(tangential, axis=0) / unit

@@ -12,7 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 from carom.dimensionless.elastic import plates
 from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.motion import PSI
-from carom.dimensionless.elastic.phases import LARGEST_GIVE, Status, new_work, run_phases
+from carom.dimensionless.elastic.phases import (
+    LARGEST_GIVE,
+    Status,
+    check_kernels,
+    new_work,
+    run_phases,
+)
 from carom.dimensionless.elastic.record import KIND, KIND_SIGN, Record, new_record
 from carom.dimensionless.lossy import law, layout
 from carom.dimensionless.lossy.law import Loss, LossNumbers, LossyRebounds, ScaleFreeLaw
@@ -102,6 +108,7 @@ def solved(
     psi_1: Array, chi: Array, threads: int | None = None, give: Array | float = 0.0
 ) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
     """Return psi_2, `Status` and code of phases of impacts, in threads; `give` is of a plate."""
+    check_kernels()
     gives = np.broadcast_to(np.asarray(give, dtype=np.float64), psi_1.shape).copy()
     psi_2, status = np.empty(psi_1.size), np.empty(psi_1.size, dtype=np.int8)
     sequence = np.empty(psi_1.size, dtype=np.int64)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from carom.dimensionless import states
 from carom.dimensionless.elastic import dense_output as dense, plates, record as recorded, slip
 from carom.dimensionless.elastic.motion import PSI
-from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
+from carom.dimensionless.elastic.phases import Kind, Status, check_kernels, new_work, run_phases
 from carom.dimensionless.elastic.record import Record, Steps, new_record, trimmed
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import Memory
@@ -317,6 +317,7 @@ def solve_lossy(psi_1: float, chi: float, losses: LossNumbers) -> LossySolution:
 
 def solve_elastic(psi_1: float, chi: float, give: float = 0.0) -> Solution:
     """Solve one elastic impact, on a plate if the wall gives way."""
+    check_kernels()
     work, record = new_work(), new_record(True)
     solved_for = max(abs(psi_1), LINEAR_PSI) if psi_1 != 0.0 or give > 0.0 else 0.0
     status = Status(run_phases(solved_for, chi, give, STEP_TOLERANCE, work, record))

@@ -133,13 +133,20 @@ def check_count(problem: FitProblem, free: Sequence[str]) -> None:
 
 
 def _varied(problem: FitProblem, vary: Collection[str] | str) -> list[str]:
-    try:
-        names = [vary] if isinstance(vary, str) else list(vary)
-    except TypeError:
-        raise refusal("vary", vary, f"must be names of {', '.join(NAMES)}") from None
+    names = _listed("vary", vary, NAMES)
     for name in names:
         _check_name("vary", name, problem)
     return list(dict.fromkeys("kappa" if name == "chi" else name for name in names))
+
+
+def _listed(what: str, names: Any, allowed: Collection[str]) -> list[Any]:
+    """Return a name, or several, as a list, or raise InputError if they are none."""
+    if isinstance(names, str):
+        return [names]
+    try:
+        return list(names)
+    except TypeError:
+        raise refusal(what, names, f"must be names of {', '.join(allowed)}") from None
 
 
 def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
@@ -165,10 +172,10 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
 
 def read_shared(share: Collection[str] | str, free: Sequence[Collection[str]]) -> tuple[str, ...]:
     """Return the parameters that sets share, of those free in each, or raise InputError."""
-    names = [share] if isinstance(share, str) else list(share)
+    common = [each for each in free[0] if all(each in own for own in free)]
+    names = _listed("share", share, common)
     for name in names:
-        common = [each for each in free[0] if all(each in own for own in free)]
-        if name not in common:
+        if not isinstance(name, str) or name not in common:
             hint = f"all sets vary {', '.join(common) or 'nothing in common'}"
             raise refusal("share", name, f"{hint}; chi is shared with kappa")
     return tuple(dict.fromkeys(names))

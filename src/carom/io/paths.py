@@ -26,8 +26,13 @@ STREAM_FORMATS = (".csv", ".png", ".gif", ".h", ".html")  # if it has no ending
 PIPE_SECONDS = 5.0  # that somebody has to open the other end of a pipe
 MOST_LINKS = 40  # that are followed, as the system does
 STANDARD_INPUT = "-"
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # of a disk, or of what one may have
 
 _standard: ContextVar[list[bytes] | None] = ContextVar("standard", default=None)  # its content
+
+
+class Unwritten(OSError):
+    """A disk is full, or fails, as something is written: no bad input. `strerror` says what."""
 
 
 def checked_path(what: str, path: str | Path, kind: str = "file") -> Path:
@@ -53,12 +58,22 @@ def checked_path(what: str, path: str | Path, kind: str = "file") -> Path:
 
 @contextmanager
 def accessing(what: str, path: str | Path, done: str) -> Iterator[None]:
-    """Say in one line that a file or folder cannot be "read" or "written", and why."""
+    """Say in one line that a file or folder cannot be "read" or "written", and why.
+
+    Raises Unwritten where a disk is full, else InputError.
+    """
     try:
         yield
+    except Unwritten:
+        raise
     except OSError as error:
-        reason = f"cannot be {done}; {_reason(error)}"
-        raise InputError(f"{what}: {str(path)!r} {reason}") from None
+        words = f"{what}: {str(path)!r} cannot be {done}; {_reason(error)}"
+        raise unwritten(error, words) or InputError(words) from None
+
+
+def unwritten(error: OSError, words: str) -> Unwritten | None:
+    """Return the error to be raised, with these words, if a disk is full; None otherwise."""
+    return Unwritten(error.errno, words) if error.errno in FULL else None
 
 
 def checked_folder(folder: str | Path) -> tuple[Path, Path]:

@@ -4,7 +4,6 @@ The reader of values gives cells without one as blank, as what was not measured:
 without results, merged ones; and what is hidden as the rest. So these are marked.
 """
 
-import io
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
@@ -14,19 +13,24 @@ from itertools import chain
 from pathlib import Path
 from posixpath import join
 from typing import IO, Any, NamedTuple
-from xml.etree.ElementTree import Element, fromstring, iterparse
-from zipfile import ZipFile
+from xml.etree.ElementTree import Element
+from zipfile import BadZipFile, ZipFile
+
+import numpy as np
 
 from carom.io.cells import ERROR_CELL, is_blank, is_number, letter_of, named
 from carom.io.extras import extra
 from carom.io.remedies import REMEDIES
 from carom.io.table_rows import RowSource
-from carom.quantities.refusals import InputError, nearest, refusal, refuse
+from carom.io.unpacking import TooMuch, elements, kind, unpacked
+from carom.quantities.refusals import nearest, refusal, refuse
 
 OLD = b"\xd0\xcf\x11\xe0"  # begins what Excel stored before 2007, or stores with a password
 STARTS = (b"PK\x03\x04", OLD)
-LARGEST = 1 << 28  # bytes
-MOST_CELLS = 20_000_000  # with all between cells that are far apart
+MOST_CELLS = 2_000_000  # of all sheets, with all between cells that are far apart
+MOST_MARKS = 500_000  # of a sheet, with its hidden rows and columns
+MOST_TEXT = 1 << 26  # characters in them
+TEXTS = "xl/sharedstrings.xml"  # in any case, as the reader of values looks for it
 BOOK, RELATIONS, ODS = "xl/workbook.xml", "xl/_rels/workbook.xml.rels", "content.xml"
 CALLED = re.compile(r"([A-Z]+)([0-9]+)")
 LONGEST_FORMULA = 30  # that is shown
@@ -41,19 +45,19 @@ class Sheet(RowSource):
     def __init__(self, what: str, path: str, file: Any, sheet: str) -> None:
         super().__init__(what, path)
         calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
-        content = file.read(LARGEST + 1)
-        if len(content) > LARGEST:
-            raise self.refusal(f"it has more than {LARGEST} bytes; store the table as CSV")
-        if content.startswith(OLD):
+        if file.peek(4).startswith(OLD):
             words = "it is no spreadsheet, .xlsx or .ods, but of Excel before 2007, or has a "
             raise self.refusal(f"{words}password; store it as .xlsx without one")
         try:
-            book, names = _opened(calamine, io.BytesIO(content), sheet)
-            with ZipFile(io.BytesIO(content)) as archive:
+            content = unpacked(file)
+            with ZipFile(content) as archive:
                 marks = read_marks(archive)
-            sheets = {name: self._cells(book, name, marks[name]) for name in names}
-        except InputError:
-            raise
+            content.seek(0)
+            book, names = _opened(calamine, content, sheet)
+            _limit(marks[name] for name in names)
+            sheets = {name: marks[name].put(_values(book, name)) for name in names}
+        except TooMuch as error:
+            raise self.refusal(str(error)) from None
         except Exception as error:  # as damaged archives and their XML make the readers raise
             raise self.refusal(f"it is no spreadsheet, .xlsx or .ods; {error}") from None
         name = self._chosen(sheets, sheet)
@@ -73,13 +77,6 @@ class Sheet(RowSource):
             if not (is_text and self.is_comment(cells[0])):
                 self.numbers.append(number)
                 yield [cell if isinstance(cell, str | float | int) else str(cell) for cell in row]
-
-    def _cells(self, book: Any, name: str, marks: "Marks") -> list[list[Any]]:
-        """Return the cells of a sheet with their marks, unless they are too many."""
-        last = f"{letter_of(max(marks.width - 1, 0))}{marks.height}"
-        words = f"a sheet extends to {last}; delete what stands far from the table"
-        refuse(marks.width * marks.height > MOST_CELLS and self.refusal(words))
-        return marks.put(book.get_sheet_by_name(name).to_python(skip_empty_area=False))
 
     def _chosen(self, sheets: dict[str, list[Any]], sheet: str) -> str:
         """Return the name of the sheet to read, and note if others have something in them.
@@ -109,8 +106,31 @@ def _listed(names: Iterable[str]) -> str:
 
 def _filled(hidden: Sequence[range], lines: Sequence[Sequence[Any]]) -> list[int]:
     """Return which of the hidden rows, or columns, have something in them."""
-    there = (i for each in hidden for i in each[: len(lines)] if i < len(lines))
+    is_hidden = np.zeros(len(lines), dtype=bool)
+    for each in hidden:
+        is_hidden[each.start : each.stop] = True
+    there = np.flatnonzero(is_hidden).tolist()
     return [i for i in there if not all(map(is_blank, lines[i]))]
+
+
+def _limit(sheets: Iterable["Marks"]) -> None:
+    """Raise TooMuch where the cells of sheets would fill the memory."""
+    cells, merged, text = 0, 0, 0
+    for sheet in sheets:
+        cells, text = cells + sheet.width * sheet.height, text + sheet.text
+        if cells > MOST_CELLS:
+            last = f"{letter_of(max(sheet.width - 1, 0))}{sheet.height}"
+            raise TooMuch(f"a sheet extends to {last}", "delete what stands far from the table")
+        for mark in sheet.marks:
+            merged += min(mark.rows, sheet.height) * min(mark.columns, sheet.width)
+        if merged > MOST_CELLS:
+            raise TooMuch(f"more than {MOST_CELLS} of its cells are merged")
+        if text > MOST_TEXT:
+            raise TooMuch(f"its cells hold more than {MOST_TEXT} characters")
+
+
+def _values(book: Any, name: str) -> list[list[Any]]:
+    return book.get_sheet_by_name(name).to_python(skip_empty_area=False)  # type: ignore[no-any-return]
 
 
 def sheets_of(path: Path) -> list[str]:
@@ -118,8 +138,8 @@ def sheets_of(path: Path) -> list[str]:
     with path.open("rb") as file:
         if file.peek(4).startswith(STARTS):
             calamine: Any = extra("python_calamine", "a spreadsheet", "fit")
-            with suppress(calamine.CalamineError):
-                return _opened(calamine, file, "")[1]
+            with suppress(TooMuch, BadZipFile, calamine.CalamineError):
+                return _opened(calamine, unpacked(file), "")[1]
     return []
 
 
@@ -143,13 +163,19 @@ class Mark(NamedTuple):
 
 @dataclass
 class Marks:
-    """The marks of a sheet, how far it extends, and its hidden rows and columns, from 0 on."""
+    """The marks of a sheet, its size and characters, its hidden rows and columns, from 0 on."""
 
     marks: list[Mark] = field(default_factory=list)
     height: int = 0
     width: int = 0
+    text: int = 0
     hidden_rows: list[range] = field(default_factory=list)
     hidden_columns: list[range] = field(default_factory=list)
+
+    def limit(self) -> None:
+        """Raise TooMuch where marks alone would fill the memory."""
+        if len(self.marks) + len(self.hidden_rows) + len(self.hidden_columns) > MOST_MARKS:
+            raise TooMuch(f"more than {MOST_MARKS} of its rows, columns and cells are marked")
 
     def put(self, values: list[list[Any]]) -> list[list[Any]]:
         """Return rows of values with the marks; cells merged with that of a number say so."""
@@ -171,22 +197,20 @@ def read_marks(archive: ZipFile) -> dict[str, Marks]:
     """Return the marks of sheets by name; a damaged file raises what its readers do."""
     if ODS in archive.namelist():
         with archive.open(ODS) as file:
-            return dict(_of_ods(file))
-    targets = {each.get("Id"): each.get("Target", "") for each in _read(archive, RELATIONS)}
+            sheets = dict(_of_ods(file))
+        _limit(sheets.values())  # whoever reads values reads those of all sheets at once
+        return sheets
+    lengths = _lengths(archive)
+    with archive.open(RELATIONS) as file:
+        targets = {each.get("Id"): each.get("Target", "") for each in elements(file)}
+    with archive.open(BOOK) as file:
+        listed = [each for each in elements(file) if kind(each) == "sheet"]
     sheets = {}
-    for element in filter(lambda each: _kind(each) == "sheet", _read(archive, BOOK).iter()):
+    for element in listed:
         (identity,) = (value for key, value in element.items() if key.endswith("}id"))
         with archive.open(join("xl", targets[identity]).lstrip("/")) as file:
-            sheets[element.get("name", "")] = _of_xlsx(file)
+            sheets[element.get("name", "")] = _of_xlsx(file, lengths)
     return sheets
-
-
-def _read(archive: ZipFile, name: str) -> Element:
-    return fromstring(archive.read(name))
-
-
-def _kind(element: Element) -> str:
-    return element.tag.rpartition("}")[2]
 
 
 def _place(called: str) -> tuple[int, int]:
@@ -200,54 +224,67 @@ def _column(cell: Element, place: int) -> int:
     return _place(cell.attrib["r"])[1] if "r" in cell.attrib else place
 
 
-def _of_xlsx(file: IO[bytes]) -> Marks:
+def _lengths(archive: ZipFile) -> list[int]:
+    """Return the lengths of the texts of an .xlsx that cells share, each as often as it likes."""
+    lengths = []
+    for name in archive.namelist():
+        if name.lower() == TEXTS:
+            with archive.open(name) as file:
+                texts = (each for each in elements(file) if kind(each) == "si")
+                lengths += [sum(map(len, each.itertext())) for each in texts]
+    return lengths
+
+
+def _of_xlsx(file: IO[bytes], lengths: Sequence[int]) -> Marks:
     sheet = Marks()
-    for _, element in iterparse(file):
+    for element in elements(file):
         is_hidden = element.get("hidden") in ("1", "true")
-        if _kind(element) == "mergeCell":
+        if kind(element) == "mergeCell":
             first, _, last = element.get("ref", "").partition(":")
             (top, left), (bottom, right) = _place(first), _place(last or first)
             sheet.marks.append(Mark(top, left, bottom - top + 1, right - left + 1, ""))
-        if _kind(element) == "col" and is_hidden:
+        if kind(element) == "col" and is_hidden:
             columns = range(int(element.attrib["min"]) - 1, int(element.attrib["max"]))
             sheet.hidden_columns.append(columns)
-        if _kind(element) != "row":
+        if kind(element) != "row":
             continue
         sheet.height = int(element.get("r", sheet.height + 1))
         row = sheet.height - 1
         sheet.hidden_rows += [range(row, row + 1)] * is_hidden
         for place, cell in enumerate(element):
-            is_formula = len(cell) and _kind(cell[0]) == "f"
+            is_formula = len(cell) and kind(cell[0]) == "f"
             text = cell.get("t") == "e" and cell.findtext("{*}v")
+            if cell.get("t") == "s":
+                sheet.text += lengths[int(cell.findtext("{*}v") or 0)]
             if is_formula and not cell.findtext("{*}v") and cell.get("t") != "str":  # of texts ""
                 text = NO_RESULT.format(f"={cell[0].text or ''}"[:LONGEST_FORMULA])
             if text:
                 sheet.marks.append(Mark(row, _column(cell, place), 1, 1, text))
         if len(element):
             sheet.width = max(sheet.width, _column(element[-1], len(element) - 1) + 1)
-        element.clear()
+        sheet.limit()
     return sheet
 
 
 def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
     sheet, row, seen = Marks(), 0, 0
-    for _, element in iterparse(file):
+    for element in elements(file):
         own = _by_name(element)
         is_hidden = own.get("visibility", "visible") != "visible"
-        if _kind(element) == "table":
+        if kind(element) == "table":
             yield own["name"], sheet
             sheet, row, seen = Marks(), 0, 0
-        if _kind(element) == "table-column":
+        if kind(element) == "table-column":
             first, seen = seen, seen + int(own.get("number-columns-repeated", 1))
             sheet.hidden_columns += [range(first, seen)] * is_hidden
-        if _kind(element) != "table-row":
+        if kind(element) != "table-row":
             continue
         column, rows = 0, int(own.get("number-rows-repeated", 1))
         sheet.hidden_rows += [range(row, row + rows)] * is_hidden
         for cell in element:
             own = _by_name(cell)
             columns = int(own.get("number-columns-repeated", 1))
-            shown = "".join("".join(part.itertext()) for part in cell if _kind(part) == "p")
+            shown = "".join("".join(part.itertext()) for part in cell if kind(part) == "p")
             kinds = [value for key, value in cell.items() if key.endswith("}value-type")]
             text, formula = "", own.get("formula", "").removeprefix("of:")
             if "error" in kinds or (formula and ERROR_CELL.match(shown)):
@@ -260,10 +297,11 @@ def _of_ods(file: IO[bytes]) -> Iterator[tuple[str, Marks]]:
                 down, along = (int(own.get(f"number-{n}-spanned", 1)) for n in ("rows", "columns"))
                 sheet.marks.append(Mark(row, column, down, along, ""))
             column += columns
+            sheet.text += rows * columns * (len(shown) + len(own.get("string-value", "")))
             if text or kinds or shown:
                 sheet.height, sheet.width = row + rows, max(sheet.width, column)
         row += rows
-        element.clear()
+        sheet.limit()
 
 
 def _by_name(element: Element) -> dict[str, str]:

@@ -56,6 +56,9 @@ class SealedStore(LocalStore):
         super().__init__(root, read_only=read_only)
         self._frozen = _checked_list(root)
         _check_codecs(root)
+        arrays = {name.partition("/")[0] for name in self._frozen if name.endswith(f"/{METADATA}")}
+        written_once = {name.partition(CHUNK)[0] for name in self._frozen if CHUNK in name}
+        self._computed = arrays - written_once - {STATUS}
 
     def is_sound(self, key: str) -> bool:
         """Tell whether a chunk is there, and as it was written."""
@@ -81,8 +84,9 @@ class SealedStore(LocalStore):
         name, _, corner = key.partition(CHUNK)
         if not corner or key in self._frozen:
             return content
-        if content is None:  # of a block that is not finished, unless its status is there
-            sound = name == STATUS or not (self.root / STATUS / "c" / corner).is_file()
+        if content is None:  # of a block that is not finished: its status is written last
+            others = self._computed if name == STATUS else {STATUS}
+            sound = not all((self.root / each / "c" / corner).is_file() for each in others)
         else:
             sound = self._has_seal(key, content.to_bytes())
         if not sound:

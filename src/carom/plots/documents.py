@@ -102,10 +102,12 @@ class Block(NamedTuple):
 
 
 def _write_pdf(where: Path, title: str, sections: Sequence[Section]) -> None:
-    with look.using(look.carom_settings()), look.quiet(), PdfPages(where) as pdf:
+    content = BytesIO()  # on a full disk matplotlib's file ends with an error of another kind
+    with look.using(look.carom_settings()), look.quiet(), PdfPages(content) as pdf:
         pieces = chain([_text(title, "title")], *map(_pieces, sections))
         for number, blocks in enumerate(_pages(pieces), 1):
             pdf.savefig(_drawn(blocks, f"{number}"))
+    where.write_bytes(content.getvalue())
 
 
 def _pieces(section: Section) -> Iterator[list[Block]]:

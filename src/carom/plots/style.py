@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
 from typing import Any, NamedTuple, ParamSpec, TypeVar, Unpack
 
@@ -206,10 +207,15 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
     'curve.png'
     """
     target = checked_output(path, FIGURES)
+    ending = ending_of(target, FIGURES)
+
+    def write(where: Path) -> None:
+        content = BytesIO()  # on a full disk matplotlib's file ends with an error of another kind
+        figure.savefig(content, dpi=DPI, format=ending.removeprefix("."))
+        where.write_bytes(content.getvalue())
+
     with looks.using(getattr(figure, "settings", looks.carom_settings())), looks.quiet():
-        return replace_whole(
-            target, lambda where: figure.savefig(where, dpi=DPI), ending_of(target, FIGURES)
-        )
+        return replace_whole(target, write, ending)
 
 
 def label(name: str, unit: str | None = None) -> str:

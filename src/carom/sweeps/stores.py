@@ -30,7 +30,7 @@ from zarr.storage import MemoryStore
 
 from carom.dimensionless.numerics.threads import available_cores
 from carom.io.files import STORE_ENDING
-from carom.io.paths import checked_path
+from carom.io.paths import FULL, checked_path, unwritten
 from carom.io.stores import CHUNK, STATUS, SealedStore, freeze, read_store
 from carom.io.version import __version__
 from carom.quantities.refusals import refusal, refuse
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
 LOCK = f"{STATUS}/.lock"  # a place that zarr does not list
 COMPRESSOR = ZstdCodec(level=1)  # floating-point numbers gain nothing from more
 BLANK = {"float64": np.nan, "int8": PointStatus.NOT_RUN.value}  # of points that have not been run
-FULL = (errno.ENOSPC, errno.EDQUOT)
 MOST_DIFFERENCES = 3  # in a refusal
 
 
@@ -70,10 +69,14 @@ class StoreRecord:
 
     def _is_finished(self, box: Box) -> bool:
         """Tell whether a block is there as a whole, and none of its files is damaged."""
-        corner = "/".join(str(p.start // n) for p, n in zip(box, self._chunks, strict=True))
-        if not all(self._store.is_sound(f"{name}{CHUNK}{corner}") for name in self._arrays):
+        if not all(self._store.is_sound(key) for key in self._keys(box)):
             return False
         return PointStatus.NOT_RUN not in self._arrays[STATUS][box]
+
+    def _keys(self, box: Box) -> list[str]:
+        """Return the names of the files of a block."""
+        corner = "/".join(str(p.start // n) for p, n in zip(box, self._chunks, strict=True))
+        return [f"{name}{CHUNK}{corner}" for name in self._arrays]
 
     def write(self, box: Box, values: Values) -> None:
         """Write a block, its status last; raises SweepStopped if that fails."""
@@ -81,6 +84,8 @@ class StoreRecord:
             for name in sorted(values, key=STATUS.__eq__):
                 self._arrays[name][box] = values[name]
         except OSError as error:
+            for key in self._keys(box):  # a block that lacks its status alone counts as damaged
+                (self.path / key).unlink(missing_ok=True)
             advice = "; free some space" if error.errno in FULL else ""
             raise SweepStopped(f"{self.path}: {error.strerror}{advice}") from None
         self._finished += 1
@@ -131,7 +136,8 @@ def _locked(path: Path) -> Iterator[None]:
     except OSError as error:  # Timeout is one
         busy = isinstance(error, filelock.Timeout) and "another process is writing it; wait for it"
         allowed = busy or f"cannot be written; {error.strerror}"
-        raise refusal("store", str(path), allowed) from None
+        words = f"store: {str(path)!r} {allowed}"
+        raise unwritten(error, words) or refusal("store", str(path), allowed) from None
     try:
         yield
     finally:
@@ -152,7 +158,8 @@ def _create(path: Path, problem: SweepProblem) -> None:
         reason = f"cannot be made; {error.strerror}"
         if error.errno in (errno.EEXIST, errno.ENOTEMPTY):
             reason = "another process has just made it"
-        raise refusal("store", str(path), reason) from None
+        words = f"store: {str(path)!r} {reason}"
+        raise unwritten(error, words) or refusal("store", str(path), reason) from None
     finally:
         shutil.rmtree(new, ignore_errors=True)
 

@@ -27,6 +27,7 @@ LARGEST_PSI, LARGEST_CHI = 1e9, 1e4
 FORCE_INSTANTS = 400
 RESTITUTION_MISSED = 1e-3  # less is rounding
 FEWEST_STEPS, MOST_STEPS = 10, 2_000_000
+LEAST_ALLOWED = 1e-8  # error of psi_2, to which a law without time steps is known
 STEPS_GROW_BY = 2.0**0.5
 
 
@@ -319,15 +320,15 @@ def advised_steps(
     """Return the fewest time steps whose error in psi_2 stays within what is allowed.
 
     The error of twice as many steps must be within it, too; numbers are tried in steps of sqrt 2.
-    None if two million do not suffice, 2000 for a law that is a Python function, or the law has no
-    limit.
+    None if two million do not suffice, 2000 for the exact law and one that is a Python function, or
+    the law has no limit.
 
     Parameters
     ----------
     law : Law or callable
         A contact law, as for `force_error`.
     allowed : float
-        Largest |error in psi_2| that the steps may cause.
+        Largest |error in psi_2| that the steps may cause, from 1e-8.
     psi_1, chi, kappa : optional
         As for `step_error`.
 
@@ -347,6 +348,9 @@ def advised_steps(
     28
     """
     bound = positive("allowed", allowed, "1")
+    if bound < LEAST_ALLOWED:
+        least = f"must be at least {LEAST_ALLOWED:g}, the error of psi_2 without time steps"
+        raise refusal("allowed", allowed, least)
     law, met = as_law(law), Impacts.of(psi_1, chi, kappa)
     converged = met.rebound(law)
     if not np.all(np.isfinite(converged)):

@@ -259,7 +259,7 @@ def _standing(entry: Entry, impacts: Impacts) -> Standing:
     if isinstance(law, ContactLaw) and max_error > 0.0:
         step, fine_step = (
             errors.advised_steps(law, allowed, psi, chi, kappa=kappa)
-            for allowed in (max_error, FINE_ERROR)
+            for allowed in (max(max_error, errors.LEAST_ALLOWED), FINE_ERROR)
         )
     return Standing(
         entry=entry,

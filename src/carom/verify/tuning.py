@@ -235,7 +235,8 @@ def _tuned(law: Law, impacts: Impacts, measure: str) -> TunedLaw:
     max_error, rms_error = errors.largest(remaining), errors.root_mean_square(remaining)
     if isinstance(best, ContactLaw) and max_error > 0.0:
         psi, chi, kappa = impacts
-        step = errors.advised_steps(best, 0.1 * max_error, psi, chi, kappa=kappa)
+        allowed = max(0.1 * max_error, errors.LEAST_ALLOWED)
+        step = errors.advised_steps(best, allowed, psi, chi, kappa=kappa)
     value = None if name is None else float(getattr(best, name) or impacts.kappa)
     before = errors.largest(error(law))
     return TunedLaw(best, name, value, max_error, rms_error, before, step)

@@ -4,7 +4,9 @@
 from one table. The machine runs for psi_1 >= 0; negative psi_1 is its mirror image.
 """
 
+import warnings
 from enum import IntEnum
+from functools import cache
 
 import numpy as np
 
@@ -86,6 +88,9 @@ SMALLEST_PSI = 1e-6
 # Beyond it impacts that do not slip throughout have too many phases, and take long to show it.
 LARGEST_CHI = 1e5
 LARGEST_GIVE = 2.0  # lambda, beyond which weight and deflection decide: e is 0.013 there
+# An impact of which psi_2 is known to 30 digits, and its digits that any machine gives.
+KNOWN_PSI, KNOWN_CHI, KNOWN_PSI_OUT = 0.5, 1.44, 0.0471310837787526
+KNOWN_DIGITS = 1e-12
 # A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
 TINY_RADIUS = 1e-6
 
@@ -227,3 +232,16 @@ def new_work() -> Work:
         gap=np.zeros(ORDER + 1),
         stack=np.zeros((recorded.MAX_ANNULI, memory.STACK_COLUMNS)),
     )
+
+
+@cache
+def check_kernels() -> None:
+    """Warn if the impact that is known comes out otherwise; once, before others are solved."""
+    work = new_work()
+    run_phases(KNOWN_PSI, KNOWN_CHI, 0.0, KNOWN_DIGITS, work, recorded.new_record(False))
+    found = float(work.series[0, at.PSI])
+    if not abs(found - KNOWN_PSI_OUT) <= KNOWN_DIGITS:
+        given = f"psi_2 = {found:.12g} for psi_1 = {KNOWN_PSI}, chi = {KNOWN_CHI}"
+        why = "its machine code is damaged, or its equations were edited; install carom again"
+        words = f"the solver is wrong: it gives {given}, where {KNOWN_PSI_OUT:.12g} is right; {why}"
+        warnings.warn(words, RuntimeWarning, stacklevel=2)

@@ -13,6 +13,7 @@ from functools import cache
 from hashlib import sha256
 from operator import itemgetter
 from pathlib import Path
+from time import time
 from typing import Any, NamedTuple
 
 from carom.dimensionless.numerics.signatures import Signature, caller
@@ -22,6 +23,7 @@ PACKAGE = Path(__file__).parents[2]
 FOLDER = PACKAGE / "lib"
 CONTENTS = "kernels.json"  # beside the libraries: what they are, from what; or why there are none
 LEVELS = "CAROM_LEVELS"  # of x86-64, in the environment: to be built; the highest to be used
+LOADED = time()  # sources that are newer are not those that this process runs
 BROWSER, BROWSER_CONTENTS = "carom.wasm", "browser.json"  # kernels for the explorer page
 
 

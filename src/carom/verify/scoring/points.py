@@ -217,8 +217,10 @@ def notes_on(points: Points) -> tuple[str, ...]:
         notes.append("does psi_2 have the opposite sign? Count psi_1 and psi_2 along the same axis")
     most = 2.0 * (1.0 + points.restitution) * points.chi
     slides = np.abs(points.psi_in) > np.maximum(most, 1.0)
-    ratio = np.abs(points.psi_in - points.psi_out)[slides] / most[slides]
-    if ratio.size > 1 and np.ptp(ratio) < RATIO_TOLERANCE and abs(ratio[0] - 1.0) > RATIO_TOLERANCE:
+    with np.errstate(over="ignore"):  # of a chi of next to nothing
+        ratio = np.abs(points.psi_in - points.psi_out)[slides] / most[slides]
+    agree = ratio.size > 1 and np.isfinite(ratio).all() and np.ptp(ratio) < RATIO_TOLERANCE
+    if agree and abs(ratio[0] - 1.0) > RATIO_TOLERANCE:
         times = f"{ratio[0]:.4g} times"
         factor = f"{2.0 * (1.0 + points.restitution):g} chi"
         notes.append(f"in gross slip psi_1 - psi_2 is {times} {factor}: is chi {times} as large?")

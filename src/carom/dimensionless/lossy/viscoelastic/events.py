@@ -18,6 +18,7 @@ LEVEL_ROUNDING = 1e-12
 EARLY_PART = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
 TURNING_RATE = 1e-10
 STILL_RATE = 1e-10  # alpha times the rate of slip below which all that slips sticks at once
+STILL_SPEED = 1e-4  # of slip, below which it moves springs by no more than the square
 PARTING_RADIUS = 2e-3  # radius below which what still happens changes psi by less than chi b^5
 BISECTIONS = 40
 SAME_LEVEL = 1e-10  # levels nearer than this are one
@@ -38,6 +39,21 @@ def inwards(motion: Motion, sign: int, now: State, q: float) -> float:
 
 
 @kernel
+def comes_to_rest(work: Arrays, motion: Motion, panel: Panel, x: float, now: State) -> bool:
+    """Tell whether the edge of what sticks slips on, so slowly that it counts as still, and slower.
+
+    What STOPS leaves does so; slip that begins grows.
+    """
+    sign = 1 if now.psi > 0.0 else -1
+    g = contact.excess(sign, now)
+    if g > min(STILL_RATE / motion.alpha, STILL_SPEED):
+        return False
+    border = contact.front(work, motion, panel, now)
+    force = contact.force(work, motion, panel, x, now, border)
+    return inwards(motion, sign, now, force) < g
+
+
+@kernel
 def happened(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
     """Return what has happened at a place of a solved panel."""
     now = at.state_at(work, panel, x)
@@ -46,7 +62,8 @@ def happened(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
     if ring.mode == Mode.RETRACES:
         return NOTHING
     if ring.mode == Mode.STICKS:
-        return BEGINS if abs(now.psi) - now.speed > small else NOTHING
+        begins = abs(now.psi) - now.speed > small
+        return BEGINS if begins and not comes_to_rest(work, motion, panel, x, now) else NOTHING
     g = contact.excess(ring.sign, now)
     if g < (STILL_RATE / alpha if ring.mode == Mode.RETURNS else -small):
         return STOPS
