@@ -17,12 +17,14 @@ from carom.impacts.outcome import Outcome
 from carom.impacts.result import ImpactResult
 from carom.io.labels import labelled_dataset
 from carom.quantities.arrays import Array, places
+from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted, not_negative
 
 if TYPE_CHECKING:
     import xarray as xr
 
 MOST_RADII, PER_LOAD = 100_000, "m^2/N"  # the unit of coefficients of wear
+MOST_WEAR = 1.0  # m^2/N; those of materials are below 1e-9
 LEAST_RADII = 101  # radii at least among which the largest wear is sought
 MAP_POINTS = 101  # points of the map along x and y where none are asked for
 FRICTIONLESS = 1e-9  # with less friction nothing of it is felt, and psi_1 may be too large
@@ -84,6 +86,9 @@ def wear_of(
     """Return the wear of an impact as a dataset; arguments and errors as `Impact.wear`."""
     count = counted("n", n, 2, MOST_RADII)
     per_load = None if coefficient is None else not_negative("coefficient", coefficient, PER_LOAD)
+    if per_load is not None and per_load > MOST_WEAR:
+        raise refusal("coefficient", coefficient, f"must be at most {MOST_WEAR:g} {PER_LOAD}")
+
     side = np.linspace(-hit.max_radius, hit.max_radius, MAP_POINTS)
     dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, None)
     r, angle = np.hypot(at[..., 0], at[..., 1]), 2.0 * np.arctan2(at[..., 1], at[..., 0])
