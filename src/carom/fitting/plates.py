@@ -80,7 +80,7 @@ def with_thickness(pair: Pair, thickness: float) -> Pair:
     """Return the pair with a plate of another thickness."""
     wall: Any = pair.second
     plate = HalfSpace(material=wall.material, thickness=thickness, width=wall.width)
-    return Pair(pair.first, plate, pair.friction)
+    return Pair(pair.first, plate, pair.friction, roughness=pair.roughness)
 
 
 def thickness_range(pair: Pair, speeds: Array) -> tuple[float, float, float]:
