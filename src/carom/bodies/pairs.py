@@ -94,9 +94,10 @@ class Pair(Printed):
     Raises
     ------
     InputError
-        If the friction or the roughness is negative, the sphere does not fit into the cup, both materials are rigid,
-        the surfaces do not part from their contact on, one body is in a plane and the other in
-        space, or the masses or stiffnesses are too large or too small for floating point.
+        If the friction or the roughness is negative, the sphere does not fit into the cup, both
+        materials are rigid, the surfaces do not part from their contact on, one body is in a plane
+        and the other in space, or the masses or stiffnesses are too large or too small for floating
+        point.
 
     Examples
     --------

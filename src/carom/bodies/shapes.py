@@ -180,12 +180,10 @@ class HalfSpace(Shape):
 
     @property
     def echo_time(self) -> float:
-        """Time in s after which the first echo from the other face is back, infinite if thick or rigid.
+        """Time in s after which the first echo from the other face is back, 2 h/c_L.
 
-            t = 2 h/c_L
-
-        An impact that is over by then is one on a thick wall (c_L, the speed of compressional
-        waves).
+        An impact that is over by then is one on a thick wall; of such a wall, and of a rigid one,
+        it is infinite. c_L is the speed of compressional waves.
 
         >>> round(carom.HalfSpace("steel", thickness="3 mm").echo_time * 1e6, 2)
         1.01

@@ -226,9 +226,10 @@ class JudgedCollisions(EqualByNumbers, Judged):
     """What `collide` returns with `judge=True`: `Collisions`, and bounds of the error in psi_2.
 
     psi_out_error, shape (...), bounds the error in psi_2 from spin about the normal, slip across
-    the motion, the coupling of unlike materials and waves in a wall; mu V_n/kappa times it bounds that of the
-    velocity of the contact point along the motion. It is NaN where `judgement`, shape (...), is not
-    0 (`Judgement`). Unlike bodies with spin also leave sideways, which is not bounded.
+    the motion, the coupling of unlike materials and waves in a wall; mu V_n/kappa times it bounds
+    that of the velocity of the contact point along the motion. It is NaN where `judgement`, shape
+    (...), is not 0 (`Judgement`). Unlike bodies with spin also leave sideways, which is not
+    bounded.
 
     Examples
     --------

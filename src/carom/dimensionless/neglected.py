@@ -25,8 +25,7 @@ RANGE_ROUNDING = 1e-9
 FARTHEST_BEYOND = 10.0  # beyond sliding, psi_1 - 4 chi + 1
 LATERAL, RADIAL, COUPLED, TIED = 0.011, 0.28, 0.6, 0.34
 TURNED = 1.45
-ALONG, SHEARED, RADIATED = 0.45, 1.2, 1.1
-LINEAR_PLATE = 1.5  # psi_1 times this, below which what a plate does goes with psi_1
+ALONG, SHEARED, RADIATED = 0.25, 1.2, 1.05
 
 
 def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
@@ -76,22 +75,22 @@ def spin_error(chi: float, psi: Any, spin: Any) -> Any:
 def plate_error(chi: float, psi: Any, size: Any, sheared: Any) -> Any:
     """Return a bound on the error of psi_2 on a thin plate by the waves that are no bending waves.
 
-    (0.45 a/h + 2.4 chi s) min(1, 1.5 psi), with the largest radius of the contact over the
+    (0.25 a/h + 2.4 chi s) min(1, 2 psi), with the largest radius of the contact over the
     thickness, a/h, and s by which e comes out too high as the plate also shears. The plate gives
     way along itself, which is of order a/h; where the contact slides throughout, the error is 2 chi
     times that of e.
     """
     whole = ALONG * size + 2.0 * SHEARED * chi * sheared
-    return whole * np.minimum(1.0, LINEAR_PLATE * np.abs(psi))
+    return whole * np.minimum(1.0, 2.0 * np.abs(psi))
 
 
 def wave_error(chi: float, psi: Any, share: Any) -> Any:
     """Return a bound on the change of psi_2 by waves in a thick wall that take this share.
 
-    1.1 chi min(1, 1.5 psi) times the share of the energy; chi times it where the contact slides
-    throughout, as e is then smaller by half of the share.
+    1.05 chi min(1, 0.6 psi) times the share of the energy; it is chi times it where the contact
+    slides throughout, as e is smaller by half of the share.
     """
-    return RADIATED * chi * share * np.minimum(1.0, LINEAR_PLATE * np.abs(psi))
+    return RADIATED * chi * share * np.minimum(1.0, 0.6 * np.abs(psi))
 
 
 def beyond_sliding(chi: Any, psi: Any) -> Any:

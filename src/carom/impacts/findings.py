@@ -47,7 +47,7 @@ def lacking(
 
 
 def waves(hit: ImpactResult) -> Finding | None:
-    """Return the finding on the waves that run off into a thick wall, as `radiated_share` has it."""
+    """Return the finding on the waves that run off into a thick wall; see `radiated_share`."""
     wall = hit.pair.second
     if isinstance(wall, Sphere) or wall.material.is_rigid or hit.losses is not None:
         return None
@@ -74,18 +74,18 @@ def roughness(hit: ImpactResult) -> Finding:
     """
     name, own, depth = "rms roughness/penetration", hit.pair.roughness, hit.max_penetration
     smooth, rough = (LAPPED, GROUND) if own is None else (own, own)
-    good = "the surfaces are smooth"
-    if smooth <= SMOOTH * depth < rough:
-        lapped, ground = text(LAPPED, "m"), text(GROUND, "m")
-        between = f"{smooth / depth:.2g} if lapped to {lapped}, {rough / depth:.2g} if ground to {ground}"
-        words = f"not judged: no roughness of both surfaces together: Pair(roughness=...); {between}"
-        return Finding(name, smooth / depth, SMOOTH, None, words, "roughness of the pair")
-    if rough <= SMOOTH * depth:
-        usual = f", ground ones to {text(GROUND, 'm')} as well" if own is None else ""
-        return Finding(name, rough / depth, SMOOTH, True, good + usual)
-    usual = f", even if lapped to {text(LAPPED, 'm')}" if own is None else ""
-    bad = f"the surfaces are rough{usual}: the contact is larger and softer than Hertz's"
-    return Finding(name, smooth / depth, SMOOTH, False, bad)
+    lapped, ground = (text(height, "m") for height in (LAPPED, GROUND))
+    if rough / depth <= SMOOTH:
+        usual = f", also if ground to {ground}" if own is None else ""
+        return Finding(name, rough / depth, SMOOTH, True, f"the surfaces are smooth{usual}")
+    if smooth / depth > SMOOTH:
+        usual = f", even if lapped to {lapped}" if own is None else ""
+        bad = f"the surfaces are rough{usual}: the contact is larger and softer than Hertz's"
+        return Finding(name, smooth / depth, SMOOTH, False, bad)
+    where = f"no {GLOSSARY['roughness'].meaning}: Pair(roughness=...)"
+    between = f"it is this if lapped to {lapped}, {rough / depth:.2g} if ground to {ground}"
+    words = f"not judged: {where}; {between}"
+    return Finding(name, smooth / depth, SMOOTH, None, words, "roughness of the pair")
 
 
 def adhesion(hit: ImpactResult) -> Finding:

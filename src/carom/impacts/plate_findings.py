@@ -17,6 +17,7 @@ from carom.quantities.refusals import refusal, refuse
 LONG_WAVE = 6.0  # thicknesses in a bending wave of twice the contact time, for thin plates
 SHEARING = 7.0  # over the square of that ratio: what shorter waves add to 1 - e (theory, page 11)
 CLOSE_RESTITUTION = 0.01
+BENDING = "bending wave/h"
 SMALL_CONTACT = 0.1  # a_max/h: what the other face and the moment of friction change
 SMALL_DEFLECTION = 0.2  # of h, up to which a plate bends without stretching
 
@@ -27,7 +28,7 @@ def bending(hit: ImpactResult, plate: HalfSpace) -> Finding:
     good = "the plate is thin enough to bend"
     between = "not judged: the plate is neither thin nor a thick wall; 1 - e is an estimate"
     holds = True if ratio >= LONG_WAVE else None
-    return Finding("bending wave/h", ratio, LONG_WAVE, holds, good if holds else between)
+    return Finding(BENDING, ratio, LONG_WAVE, holds, good if holds else between)
 
 
 def shearing(hit: ImpactResult, plate: HalfSpace) -> Finding | None:

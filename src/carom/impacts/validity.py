@@ -17,15 +17,7 @@ from carom.bodies.walls import radiated_share
 from carom.dimensionless import neglected
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.neglected import SMALL_CONTACT
-from carom.impacts.findings import (
-    OF_ENERGY,
-    Assumption,
-    bounded,
-    judged,
-    lacking,
-    roughness,
-    waves,
-)
+from carom.impacts.findings import OF_ENERGY, Assumption, bounded, judged, lacking, roughness, waves
 from carom.impacts.plate_findings import LONG_WAVE, OF_PLATES, sheared, wave_ratio
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding, Validity
@@ -272,12 +264,14 @@ def _waved(hit: ImpactResult) -> tuple[float, str]:
     if pair.gives_way(hit.scales):
         if wave_ratio(hit, second) < LONG_WAVE:
             return nan, "all waves of a plate that is neither thin nor a thick wall"
-        sizes = hit.max_radius / pair.thickness, sheared(hit, second)
-        return float(neglected.plate_error(pair.chi, hit.psi_in, *sizes)), " on a plate with all its waves"
+        sizes = hit.max_radius / second.thickness, sheared(hit, second)
+        error = float(neglected.plate_error(pair.chi, hit.psi_in, *sizes))
+        return error, " on a plate with all its waves"
     share = radiated_share(pair, hit.scales)
     if isnan(share):
         return nan, "waves in a wall without a density"
-    return float(neglected.wave_error(pair.chi, hit.psi_in, share)), " on a wall with its waves"
+    error = float(neglected.wave_error(pair.chi, hit.psi_in, share))
+    return error, " on a wall with its waves"
 
 
 def _unknown(name: str, why: str) -> Finding:
@@ -292,6 +286,16 @@ def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
     bad = "the grid and the time steps are too coarse; take more elements and steps"
     limits = CLOSE_REBOUND, good, bad
     return judged("error of psi_2", psi_out, *limits), judged("error of energy", energy, *limits)
+
+
+def waves_aside(hit: ImpactResult) -> Finding:
+    """Return the finding on waves in the wall, which boundary elements leave out."""
+    error, wall = _waved(hit) if isfinite(hit.psi_in) else (0.0, "")
+    if isnan(error):
+        return _unknown("error of psi_2 by waves", wall)
+    good = "waves in the wall, which boundary elements leave out, hardly change psi_2"
+    bad = "boundary elements leave out waves in the wall, which may change psi_2 by this"
+    return bounded("error of psi_2 by waves", error, CLOSE_REBOUND, good, bad)
 
 
 OF_BODIES: tuple[Assumption, ...] = (
