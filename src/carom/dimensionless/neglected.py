@@ -87,10 +87,10 @@ def plate_error(chi: float, psi: Any, size: Any, sheared: Any) -> Any:
 def wave_error(chi: float, psi: Any, share: Any) -> Any:
     """Return a bound on the change of psi_2 by waves in a thick wall that take this share.
 
-    1.05 chi min(1, 0.6 psi) times the share of the energy; it is chi times it where the contact
+    1.05 chi min(1, 0.8 psi) times the share of the energy; it is chi times it where the contact
     slides throughout, as e is smaller by half of the share.
     """
-    return RADIATED * chi * share * np.minimum(1.0, 0.6 * np.abs(psi))
+    return RADIATED * chi * share * np.minimum(1.0, 0.8 * np.abs(psi))
 
 
 def beyond_sliding(chi: Any, psi: Any) -> Any:
