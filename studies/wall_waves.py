@@ -110,7 +110,9 @@ def main() -> str:
     lines = []
     for wall, rows in table.groupby("wall"):
         most, ratio = off[rows.index].max(), np.median(bound[rows.index] / off[rows.index])
-        lines.append(f"{wall}: {len(rows)} impacts, up to {most:.3f}; the bound is {ratio:.1f} times")
+        lines.append(
+            f"{wall}: {len(rows)} impacts, up to {most:.3f}; the bound is {ratio:.1f} times"
+        )
     return "\n".join(lines)
 
 
