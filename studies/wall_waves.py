@@ -5,8 +5,8 @@ python studies/wall_waves.py --run      make the table again, in some minutes
 
 The bodies are drawn at random; the twin in tests/oracles/layer.py solves each impact with all waves
 of the wall, on a layer or on a half-space. Rows are left out where bending waves are shorter than
-six thicknesses, the contact is wider than a tenth of the thickness, waves in a half-space take less
-than 0.001 of the energy, below which steps of the twin count, or passes of the twin do not converge.
+six thicknesses, the contact is wider than a tenth of the thickness, waves in a half-space take
+less than 0.001 of the energy, below which steps of the twin count, or its passes do not converge.
 """
 
 import sys
@@ -110,9 +110,8 @@ def main() -> str:
     lines = []
     for wall, rows in table.groupby("wall"):
         most, ratio = off[rows.index].max(), np.median(bound[rows.index] / off[rows.index])
-        lines.append(
-            f"{wall}: {len(rows)} impacts, up to {most:.3f}; the bound is {ratio:.1f} times"
-        )
+        found = f"{len(rows)} impacts, up to {most:.3f}"
+        lines.append(f"{wall}: {found}; the bound is {ratio:.1f} times")
     return "\n".join(lines)
 
 

@@ -164,7 +164,7 @@ def test_a_constant_loss_factor_takes_2_4_of_itself():
 
 @pytest.mark.slow
 def test_solids_that_relax_add_up_to_a_constant_loss_factor():
-    """Relaxation times of equal weight in their logarithm: eta = (pi/2) g for g = E_0/E - 1 each."""
+    """Relaxation times of equal weight in their logarithm give eta = (pi/2) g, g = E_0/E - 1."""
     times, g = np.arange(-9.0, 9.0, 0.5), 1e-3
     unit = PAIR.scales(0.3).time
     lost = []

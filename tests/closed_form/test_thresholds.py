@@ -70,8 +70,10 @@ SOFT = carom.Material(young="10 MPa", poisson=0.45, density=1000, surface_energy
 LIGHT = carom.Material(young="3 GPa", poisson=0.35, density=1000)
 THIN = carom.material("bearing steel")
 CASES = {  # what is varied, how it is judged, its limit, the range, holds below and above
-    "size": (partial(hit_wall, wall=SOFT, ball=carom.Sphere(radius=0.01, material=SOFT)),)
-    + (named("a_max/R*"), 0.1, 0.01, 50.0, True, False),
+    "size": (
+        partial(hit_wall, wall=SOFT, ball=carom.Sphere(radius=0.01, material=SOFT)),
+        *(named("a_max/R*"), 0.1, 0.01, 50.0, True, False),
+    ),
     "wave transit": (hit_wall, validity._slow_contact, 3.0, 1.0, 1e4, False, True),
     "waves in the wall": (hit_wall, findings.waves, 0.02, 0.1, 100.0, True, False),
     "roughness": (

@@ -274,10 +274,7 @@ class ImpactResult(Outcome, Result):
             "result": {name: or_none(value) for name, value in self.scalars().items()},
             "phases": phases,
             "verdict": validity.verdict,
-            "validity": [
-                {**finding._asdict(), "value": or_none(finding.value)}
-                for finding in validity.findings
-            ],
+            "validity": validity.records(),
         }
 
     def animate(
