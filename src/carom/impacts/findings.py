@@ -144,4 +144,3 @@ def together(hit: ImpactResult) -> Finding | None:
 
 
 OF_ENERGY: tuple[Assumption, ...] = (adhesion, damping, together)
-OF_ENERGY: tuple[Assumption, ...] = (adhesion, damping, together)

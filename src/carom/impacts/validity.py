@@ -6,12 +6,13 @@ None. What the bodies bear, which takes more, is in `peaks`.
 
 from collections.abc import Sequence
 from math import inf, isfinite, isnan, nan, sqrt
+from typing import cast
 
 import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
-from carom.bodies.shapes import Sphere
+from carom.bodies.shapes import HalfSpace, Sphere
 from carom.bodies.smooth_body import Body
 from carom.bodies.walls import radiated_share
 from carom.dimensionless import neglected
@@ -261,10 +262,10 @@ def _waved(hit: ImpactResult) -> tuple[float, str]:
     pair, second = hit.pair, hit.pair.second
     if isinstance(second, Sphere) or second.material.is_rigid:
         return 0.0, ""
-    if pair.gives_way(hit.scales):
+    if isinstance(second, HalfSpace) and pair.gives_way(hit.scales):
         if wave_ratio(hit, second) < LONG_WAVE:
             return nan, "all waves of a plate that is neither thin nor a thick wall"
-        sizes = hit.max_radius / second.thickness, sheared(hit, second)
+        sizes = hit.max_radius / cast(float, second.thickness), sheared(hit, second)
         error = float(neglected.plate_error(pair.chi, hit.psi_in, *sizes))
         return error, " on a plate with all its waves"
     share = radiated_share(pair, hit.scales)
