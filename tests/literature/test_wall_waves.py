@@ -51,7 +51,7 @@ def test_no_verdict_holds_where_e_of_a_layer_is_off_by_a_hundredth(thickness, la
     hit = on_steel(thickness, 0.0, 0.8, carom.Sphere(radius="5 mm", material="alumina"))
     off = hit.normal_restitution - layer
     assert off > 0.01
-    assert finding(hit, "error of e").value == pytest.approx(off, rel=0.35)
+    assert off < finding(hit, "error of e").value < 1.5 * off
     assert finding(hit, "error of e").holds is None
 
 
@@ -93,7 +93,7 @@ def test_the_twin_has_the_numbers_of_another_program():
 @pytest.mark.slow
 def test_waves_of_a_thick_wall_take_what_the_finding_says():
     pair = carom.Pair(BALL, carom.HalfSpace("bearing-steel"), 0.15)
-    for psi, least, most in ((2.0, 0.003, 0.005), (6.0, 0.0075, 0.0085)):
+    for psi, least, most in ((2.0, 0.002, 0.003), (6.0, 0.0075, 0.0085)):
         waves = impact_on_layer(pair, 0.8, psi, thick=True, steps=3200, springs=600)
         hit = carom.impact(pair, normal_speed=0.8, tangential_speed=psi * 0.12 / pair.kappa)
         share = finding(hit, "energy of waves in the wall").value
