@@ -363,6 +363,25 @@ class Pair(Printed):
         """Tell whether a plate is struck that gives way: an echo is back before the contact ends.
 
         Where none is, the impact is one on a thick wall.
+
+        Parameters
+        ----------
+        scales : Scales
+            Those of the impact, as `scales` returns them.
+
+        Returns
+        -------
+        bool
+            False for a thick wall, and for what is no half-space.
+
+        Examples
+        --------
+        >>> for thickness in ("3 mm", "300 mm"):
+        ...     plate = carom.HalfSpace(material="steel", thickness=thickness)
+        ...     on_plate = carom.Pair(ball, plate, friction=0.2)
+        ...     print(on_plate.gives_way(on_plate.scales(0.5)))
+        True
+        False
         """
         wall = self.second
         return isinstance(wall, HalfSpace) and DURATION * scales.time >= wall.echo_time
