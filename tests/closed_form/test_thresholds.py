@@ -485,3 +485,15 @@ def test_values_that_are_hardly_meant(name):
             pair = carom.Pair(ball, carom.HalfSpace("steel"), **{"friction": 0.2, **both})
             doubted.append(bool(doubts(pair)))
     assert doubted == ([True, False] if least else []) + [False, True]
+
+
+def test_tabors_number_below_which_adhesion_takes_less():
+    """From 5 on the contact is that of Johnson, Kendall & Roberts; below, that is the most."""
+
+    def bead(radius):
+        stuff = carom.material("bearing steel", surface_energy=1.0)
+        return hit_wall(1e-5, carom.Sphere(radius=radius, material=stuff), stuff)
+
+    ends = made(1e-9, 1e2, lambda radius: tabor(bead(radius).pair, 2.0), 5.0)
+    told = ["it is the most" in findings.adhesion(bead(radius)).verdict for radius in ends]
+    assert told == [True, False]
