@@ -16,7 +16,7 @@ from carom.bodies.plausibility import doubts
 from carom.dimensionless import neglected
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.impacts import findings, peaks, plate_findings, validity
-from carom.impacts.adhesive import lost_by_maugis, tabor, work_of_adhesion
+from carom.impacts.adhesive import lost_by_maugis, pull_off_work, tabor, work_of_adhesion
 
 NEAR = 1e-3
 STEEL = carom.material("bearing steel")
@@ -497,3 +497,19 @@ def test_tabors_number_below_which_adhesion_takes_less():
     ends = made(1e-9, 1e2, lambda radius: tabor(bead(radius).pair, 2.0), 5.0)
     told = ["it is the most" in findings.adhesion(bead(radius)).verdict for radius in ends]
     assert told == [True, False]
+
+
+def test_a_finding_on_adhesion_has_the_number_that_decides():
+    """Where it holds, what sticky surfaces take; where it fails, what clean ones take."""
+    for speed, energy, holds in ((30.0, 0.5, True), (1e-3, 0.05, False)):
+        hit = rubbery(speed)
+        finding = findings.adhesion(hit)
+        taken = pull_off_work(hit.pair, 2.0 * energy) / hit.scales.energy
+        assert (finding.holds, finding.value) == (holds, pytest.approx(taken))
+
+
+def test_a_loss_factor_that_is_not_known_is_asked_for_unless_the_other_is_too_large():
+    for eta, holds, missing in ((1e-3, None, "loss_factor of bare"), (0.5, False, "")):
+        bare = carom.Material(young=2e11, poisson=0.3, density=7800, name="bare")
+        finding = findings.damping(hit_wall(0.1, with_loss(eta)[0], bare))
+        assert (finding.holds, finding.missing) == (holds, missing)
