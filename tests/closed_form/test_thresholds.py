@@ -513,3 +513,11 @@ def test_a_loss_factor_that_is_not_known_is_asked_for_unless_the_other_is_too_la
         bare = carom.Material(young=2e11, poisson=0.3, density=7800, name="bare")
         finding = findings.damping(hit_wall(0.1, with_loss(eta)[0], bare))
         assert (finding.holds, finding.missing) == (holds, missing)
+
+
+def test_a_plate_that_shears_takes_seven_over_the_square_of_its_waves():
+    hit = on_thickness(0.5, 5e-3)
+    ratio = on_plate(0)(hit).value
+    loss = 1.0 - hit.normal_restitution
+    assert on_plate(1)(hit).value == pytest.approx(7.0 * loss / ratio**2)
+    assert on_plate(1)(hit).limit == 0.01
