@@ -4,8 +4,9 @@ r"""Ask whether the theory holds for a ball
 `hit.validity` says whether each assumption of the theory holds for an impact, fails or was not
 judged.
 
-Each row of the picture is an assumption, judged for impacts at 10 degrees. Where all rows hold, the
-restitution is within 0.01 of that of the theory. For a ball of your own, give its material, its
+Each row of the picture is an assumption, judged for impacts at 10 degrees of surfaces that are
+lapped to 30 nm together. Where all rows hold, the restitution and psi_2 are within 0.01 of those of
+the theory. For a ball of your own, give its material, its
 radius and, if it strikes a plate, the thickness: `python theory_ends.py alumina "2 mm" "10 mm"`.
 """
 
@@ -19,7 +20,7 @@ import carom
 from carom.plots.style import DOUBLE, VERMILION, new_figure, save_figure, styled
 
 ball = carom.Sphere(radius="5 mm", material="bearing-steel")
-pair = carom.Pair(ball, carom.HalfSpace("bearing-steel"), friction=0.15)
+pair = carom.Pair(ball, carom.HalfSpace("bearing-steel"), friction=0.15, roughness="30 nm")
 hit = carom.impact(pair, speed="0.5 m/s", angle="10 deg")
 print(hit.validity)
 
@@ -30,11 +31,13 @@ ABSENT = "speed by weight/V_1"  # where it holds
 ROWS = {  # findings of validity by what one would call them
     "weight": (ABSENT,),
     "adhesion": ("work of adhesion",),
+    "roughness": ("rms roughness/penetration",),
     "losses in the material": ("energy lost in the material",),
     "yield": ("von Mises stress/Y",),
     "waves in the ball": ("contact time/wave transit",),
     "waves in the wall": ("energy of waves in the wall",),
-    "bending of the plate": ("bending wave/h", "a_max/h", "deflection/h"),
+    "bending of the plate": ("bending wave/h", "error of e", "a_max/h", "deflection/h"),
+    "rebound": ("error of psi_2",),
 }
 COLOURS = {True: "#56B4E9", None: "0.75", False: VERMILION}
 WORDS = {True: "holds", None: "not judged", False: "fails"}
@@ -48,7 +51,8 @@ BENCHES = {
 def verdicts(material, radius, thickness=None):
     """Return whether each row holds at each speed; rows that do not apply are left out."""
     ball = carom.Sphere(radius=radius, material=material)
-    pair = carom.Pair(ball, carom.HalfSpace(material, thickness=thickness), friction=0.15)
+    wall = carom.HalfSpace(material, thickness=thickness)
+    pair = carom.Pair(ball, wall, friction=0.15, roughness="30 nm")
     rows = {name: [] for name in ROWS}
     for speed in SPEEDS:
         hit = carom.impact(pair, speed=speed, angle="10 deg")
@@ -92,8 +96,9 @@ def main(folder: str | Path = ".") -> str:
     benches = {title: verdicts(*bench) for title, bench in BENCHES.items()}
     thick, plate, bead = (holding(rows) for rows in benches.values())
     assert 0.01 < thick[0] < 0.1 < 0.5 < thick[1] < 2.0
-    assert plate == thick  # the plate fails later than the metal
-    assert 0.2 < bead[0] < 0.8 < bead[1] < 2.0  # adhesion below, yield above
+    assert plate[0] == thick[0]
+    assert plate[1] < 0.1  # waves along the plate, which change psi_2
+    assert np.isnan(bead[0])  # too rough at all speeds at which it stays elastic
     save_figure(draw(benches), Path(folder) / "theory_ends.png")
     return f"10 mm: the theory holds from {thick[0]:.2g} to {thick[1]:.2g} m/s"
 

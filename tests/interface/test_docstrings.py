@@ -70,6 +70,7 @@ INNER = {  # what the parts of Carom say to each other
     *("contact_at", "friction_work", "pressed", "slip_rate", "touched"),
 }
 NEVER_REFUSE = {
+    "gives_way",
     *("catalogue", "Entry", "names", "materials", "ThorntonLaw", "Lammps", "Liggghts", "Yade"),
     *(
         "Pair.contact_scales",
@@ -135,7 +136,10 @@ PUBLIC = public()
 PROPERTIES = [label for label in PUBLIC if isinstance(PUBLIC[label], property | cached_property)]
 CALLED = [label for label in PUBLIC if label not in PROPERTIES]
 DIMENSIONLESS = ("laws.ReboundLaw", "results.Solution")
-UNITS = {"curvature": "1/m", "mass": "kg", "shear_modulus": "Pa", "time_step": "s"}
+UNITS = {
+    **{"curvature": "1/m", "mass": "kg", "shear_modulus": "Pa", "time_step": "s"},
+    **{"compressional_speed": "m/s", "echo_time": "s"},
+}
 KNOWN = {entry.unit for entry in GLOSSARY.values()} | set(UNITS.values())
 
 

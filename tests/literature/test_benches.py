@@ -93,6 +93,7 @@ SHELLS = [  # ball, outer diameter, wall thickness in mm, what it strikes, speed
     (BEARING, 100.0, 2.0, BEARING, 0.3),
 ]
 
+FINEST = "5 nm"  # of the balls of grade 3 and of polished plates
 OPEN = [  # the theory is good, or nobody knows; what a verdict would need is not in the catalogue
     (BEARING, "10 mm", FLOAT, 0.05, 0, 0.15, "loss_factor of float-glass"),
     (BEARING, "10 mm", FLOAT, 0.3, 30, 0.15, "flaw_size of float-glass"),
@@ -127,7 +128,8 @@ PLATES = [  # ball, what it strikes, speed, thickness in mm, e: Zener (1941)
 def verdict_of(ball, diameter, second, speed, angle=0, friction=0.2, **shape):
     size, unit = diameter.split()
     body = carom.Sphere(radius=f"{float(size) / 2.0!r} {unit}", material=ball, **shape)
-    pair = carom.Pair(body, body if second is None else carom.HalfSpace(second), friction)
+    wall = body if second is None else carom.HalfSpace(second)
+    pair = carom.Pair(body, wall, friction, roughness=FINEST)  # slow contacts are shallow
     return carom.impact(pair, speed=speed, angle=f"{angle} deg").validity
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from carom.bodies import solids
 from carom.bodies.case_materials import MATERIAL, material_values, read_material, unknown_keys
 from carom.bodies.kinematics import READERS
-from carom.bodies.pairs import Counterbody, Pair
+from carom.bodies.pairs import OF_BOTH, Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.bodies.smooth_body import Body
 from carom.io.files import read_dataset, read_toml
@@ -102,7 +102,7 @@ def check_case(
             if key in case:
                 where = place(key, "")
                 faults.add(f"{key}: not used{where}; this is for elastic impacts, leave it out")
-        check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES), "")
+        check(case, (*OF_BOTH, *MOTION, *LOSSES, RATIO, *TABLES), "")
         for name, allowed in TABLES.items():
             table = case.get(name, {})
             words = f"must be a table, [{name}], with {', '.join(allowed)}"
@@ -134,11 +134,12 @@ def pair_of(case: Mapping[str, Any]) -> Pair:
             faults.add("friction: missing; give --friction, e.g. 0.2 (0 for none)")
         else:
             faults.trying(not_negative, "friction", friction)
+        roughness = faults.if_given(not_negative, "roughness", case.get("roughness"))
         first = faults.trying(_made, "first", ("sphere", *SHAPES), case.get("first", {}), {})
         any_first = first or Sphere(radius=1.0, material="steel")  # to look at the second, too
         same = {name: getattr(any_first, name, None) for name in ("material", "radius")}
         second = faults.trying(_made, "second", (*MADE,), case.get("second", {}), same)
-    return Pair(first, second, friction)
+    return Pair(first, second, friction, roughness=roughness)
 
 
 def _made(
@@ -179,7 +180,8 @@ def case_of(pair: Pair) -> Case:
     first, second = _table_of(pair.first), _table_of(pair.second)
     if isinstance(pair.first, Sphere):
         del first["kind"]
-    return {"friction": pair.friction, "first": first, "second": second}
+    rough = {} if pair.roughness is None else {"roughness": pair.roughness}
+    return {"friction": pair.friction, **rough, "first": first, "second": second}
 
 
 def _table_of(body: Counterbody) -> Case:
@@ -198,7 +200,7 @@ def numbers_of(case: Mapping[str, Any]) -> dict[str, float]:
     """Return the numbers of a case of round bodies by name, or raise InputError with all faults."""
     losses = dict.fromkeys((*LOSSES, RATIO), read_loss)
     with Faults() as faults:
-        readers = {"friction": not_negative, **MOTION, **losses}
+        readers = {**dict.fromkeys(OF_BOTH, not_negative), **MOTION, **losses}
         read = {n: faults.if_given(check, n, case.get(n)) for n, check in readers.items()}
         for body, sizes in (("first", SIZES), ("second", {**SIZES, **PLATE})):
             table = case.get(body, {})

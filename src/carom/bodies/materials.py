@@ -5,8 +5,9 @@ import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
+from carom.quantities.arrays import minimum, sqrt
 from carom.quantities.glossary import listed
 from carom.quantities.prefixes import Printed
 from carom.quantities.refusals import (
@@ -23,6 +24,7 @@ from carom.quantities.units import Value, not_negative, number, positive
 STRENGTHS = ("yield_strength", "tensile_strength", "fracture_toughness", "flaw_size")
 JUDGED_BY = ("hardness", "surface_energy", "loss_factor")  # verdicts, and nothing else
 VALUES = ("young", "poisson", "density", *STRENGTHS, *JUDGED_BY)
+RUBBER = 0.49975  # Poisson's ratio
 T = TypeVar("T")
 
 
@@ -126,6 +128,19 @@ class Material(Printed):
     def shear_modulus(self) -> float:
         """Shear modulus in Pa."""
         return self.young / (2.0 * (1.0 + self.poisson))
+
+    @property
+    def compressional_speed(self) -> float:
+        """Speed of compressional waves, sqrt(2 (1 - nu) G/((1 - 2 nu) rho)), in m/s.
+
+        Of a material that hardly can be compressed, such as rubber, nu is taken as 0.49975 at most.
+
+        >>> round(carom.material("steel").compressional_speed)
+        5946
+        """
+        nu = minimum(self.poisson, RUBBER)
+        stiffness = 2.0 * (1.0 - nu) / (1.0 - 2.0 * nu) * self.shear_modulus
+        return sqrt(stiffness / cast(float, self.density))
 
     @property
     def is_rigid(self) -> bool:

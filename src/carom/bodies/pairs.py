@@ -12,13 +12,22 @@ from carom.bodies.materials import Material, set_fields
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.bodies.smooth_body import Body, as_body, axes_of, check_shapes
 from carom.dimensionless.ellipse import Ellipse, contact_ellipse, stiffness_ratios
+from carom.dimensionless.numerics.hertz import DURATION
 from carom.quantities.arrays import Array, quotient, sqrt, where
 from carom.quantities.prefixes import Printed, text
-from carom.quantities.refusals import InputError, checked_type, known_keywords, refusal, refuse
+from carom.quantities.refusals import (
+    Faults,
+    InputError,
+    checked_type,
+    known_keywords,
+    refusal,
+    refuse,
+)
 from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
 ROUND = (Sphere, HalfSpace, Cup)
+OF_BOTH = ("friction", "roughness")  # what belongs to both bodies together
 UNCOUPLED = 1e-12  # b_nt over b_nn of bodies that are struck through their centres
 LEAST, MOST = 1e-100, 1e100  # of the numbers of an impact
 
@@ -78,13 +87,17 @@ class Pair(Printed):
         The other body; a half-space, a cup or a Body without a mass does not move.
     friction : float or str
         Coefficient of friction mu, not negative.
+    roughness : float or str, optional
+        Root mean square of the heights of both surfaces together, (s_1^2 + s_2^2)^(1/2), in m. It
+        changes no result; `validity` judges by it whether the surfaces count as smooth.
 
     Raises
     ------
     InputError
-        If the friction is negative, the sphere does not fit into the cup, both materials are rigid,
-        the surfaces do not part from their contact on, one body is in a plane and the other in
-        space, or the masses or stiffnesses are too large or too small for floating point.
+        If the friction or the roughness is negative, the sphere does not fit into the cup, both
+        materials are rigid, the surfaces do not part from their contact on, one body is in a plane
+        and the other in space, or the masses or stiffnesses are too large or too small for floating
+        point.
 
     Examples
     --------
@@ -98,9 +111,17 @@ class Pair(Printed):
     first: Sphere  # or a Body, which checked_pair keeps from all that takes spheres alone
     second: Counterbody
     friction: float
+    roughness: float | None = None
 
     @known_keywords
-    def __init__(self, first: Sphere | Body, second: Counterbody | Body, friction: Value) -> None:
+    def __init__(
+        self,
+        first: Sphere | Body,
+        second: Counterbody | Body,
+        friction: Value,
+        *,
+        roughness: Value | None = None,
+    ) -> None:
         moves = "must be a Sphere or Body that moves; the other one comes second"
         checked_type("first body", first, (Sphere, Body), moves)
         if not isinstance(second, Counterbody | Body):
@@ -119,8 +140,10 @@ class Pair(Printed):
             )
         if first.material.is_rigid and second.material.is_rigid:
             raise InputError("material: both bodies are rigid; one of them must deform")
-        mu = not_negative("friction", friction)
-        set_fields(self, first=first, second=second, friction=mu)
+        with Faults() as faults:
+            mu = faults.trying(not_negative, "friction", friction)
+            heights = faults.if_given(not_negative, "roughness", roughness)
+        set_fields(self, first=first, second=second, friction=mu, roughness=heights)
         if not self.is_round:
             check_shapes(first, second, self.curvatures)
         if not pair_fits(self):
@@ -334,7 +357,34 @@ class Pair(Printed):
         """
         wall = self.second
         impedance = wall.impedance if isinstance(wall, HalfSpace) else inf
-        return self.normal_mass / (impedance * self.scales(normal_speed).time)
+        return quotient(self.normal_mass, impedance * self.scales(normal_speed).time)
+
+    def gives_way(self, scales: Scales) -> bool:
+        """Tell whether a plate is struck that gives way: an echo is back before the contact ends.
+
+        Where none is, the impact is one on a thick wall.
+
+        Parameters
+        ----------
+        scales : Scales
+            Those of the impact, as `scales` returns them.
+
+        Returns
+        -------
+        bool
+            False for a thick wall, and for what is no half-space.
+
+        Examples
+        --------
+        >>> for thickness in ("3 mm", "300 mm"):
+        ...     plate = carom.HalfSpace(material="steel", thickness=thickness)
+        ...     on_plate = carom.Pair(ball, plate, friction=0.2)
+        ...     print(on_plate.gives_way(on_plate.scales(0.5)))
+        True
+        False
+        """
+        wall = self.second
+        return isinstance(wall, HalfSpace) and DURATION * scales.time >= wall.echo_time
 
     def psi(self, contact_velocity: float, normal_speed: float) -> float:
         """Return the dimensionless velocity kappa V_x/(mu V_1), infinite without friction.
@@ -367,7 +417,8 @@ class Pair(Printed):
     def _describe(self) -> dict[str, Any]:
         """Return the bodies and their friction as plain numbers and words."""
         bodies = {"first": describe(self.first), "second": describe(self.second)}
-        return bodies | {"friction": self.friction}
+        rough = {} if self.roughness is None else {"roughness": self.roughness}
+        return bodies | {"friction": self.friction} | rough
 
     def __str__(self) -> str:
         bodies = f"{self.first} on {self.second}"

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.case_materials import material_values
 from carom.bodies.materials import VALUES
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import OF_BOTH, Pair
 from carom.io.labels import Finding
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
@@ -39,12 +39,13 @@ LIKELY = {
     "surface_energy": Likely(0.0, 10.0, "mJ/m^2"),
     "loss_factor": Likely(0.0, 3.0, "%"),
     "friction": Likely(0.0, 5.0, "%"),
+    "roughness": Likely(0.0, 1e-3, "um"),
 }
 
 
 def doubts(pair: Pair) -> tuple[Finding, ...]:
     """Return findings on implausible values of a pair of bodies; usually there are none."""
-    values: list[tuple[str, float | None]] = [("friction", pair.friction)]
+    values: list[tuple[str, float | None]] = [(name, getattr(pair, name)) for name in OF_BOTH]
     for body in (pair.first, pair.second):
         values += [(name, getattr(body, name, None)) for name in SIZES]
         values += [(name, getattr(body.material, name)) for name in VALUES]

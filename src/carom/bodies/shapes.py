@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any, cast
 
 from carom.bodies.materials import VALUES, Material, as_material, set_fields
-from carom.quantities.arrays import sqrt
+from carom.quantities.arrays import isfinite, quotient, sqrt, where
 from carom.quantities.prefixes import Printed, text
 from carom.quantities.refusals import Faults, known_keywords, refusal, refuse
 from carom.quantities.units import Value, not_negative, positive
@@ -175,8 +175,23 @@ class HalfSpace(Shape):
         if self.thickness is None:
             return math.inf
         stuff, h = self.material, self.thickness
-        stiffness = stuff.young * h**3 / (12.0 * (1.0 - stuff.poisson**2))
-        return 8.0 * sqrt(stiffness * cast(float, stuff.density) * h)
+        modulus = stuff.young / (12.0 * (1.0 - stuff.poisson**2))
+        return 8.0 * h * h * sqrt(modulus * cast(float, stuff.density))
+
+    @property
+    def echo_time(self) -> float:
+        """Time in s after which the first echo from the other face is back, 2 h/c_L.
+
+        An impact that is over by then is one on a thick wall; of such a wall, and of a rigid one,
+        it is infinite. c_L is the speed of compressional waves.
+
+        >>> round(carom.HalfSpace("steel", thickness="3 mm").echo_time * 1e6, 2)
+        1.01
+        """
+        if self.thickness is None:
+            return math.inf
+        speed = self.material.compressional_speed
+        return where(isfinite(speed), quotient(2.0 * self.thickness, speed), math.inf)
 
     @property
     def curvature(self) -> float:

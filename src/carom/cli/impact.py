@@ -74,6 +74,9 @@ OPTIONS = {
     "thickness": _flag("thickness", "'3 mm'", ", which gives way (default: a thick wall)"),
     "width": _flag("width", "'200 mm'", " (default: wide enough)"),
     "friction": _flag("friction", "0.2"),
+    "roughness": _flag(
+        "roughness", "'0.1 um'", " (default: both that of lapped and that of ground ones must do)"
+    ),
     "speed": _flag("speed", "'2 m/s'"),
     "angle": _flag("angle", "'30 deg'"),
     "normal_speed": _flag("normal_speed", "2"),
@@ -148,8 +151,9 @@ def impact_command(
     --peaks                      the largest stresses in both bodies
     """
     from carom.bodies.cases import LOSSES, MOTION, RATIO
+    from carom.bodies.pairs import OF_BOTH
 
-    named = (*CASE_KEYS, "friction", *MOTION, *LOSSES, RATIO)
+    named = (*CASE_KEYS, *OF_BOTH, *MOTION, *LOSSES, RATIO)
     options = {**given, "plot": plot}
     flags = {CASE_KEYS.get(name, name): options[name] for name in named}
     with checking() as faults:

@@ -344,7 +344,11 @@ def tune_command(
     if own is not None:
         record["own_impact"] = own.to_dict([(called(one.law), one.law) for one in tuning.advice])
     table = str(tuning) if own is None else own.of_tuning(tuning)
-    typer.echo(json.dumps(record, indent=2) if as_json else _advice(table, record))
+    if as_json:
+        typer.echo(json.dumps(record, indent=2))
+        return
+    verdict = [] if own is None else [own.verdict()]  # before what to do
+    typer.echo("\n".join([*verdict, _advice(table, record)]))
 
 
 def _inputs_of_codes(setting: "Setting", tuning: "Tuning") -> dict[str, str]:

@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.bodies.pairs import Pair
+from carom.bodies.shapes import HalfSpace
 from carom.collisions.records import LARGEST_SKEW, CollisionStatus, Inertia
 from carom.dimensionless.elastic import motion as at
 from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.phases import LARGEST_GIVE, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import Record, new_record
 from carom.dimensionless.numerics.arrays import ArrayType, Codes, Vector
+from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 from carom.dimensionless.rebounds import LINEAR_PSI, NEARLY_ELASTIC, STEP_TOLERANCE
@@ -35,21 +37,27 @@ class PlateRule(NamedTuple):
     """What a collision with a plate needs: lambda = give V_n^(1/5), psi = scale V_t/V_n.
 
     Above `fastest` it gives way like a foil, or is thinner than the penetration of a thick wall.
+    Above `silent` the contact is over before an echo is back, as on a thick wall.
     """
 
     chi: float
     scale: float
     give: float
     fastest: float
+    silent: float
 
 
 def plate_rule(pair: Pair) -> PlateRule:
     """Return what collisions of a pair with a plate need, in SI units."""
+    assert isinstance(pair.second, HalfSpace)
     assert pair.thickness is not None
-    give, depth = pair.plate_give(1.0), pair.scales(1.0).length
-    fastest = min((LARGEST_GIVE / give) ** 5, (pair.thickness / depth) ** 1.25)
+    give, unit = pair.plate_give(1.0), pair.scales(1.0)
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        by_give = np.float64(LARGEST_GIVE / np.float64(give)) ** 5
+        by_depth = np.float64(pair.thickness / unit.length) ** 1.25
+        silent = np.float64(DURATION * unit.time / pair.second.echo_time) ** 5  # t_c goes as V^-1/5
     scale = pair.kappa / pair.friction if pair.friction > 0.0 else 0.0
-    return PlateRule(pair.chi, scale, give, fastest)
+    return PlateRule(pair.chi, scale, give, float(min(by_give, by_depth)), float(silent))
 
 
 @kernel
@@ -78,7 +86,8 @@ def rebounds(
         psi_1 = max(slope[i], LINEAR_PSI) if moves else sliding
         psi = min(psi_1, sliding)
         give = min(plate.give * closing[i] ** 0.2, LARGEST_GIVE)
-        give = give if give >= NEARLY_ELASTIC else 0.0
+        if give < NEARLY_ELASTIC or closing[i] > plate.silent:
+            give = 0.0
         record.counts[:] = 0
         ended = run_phases(psi, plate.chi, give, STEP_TOLERANCE, work, record)
         if ended != Status.SOLVED.value:

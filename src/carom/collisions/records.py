@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Sphere
+from carom.bodies.walls import radiated_share
 from carom.dimensionless import neglected
 from carom.laws.portable import is_floats
 from carom.plots.result import card
@@ -225,9 +226,10 @@ class JudgedCollisions(EqualByNumbers, Judged):
     """What `collide` returns with `judge=True`: `Collisions`, and bounds of the error in psi_2.
 
     psi_out_error, shape (...), bounds the error in psi_2 from spin about the normal, slip across
-    the motion and the coupling of unlike materials; mu V_n/kappa times it bounds that of the
-    velocity of the contact point along the motion. It is NaN where `judgement`, shape (...), is not
-    0 (`Judgement`). Unlike bodies with spin also leave sideways, which is not bounded.
+    the motion, the coupling of unlike materials and waves in a wall; mu V_n/kappa times it bounds
+    that of the velocity of the contact point along the motion. It is NaN where `judgement`, shape
+    (...), is not 0 (`Judgement`). Unlike bodies with spin also leave sideways, which is not
+    bounded.
 
     Examples
     --------
@@ -256,11 +258,15 @@ class JudgedCollisions(EqualByNumbers, Judged):
 
 
 class Incidence(NamedTuple):
-    """How bodies meet: psi_1, spin about the normal in friction V_n/a_max, a_max/R*; arrays."""
+    """How bodies meet: psi_1, spin about the normal in friction V_n/a_max, a_max/R*; arrays.
+
+    `waves` is the share of the energy that waves take away in a wall.
+    """
 
     psi: NDArray[np.float64]
     spin: NDArray[np.float64]
     reach: NDArray[np.float64]
+    waves: NDArray[np.float64]
 
 
 def incidence(pair: Pair, before: Sequence[NDArray[np.floating]]) -> Incidence:
@@ -278,7 +284,8 @@ def incidence(pair: Pair, before: Sequence[NDArray[np.floating]]) -> Incidence:
         unit = pair.friction * approach
         radius = pair.scales(1.0).radius * approach**0.4
         psi = pair.kappa * np.linalg.norm(tangential, axis=0) / unit
-        return Incidence(psi, turning * radius / unit, radius / pair.effective_radius)
+        waves = radiated_share(pair, pair.scales(1.0)) * approach**0.6
+        return Incidence(psi, turning * radius / unit, radius / pair.effective_radius, waves)
 
 
 def judged(pair: Pair, before: Incidence, after: Collisions) -> JudgedCollisions:
@@ -286,7 +293,7 @@ def judged(pair: Pair, before: Incidence, after: Collisions) -> JudgedCollisions
     collided = after.status == CollisionStatus.COLLIDED
     numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
     outside = (before.spin > neglected.SPIN.most) | (before.reach > neglected.SMALL_CONTACT)
-    outside |= bool(neglected.not_studied(*numbers))
+    outside |= bool(neglected.not_studied(*numbers)) | np.isnan(before.waves)
     held = np.isfinite(before.psi)  # by friction: without it nothing is left out
     kinds, values = [~collided, outside & held], [Judgement.NOT_COLLIDED, Judgement.NOT_STUDIED]
     judgement = np.select(kinds, values, Judgement.BOUNDED).astype(np.int8)
@@ -295,6 +302,7 @@ def judged(pair: Pair, before: Incidence, after: Collisions) -> JudgedCollisions
         with np.errstate(all="ignore"):
             bound = neglected.rebound_error(*numbers, before.psi)
             bound = bound + neglected.spin_error(pair.chi, before.psi, before.spin)
+            bound = bound + neglected.wave_error(pair.chi, before.psi, before.waves)
         error = np.where(held, bound, error)
     error = np.where(judgement == Judgement.BOUNDED, error, np.nan)
     return JudgedCollisions._make((*after, error, judgement))

@@ -1,6 +1,7 @@
 """Bounds on the error of psi_2 by what the theory neglects, and where they are known.
 
-Envelopes of full solutions by boundary elements, studies/halfspace_study.csv; fitted, not proved.
+Envelopes of full solutions, fitted, not proved: by boundary elements (studies/halfspace_study.csv),
+and of walls with all their waves (studies/wall_waves.csv).
 """
 
 from typing import Any, NamedTuple
@@ -24,6 +25,7 @@ RANGE_ROUNDING = 1e-9
 FARTHEST_BEYOND = 10.0  # beyond sliding, psi_1 - 4 chi + 1
 LATERAL, RADIAL, COUPLED, TIED = 0.011, 0.28, 0.6, 0.34
 TURNED = 1.45
+ALONG, SHEARED, RADIATED = 0.25, 1.2, 1.05
 
 
 def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
@@ -68,6 +70,27 @@ def spin_error(chi: float, psi: Any, spin: Any) -> Any:
     along = np.minimum(1.0, (1.0 + spin) / (1.0 + beyond_sliding(chi, psi))) ** 2
     size = TURNED * max(1.0, chi) ** 0.5 * spin
     return np.minimum(size * np.minimum(1.0, 2.0 * psi) * along, 2.0 * psi)
+
+
+def plate_error(chi: float, psi: Any, size: Any, sheared: Any) -> Any:
+    """Return a bound on the error of psi_2 on a thin plate by the waves that are no bending waves.
+
+    (0.25 a/h + 2.4 chi s) min(1, 2 psi), with the largest radius of the contact over the
+    thickness, a/h, and s by which e comes out too high as the plate also shears. The plate gives
+    way along itself, which is of order a/h; where the contact slides throughout, the error is 2 chi
+    times that of e.
+    """
+    whole = ALONG * size + 2.0 * SHEARED * chi * sheared
+    return whole * np.minimum(1.0, 2.0 * np.abs(psi))
+
+
+def wave_error(chi: float, psi: Any, share: Any) -> Any:
+    """Return a bound on the change of psi_2 by waves in a thick wall that take this share.
+
+    1.05 chi min(1, 0.8 psi) times the share of the energy; it is chi times it where the contact
+    slides throughout, as e is smaller by half of the share.
+    """
+    return RADIATED * chi * share * np.minimum(1.0, 0.8 * np.abs(psi))
 
 
 def beyond_sliding(chi: Any, psi: Any) -> Any:

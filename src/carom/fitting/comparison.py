@@ -237,7 +237,8 @@ class FitRecord:
         bodies = self._best.model.problem.pair
         if THICKNESS in self.estimates:
             bodies = plates.with_thickness(bodies, self.estimates[THICKNESS].value)
-        return Pair(bodies.first, bodies.second, self.estimates["friction"].value)
+        friction = self.estimates["friction"].value
+        return Pair(bodies.first, bodies.second, friction, roughness=bodies.roughness)
 
     @cached_property
     def comparison(self) -> Comparison:

@@ -12,7 +12,7 @@ from carom.bodies.shapes import HalfSpace
 from carom.dimensionless.elastic.phases import LARGEST_GIVE, new_work
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.rebounds import STEP_TOLERANCE, fill_motion, solved
-from carom.impacts.findings import LONG_WAVE, OF_PLATES, SHEARING
+from carom.impacts.plate_findings import BENDING, LONG_WAVE, OF_PLATES, SHEARING, wave_ratio
 from carom.impacts.solve import impact
 from carom.io.cells import Mask
 from carom.io.labels import Finding
@@ -80,7 +80,7 @@ def with_thickness(pair: Pair, thickness: float) -> Pair:
     """Return the pair with a plate of another thickness."""
     wall: Any = pair.second
     plate = HalfSpace(material=wall.material, thickness=thickness, width=wall.width)
-    return Pair(pair.first, plate, pair.friction)
+    return Pair(pair.first, plate, pair.friction, roughness=pair.roughness)
 
 
 def thickness_range(pair: Pair, speeds: Array) -> tuple[float, float, float]:
@@ -101,15 +101,22 @@ def doubtful(pair: Pair, speeds: Array, thicknesses: Array) -> Iterator[tuple[Fi
         _findings(with_thickness(pair, float(h)), float(speed))
         for speed, h in zip(speeds, thicknesses, strict=True)
     ]
-    for each in zip(*findings, strict=True):
-        bad = np.array([finding.holds is not True for finding in each])
-        if bad.any():
-            yield next(f for f in each if f.holds is not True), bad
+    for name in dict.fromkeys(name for row in findings for name in row):
+        wrong = [row[name] for row in findings if name in row and row[name].holds is not True]
+        if wrong:
+            bad = [name in row and row[name].holds is not True for row in findings]
+            yield wrong[0], np.array(bad)
 
 
-def _findings(pair: Pair, speed: float) -> list[Finding]:
+def _findings(pair: Pair, speed: float) -> dict[str, Finding]:
+    """Return the findings on a plate by name; a fit takes a thick wall as a thin plate, too."""
     hit = impact(pair, normal_speed=speed)
-    return [finding for judge in OF_PLATES if (finding := judge(hit)) is not None]
+    found = {each.name: each for judge in OF_PLATES if (each := judge(hit)) is not None}
+    if pair.gives_way(hit.scales):
+        return found
+    thick = "no echo is back when the contact ends: the wall is thick; leave thickness out"
+    wall: Any = pair.second
+    return {BENDING: Finding(BENDING, wave_ratio(hit, wall), LONG_WAVE, False, thick), **found}
 
 
 def shear(pair: Pair, speed: float, responses: tuple[str, ...], *, fitted: bool) -> str:
@@ -118,7 +125,7 @@ def shear(pair: Pair, speed: float, responses: tuple[str, ...], *, fitted: bool)
     1 - e goes as 1/h^2 and is larger by SHEARING/r^2 of itself (theory, page 11), or more where the
     waves are short: a fitted thickness comes out smaller by half of that.
     """
-    bending = _findings(pair, speed)[0]
+    bending = _findings(pair, speed)[BENDING]
     part = 50.0 * SHEARING / max(bending.value, LONG_WAVE) ** 2
     if part < SHIFT or bending.holds is False:
         return ""

@@ -259,7 +259,10 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
     chi = f"pair: a chi of {bodies.chi:.3g} cannot be fitted, {span}"
     refuse(not least <= bodies.chi <= most and chi)
     rubs = bodies.friction > 0.0
-    return bodies if rubs else Pair(bodies.first, bodies.second, START_FRICTION), rubs
+    if not rubs:
+        guess = START_FRICTION
+        bodies = Pair(bodies.first, bodies.second, guess, roughness=bodies.roughness)
+    return bodies, rubs
 
 
 def _errors(rows: UserTable, name: str) -> Array:

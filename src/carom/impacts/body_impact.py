@@ -195,7 +195,7 @@ class BodyImpact(Impact):
         now = self._motion(h)
         normal, tangential, spins = now.energies(self.pair)
         rubs = 0.0 if self.pair.friction == 0.0 else self._shear_unit
-        loses = self.losses is not None or self.pair.thickness is not None
+        loses = self.losses is not None or self.pair.gives_way(self.scales)
         lost = loses * h.normal_lost * self.scales.energy
         energies: dict[str, Any] = {
             "normal_kinetic_energy": normal,

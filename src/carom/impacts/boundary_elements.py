@@ -20,7 +20,7 @@ from carom.halfspace.motion import NormalSpin
 from carom.halfspace.solution import HalfspaceSolution, Resolution, refinement_error, solve
 from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
-from carom.impacts.validity import OF_BODIES, WEAK_COUPLING, judge, judge_errors
+from carom.impacts.validity import OF_BODIES, WEAK_COUPLING, judge, judge_errors, waves_aside
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Finding, Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
@@ -156,7 +156,7 @@ class HalfspaceImpact(ImpactResult):
     def validity(self) -> Validity:
         """Whether the remaining assumptions hold, and whether the grid is fine enough."""
         errors = judge_errors(self.psi_out_error, self.energy_error)
-        return Validity((*judge(self, OF_BODIES).findings, *errors))
+        return Validity((*judge(self, OF_BODIES).findings, waves_aside(self), *errors))
 
     @cached_property
     def _strength(self) -> tuple[Finding, ...]:

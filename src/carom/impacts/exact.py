@@ -22,8 +22,9 @@ from carom.dimensionless.lossy.springs.solution import MarchedSolution
 from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
-from carom.impacts.findings import Assumption, refuse_thin
+from carom.impacts.findings import Assumption
 from carom.impacts.peaks import judge_pressure, judge_strength, peaks_dataset, struck_bodies
+from carom.impacts.plate_findings import refuse_thin
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import OF_THEORY, judge
 from carom.impacts.wear import wear_of
@@ -224,7 +225,7 @@ class Impact(ImpactResult, InContact):
         ['@software{carom,', '@article{barber1979,', '@article{maw1976,']
         """
         source = () if self.losses is None else (self.losses._source,)
-        plate = () if self.pair.thickness is None else (PLATE,)
+        plate = (PLATE,) if self.pair.gives_way(self.scales) else ()
         return bibtex(*IMPACT, *source, *plate)
 
     def _phase_columns(self) -> dict[str, list[float]]:
@@ -252,10 +253,11 @@ def solution_of(
 ) -> Solution | LossySolution:
     """Return the solution of an impact through the centres, or raise InputError."""
     solution: Solution | LossySolution
-    if losses is None and pair.thickness is None:
+    numbers = loss_numbers(pair, scales, losses)
+    if losses is None and numbers.parameter == 0.0:
         solution = solve(psi, pair.chi)
     else:
-        solution = solve_with(psi, pair.chi, loss_numbers(pair, scales, losses))
+        solution = solve_with(psi, pair.chi, numbers)
     if solution.status is not Status.SOLVED:
         name, value = ("chi", pair.chi) if losses is None else ("losses", losses)
         message = solution.status.message
@@ -267,10 +269,11 @@ def solution_of(
 
 
 def loss_numbers(pair: Pair, scales: Scales, losses: LossLaw | None) -> LossNumbers:
-    """Return what the impact loses energy to, in numbers; an elastic one as on a thick plate."""
+    """Return what the impact loses energy to, in numbers; an elastic one as on a thick wall."""
     if losses is None or pair.thickness is not None:
         refuse_thin(pair, scales, losses)
-        return LossNumbers(Loss.PLATE, pair.plate_give(scales.speed) if pair.thickness else 0.0)
+        give = pair.plate_give(scales.speed) if pair.gives_way(scales) else 0.0
+        return LossNumbers(Loss.PLATE, give)
     loss, *numbers = checked_law(losses)._loss(pair, scales)
     if any(map(np.ndim, numbers)):
         raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")

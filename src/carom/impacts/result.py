@@ -211,7 +211,7 @@ class ImpactResult(Outcome, Result):
         round_ones = self.pair.is_round
         note = NOTES["bodies" if not round_ones else "lossy" if self.losses is not None else method]
         coupled = method != "exact" and self.pair.dundurs_beta != 0.0
-        loses = self.losses is not None or self.pair.thickness is not None or coupled
+        loses = self.losses is not None or self.pair.gives_way(self.scales) or coupled
         hidden = set() if loses else {"lost_energy", "shear_lost_energy"}
         hidden |= set() if loses or not round_ones else {"normal_restitution"}
         if not scalars["shear_lost_energy"]:  # as of spheres that yield
@@ -274,10 +274,7 @@ class ImpactResult(Outcome, Result):
             "result": {name: or_none(value) for name, value in self.scalars().items()},
             "phases": phases,
             "verdict": validity.verdict,
-            "validity": [
-                {**finding._asdict(), "value": or_none(finding.value)}
-                for finding in validity.findings
-            ],
+            "validity": validity.records(),
         }
 
     def animate(

@@ -6,17 +6,20 @@ None. What the bodies bear, which takes more, is in `peaks`.
 
 from collections.abc import Sequence
 from math import inf, isfinite, isnan, nan, sqrt
+from typing import cast
 
 import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
-from carom.bodies.shapes import Sphere
+from carom.bodies.shapes import HalfSpace, Sphere
 from carom.bodies.smooth_body import Body
+from carom.bodies.walls import radiated_share
 from carom.dimensionless import neglected
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.neglected import SMALL_CONTACT
-from carom.impacts.findings import OF_ENERGY, OF_WALLS, Assumption, bounded, judged, lacking
+from carom.impacts.findings import OF_ENERGY, Assumption, bounded, judged, lacking, roughness, waves
+from carom.impacts.plate_findings import LONG_WAVE, OF_PLATES, sheared, wave_ratio
 from carom.impacts.result import ImpactResult
 from carom.io.labels import Finding, Validity
 
@@ -235,14 +238,41 @@ def _rebound(hit: ImpactResult) -> Finding:
         return Finding(name, 0.0, CLOSE_REBOUND, True, "like bodies that meet head-on do not slip")
     if outside := neglected.not_studied(*numbers):
         return _unknown(name, f"{outside}; method='halfspace' solves the full contact")
-    error = float(neglected.rebound_error(*numbers, hit.psi_in))
+    by_waves, wall = _waved(hit)
+    if isnan(by_waves):
+        return _unknown(name, wall)
+    by_contact = float(neglected.rebound_error(*numbers, hit.psi_in))
+    error = by_contact + by_waves
     if hit.losses is not None:
         return _unknown(name, f"with losses; for elastic bodies it is at most {error:.2g}")
     but = "apart from the spin about the normal, " if hit.normal_spin else ""
     why = f", as the materials are unlike (Dundurs beta {pair.dundurs_beta:.3g})" * unlike
-    good = f"{but}psi_2 is at most this far from {FULL}, by a study of such impacts"
-    bad = f"{but}psi_2 may be this far from {FULL}{why}, which method='halfspace' solves"
+    good = f"{but}psi_2 is at most this far from {FULL}{wall}, by studies of such impacts"
+    bad = f"{but}psi_2 may be this far from {FULL}{why}, which method='halfspace' solves{wall}"
+    if by_waves > by_contact:
+        bad = f"{but}psi_2 may be this far from {FULL}{wall}, to which waves add {by_waves:.2g}"
     return bounded(name, error, CLOSE_REBOUND, good, bad)
+
+
+def _waved(hit: ImpactResult) -> tuple[float, str]:
+    """Return what waves in the wall may do to psi_2 that the theory leaves out, and which they are.
+
+    It is NaN where that is not known, and then with the reason.
+    """
+    pair, second = hit.pair, hit.pair.second
+    if isinstance(second, Sphere) or second.material.is_rigid:
+        return 0.0, ""
+    if isinstance(second, HalfSpace) and pair.gives_way(hit.scales):
+        if wave_ratio(hit, second) < LONG_WAVE:
+            return nan, "all waves of a plate that is neither thin nor a thick wall"
+        sizes = hit.max_radius / cast(float, second.thickness), sheared(hit, second)
+        error = float(neglected.plate_error(pair.chi, hit.psi_in, *sizes))
+        return error, " on a plate with all its waves"
+    share = radiated_share(pair, hit.scales)
+    if isnan(share):
+        return nan, "waves in a wall without a density"
+    error = float(neglected.wave_error(pair.chi, hit.psi_in, share))
+    return error, " on a wall with its waves"
 
 
 def _unknown(name: str, why: str) -> Finding:
@@ -259,8 +289,18 @@ def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
     return judged("error of psi_2", psi_out, *limits), judged("error of energy", energy, *limits)
 
 
+def waves_aside(hit: ImpactResult) -> Finding:
+    """Return the finding on waves in the wall, which boundary elements leave out."""
+    error, wall = _waved(hit) if isfinite(hit.psi_in) else (0.0, "")
+    if isnan(error):
+        return _unknown("error of psi_2 by waves", wall)
+    good = "waves in the wall, which boundary elements leave out, hardly change psi_2"
+    bad = "boundary elements leave out waves in the wall, which may change psi_2 by this"
+    return bounded("error of psi_2 by waves", error, CLOSE_REBOUND, good, bad)
+
+
 OF_BODIES: tuple[Assumption, ...] = (
-    *(_slow_contact, _weight, _shell, *OF_WALLS, *OF_ENERGY, _solid),
+    *(_slow_contact, _weight, _shell, roughness, waves, *OF_PLATES, *OF_ENERGY, _solid),
 )
 OF_SHAPES: tuple[Assumption, ...] = (
     *(f for f in OF_BODIES if f is not _shell),

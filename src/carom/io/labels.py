@@ -3,7 +3,7 @@
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import isnan
+from math import isfinite, isnan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -72,6 +72,14 @@ class Validity(Printed):
     def verdict(self) -> str:
         """What `holds` says in words, as holds, fails or not judged."""
         return VERDICTS[self.holds]
+
+    def records(self) -> list[dict[str, Any]]:
+        """Return the findings as what JSON can hold; a value that is not finite is None."""
+        values = (each.value if isfinite(each.value) else None for each in self.findings)
+        return [
+            {**finding._asdict(), "value": value}
+            for finding, value in zip(self.findings, values, strict=True)
+        ]
 
     def __str__(self) -> str:
         lines = [f"{MARKS[f.holds]} {f.label}: {f.verdict}" for f in self.findings]

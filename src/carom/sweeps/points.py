@@ -16,16 +16,16 @@ from carom.bodies.losses import SMALLEST_RESTITUTION, STIFFEST, LossLaw
 from carom.bodies.materials import STRENGTHS, VALUES, Material, unchecked
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
+from carom.bodies.walls import quiet_width
 from carom.contacts.fields import BODIES
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.dimensionless.solution import solve
-from carom.impacts.findings import quiet_width
 from carom.impacts.outcome import PAIR, Outcome, outcome_fits
 from carom.impacts.peaks import MEASURES, StruckBody, growth, struck_bodies
-from carom.quantities.arrays import Array
+from carom.quantities.arrays import Array, where
 from carom.quantities.glossary import NEEDED_STRENGTHS
 from carom.quantities.statuses import WordedStatus
 from carom.sweeps.inputs import leaf
@@ -187,7 +187,7 @@ def evaluate(
         unknown = np.logical_or.reduce([solved & np.isnan(values) for values in strengths.values()])
         status[unknown & solved] = PointStatus.STRENGTH_NOT_KNOWN
         if "second.width" in columns and pair.thickness is not None:
-            quiet = quiet_width(cast(HalfSpace, second), outcome.duration)
+            quiet = quiet_width(pair, scales, outcome.duration)
             narrow = columns["second.width"] < quiet
             status[solved & narrow] = PointStatus.RIM_ANSWERS
         results |= strengths
@@ -200,7 +200,9 @@ def solve_block(outcome: Outcome, law: LossLaw | None, status: Codes, threads: i
     solution = cast(BlockSolution, outcome.solution)
     loss, *numbers = (None,) if law is None else law._loss(outcome.pair, outcome.scales)
     if outcome.pair.thickness is not None:
-        loss, *numbers = LossNumbers(Loss.PLATE, outcome.pair.plate_give(outcome.scales.speed))
+        pair, scales = outcome.pair, outcome.scales
+        give = where(pair.gives_way(scales), pair.plate_give(scales.speed), 0.0)
+        loss, *numbers = LossNumbers(Loss.PLATE, give)
     arguments = (outcome.psi_in, outcome.pair.chi, *numbers)
     psi, chi, *parameters = (np.broadcast_to(x, status.shape) for x in arguments)
     run = status == PointStatus.SOLVED

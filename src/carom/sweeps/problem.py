@@ -118,7 +118,7 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
     yields = bool(yielding - {*names, *fixed})
     if yields or "flow_stress" in yielding:  # which body yields is told by the strengths
         strengths = tuple(dict.fromkeys((YIELD, *strengths)))
-    unneeded = {*STRENGTHS, *JUDGED_BY} - set(strengths)
+    unneeded = {*STRENGTHS, *JUDGED_BY, "roughness"} - set(strengths)
     fixed = {name: value for name, value in fixed.items() if leaf(name) not in unneeded}
     if fixed.get("spin2") == 0.0:  # every body may be without
         del fixed["spin2"]

@@ -57,11 +57,26 @@ class OwnImpact:
         left = (convert_observables(hit.pair, known=known, wanted=name) for name in wanted)
         return Rebound(psi_out, *left)
 
+    def verdict(self) -> str:
+        """Return whether the theory holds for this impact, in one line, with what fails."""
+        validity = self.hit.validity
+        if validity.holds is True:
+            return "The theory holds for this impact"
+        wrong = [finding for finding in validity.findings if finding.holds is validity.holds]
+        labels = ", ".join(finding.label for finding in wrong)
+        if validity.holds is False:
+            words = "The theory fails for this impact, and with it what laws are compared with"
+        else:
+            words = "Whether the theory holds for this impact is not judged"
+        return f"{words}: {labels} (carom impact says more)"
+
     def to_dict(self, laws: Sequence[tuple[str, Law]]) -> dict[str, Any]:
         """Return the exact impact and that of named laws as what JSON can hold."""
         found = [{"law": name, **self.by(law)._asdict()} for name, law in laws]
         inputs = {"psi_in": self.hit.psi_in, "restitution": self.restitution}
-        return {**inputs, "exact": self.exact._asdict(), "laws": found}
+        validity = self.hit.validity
+        judged = {"verdict": validity.verdict, "validity": validity.records()}
+        return {**judged, **inputs, "exact": self.exact._asdict(), "laws": found}
 
     def words(self) -> str:
         """Return what strikes how, in one line."""
@@ -79,7 +94,8 @@ class OwnImpact:
             rows.append((entry.label, *left.cells(), off, standing.max_error, entry.used_by))
         legend = f"{UNITS}; off by, at worst: |error in psi_2| here, and from psi_1 = "
         span = f"{min(ranking.psi_in):g} to {max(ranking.psi_in):g}"
-        return "\n".join([self.words(), *text_table(OF_RANKING, rows), f"{legend}{span}"])
+        lines = [self.verdict(), self.words(), *text_table(OF_RANKING, rows)]
+        return "\n".join([*lines, f"{legend}{span}"])
 
     def of_tuning(self, tuning: Tuning) -> str:
         """Return the table of laws with this impact, as they are by default and tuned."""
