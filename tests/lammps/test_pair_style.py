@@ -289,7 +289,7 @@ def test_contacts_that_remember_another_kind_stop_the_run(lammps):
     for style in ("springs 64 precision double", "springs 32 precision single"):
         with pytest.raises(AssertionError, match="contacts remember other springs"):
             gas(lammps, style=style, then="run 10", start="read_restart x.rst\n")
-    lossy = words(restitution=0.8, speed=1.0)
+    lossy = words(young=5e7, poisson=0.3, friction=0.3, restitution=0.8, speed=1.0)
     with pytest.raises(AssertionError, match="losses cannot be switched on or off between runs"):
         gas(lammps, then=f"run 10\npair_coeff * * {lossy}\nrun 10")
 

@@ -271,8 +271,9 @@ velocity all set 0.2 0 0
 set atom 1 omega 0 40.13 0
 timestep 1e-5
 compute z all reduce sum z
+compute k all ke
 compute r all erotate/sphere
-variable e equal (ke+c_r)/mass(all)+9.81*c_z
+variable e equal (c_k+c_r)/mass(all)+9.81*c_z
 thermo_style custom step v_e
 thermo 2500
 run 2500
@@ -300,6 +301,6 @@ timestep 1e-6
     falls, put = start.format(RADIUS + 1e-6), start.format(RADIUS - 1e-5)
     assert JUMPS not in lammps(f"{falls}velocity all set 0 0 -0.5\nrun 60\n")
     assert JUMPS not in lammps(f"{put}run 3\n")  # what a run begins with is as it is
-    rises = "region w plane 0 0 v_z 0 0 1\nvariable z equal 1e-5*(step>1)\n"
+    rises = "variable z equal 1e-5*(step>1)\nregion w plane 0 0 v_z 0 0 1\n"
     jumps = falls.replace("region w plane 0 0 0 0 0 1\n", rises)
     assert JUMPS in lammps(f"{jumps}run 5\n")

@@ -32,7 +32,7 @@ void CaromWatch::tell_stiff(const carom::Pair &pair, double depth, double step, 
     error->warning(FLERR, "{}: pressed by {:.3g} they are too stiff for the timestep, their motion may "
                           "gain energy: k dt^2/m* is {:.3g}, of at most {:.2g}; give timestep {:.3g} or "
                           "less (said once a run)", who(one, other), depth,
-                   carom::stiffest_step * step * step / (longest * longest), carom::stiffest_step, longest);
+                   carom::stiffest_step * step * step / (longest * longest), carom::stiffest_step, 0.99 * longest);
 }
 
 void CaromWatch::jump(double depth, double normal_speed, double speed, double step, double radius,
