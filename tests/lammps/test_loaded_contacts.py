@@ -118,6 +118,7 @@ def test_it_warns_where_steps_are_too_long_for_the_load_and_nowhere_else(lammps,
 def test_ranks_and_restarts_go_on_with_what_dashpots_took(lammps):
     """Pressed, then held: two ranks to rounding, and a run from a restart to the bit."""
     pressed = study.pressed(GLASS, 4.0, 25).replace("carom ledger", "carom precision double ledger")
+    pressed = re.sub("displace_atoms.*\n", "", pressed)  # it is another on two ranks
     dump = "dump 1 all custom 1 out.txt x y z vx vy vz omegax omegay omegaz\n"
     dump += "dump_modify 1 sort id format float %.17g\nrun 0\n"
     kick = "variable u atom 3e-3*sin(700*x+300*y+100*z)\nvelocity all set v_u v_u v_u\n"
@@ -130,7 +131,7 @@ def test_ranks_and_restarts_go_on_with_what_dashpots_took(lammps):
     np.testing.assert_allclose(*both, atol=1e-12)
 
     rest = pressed[pressed.index("pair_style") :].splitlines()
-    rest = "\n".join(line for line in rest if not line.startswith(("displace", "fix 2", "run")))
+    rest = "\n".join(line for line in rest if not line.startswith(("fix 2", "run")))
     lammps(f"comm_modify vel yes\nnewton off\nread_restart half\n{rest}\nrun 20\n{dump}")
     np.testing.assert_array_equal(lammps.dumped(), whole)
 
