@@ -121,7 +121,7 @@ def test_ranks_and_restarts_go_on_with_what_dashpots_took(lammps):
     pressed = re.sub("displace_atoms.*\n", "", pressed)  # it is another on two ranks
     dump = "dump 1 all custom 1 out.txt x y z vx vy vz omegax omegay omegaz\n"
     dump += "dump_modify 1 sort id format float %.17g\nrun 0\n"
-    kick = "variable u atom 3e-3*sin(700*x+300*y+100*z)\nvelocity all set v_u v_u v_u\n"
+    kick = "variable u atom 3e-3*sin(2*PI*(2*x/lx+y/ly+3*z/lz))\nvelocity all set v_u v_u v_u\n"
     hold = f"{pressed}unfix 2\n{kick}run 20\nwrite_restart half noinit\nrun 20\n{dump}"
     lammps(hold)
     whole = lammps.dumped()
