@@ -75,7 +75,8 @@ def solved(inputs: dict[str, object], pair: carom.Pair) -> dict[str, object] | N
         bends = pair.gives_way(hit.scales) and row["wave_ratio"] > LONG_WAVE
         if late or not bends or row["size"] > SMALL:
             return None
-    exact = impact_on_layer(pair, speed, psi, thick=thick, steps=3200, springs=600)
+    duration = None if thick else hit.duration
+    exact = impact_on_layer(pair, speed, psi, duration=duration, steps=3200, springs=600)
     if exact.change > CONVERGED:
         return None
     of_waves = {"psi_out_waves": exact.psi_out, "restitution_waves": exact.restitution}

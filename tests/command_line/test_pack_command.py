@@ -112,7 +112,8 @@ def test_a_pack_that_cannot_be_finished_leaves_nothing(tmp_path, monkeypatch):
         return written(path, data)
 
     monkeypatch.setattr(Path, "write_bytes", full)
-    refused("No space left", write_pack, tmp_path / "bench")
+    with pytest.raises(OSError, match=r"^\[Errno 28\] folder: .*cannot be written; No space left"):
+        write_pack(tmp_path / "bench")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -66,9 +66,10 @@ PAGE_STATES = {  # what decides, and what is said of it
         *("FAILS", "a_max/R*", "what it strikes is pressed too flat for this theory: {value}"),
     ),
     "speed=5": ("FAILS", "von Mises stress/Y", "the material yields: {value} of its strength, 1"),
-    "thickness=300&speed=0.6": ("FAILS", "bending wave/h", "so thick a plate is a wall"),
+    "thickness=40&speed=0.6": ("?", "bending wave/h", "the plate is neither thin nor a thick wall"),
+    "speed=0.6": ("?", "rms roughness/penetration", "no roughness of the surfaces is known"),
     "thickness=2&speed=20": ("FAILS", "a_max/h", "too large for the plate: {value} of its"),
-    "material=nylon&second_material=steel&speed=0.1": (
+    "material=concrete&second_material=steel&speed=0.1": (
         *("FAILS", "energy lost in the material", "always loses energy: {value} of it, 0.02"),
     ),
     "material=own": ("?", "von Mises stress/Y", "no yield strength of your material is known"),
@@ -123,7 +124,7 @@ def test_no_finding_on_random_impacts_is_told_in_letters():
         for row in verdict(view):
             assert row["plain"]
             if row["mark"] != "ok":
-                assert not set(row["plain"]) & set("ψχκ_*=µβ"), row
+                assert not set(row["plain"].replace("µm", "")) & set("ψχκ_*=µβ"), row
 
 
 def test_the_page_is_told_all_that_it_shows():

@@ -84,7 +84,14 @@ def test_a_half_space_is_behind_its_force():
 def test_the_twin_has_the_numbers_of_another_program():
     for thickness, psi, layer in LAYERS:
         one, two = (
-            impact_on_layer(on_steel(thickness, psi).pair, 0.5, psi, steps=n, springs=n // 5)
+            impact_on_layer(
+                on_steel(thickness, psi).pair,
+                0.5,
+                psi,
+                duration=on_steel(thickness, psi).duration,
+                steps=n,
+                springs=n // 5,
+            )
             for n in (1600, 3200)
         )
         assert 2.0 * two.psi_out - one.psi_out == pytest.approx(layer, abs=6e-4)
@@ -94,7 +101,7 @@ def test_the_twin_has_the_numbers_of_another_program():
 def test_waves_of_a_thick_wall_take_what_the_finding_says():
     pair = carom.Pair(BALL, carom.HalfSpace("bearing-steel"), 0.15)
     for psi, least, most in ((2.0, 0.002, 0.003), (6.0, 0.0075, 0.0085)):
-        waves = impact_on_layer(pair, 0.8, psi, thick=True, steps=3200, springs=600)
+        waves = impact_on_layer(pair, 0.8, psi, steps=3200, springs=600)
         hit = carom.impact(pair, normal_speed=0.8, tangential_speed=psi * 0.12 / pair.kappa)
         share = finding(hit, "energy of waves in the wall").value
         assert 1.0 - waves.restitution**2 == pytest.approx(share, rel=0.01)

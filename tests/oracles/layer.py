@@ -14,8 +14,6 @@ import numba
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from carom import impact
-
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 EARLY = 15.0  # until when echoes are sharp
 
@@ -140,12 +138,13 @@ def march(psi, chi, step, sinks, slides, places, width, forces):
     return psi, -speed, ended
 
 
-def impact_on_layer(pair, normal_speed, psi, *, thick=False, steps=1600, springs=300, passes=40):
-    """Return the impact of a pair whose wall is a plate, or is `thick`, at psi_1."""
+def impact_on_layer(pair, normal_speed, psi, *, duration=None, steps=1600, springs=300, passes=40):
+    """Return the impact of a pair at psi_1: on a plate, about so long in s, or on a half-space."""
     scales, stuff = pair.scales(normal_speed), pair.second.material
     shear = np.sqrt(stuff.shear_modulus / stuff.density)
     thickness = pair.thickness or scales.length
-    duration = 2.943275 if thick else impact(pair, normal_speed=normal_speed).duration / scales.time
+    thick = duration is None
+    duration = 2.943275 if thick else duration / scales.time
     unit = scales.time * shear / thickness  # of time, in that of the layer
     last = 1.15 * duration
     times = np.linspace(0.0, last, steps + 1)

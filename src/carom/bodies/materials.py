@@ -136,7 +136,7 @@ class Material(Printed):
         Of a material that hardly can be compressed, such as rubber, nu is taken as 0.49975 at most.
 
         >>> round(carom.material("steel").compressional_speed)
-        5946
+        6001
         """
         nu = minimum(self.poisson, RUBBER)
         stiffness = 2.0 * (1.0 - nu) / (1.0 - 2.0 * nu) * self.shear_modulus

@@ -140,7 +140,8 @@ class Impact(ImpactResult, InContact):
         Raises
         ------
         InputError
-            If n is out of range, the coefficient is negative or above 1 m^2/N, or positions are not finite.
+            If n is out of range, the coefficient is negative or above 1 m^2/N, or positions are not
+            finite.
 
         Examples
         --------

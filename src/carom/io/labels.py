@@ -53,7 +53,8 @@ class Validity(Printed):
     Examples
     --------
     >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
+    >>> wall = carom.HalfSpace(material="bearing steel")
+    >>> pair = carom.Pair(ball, wall, friction=0.2, roughness="30 nm")
     >>> carom.impact(pair, speed=0.1, angle="30 deg").validity.holds
     True
     >>> carom.impact(pair, speed=5.0, angle="30 deg").validity.verdict
