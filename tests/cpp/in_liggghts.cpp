@@ -14,6 +14,10 @@
 //     in_liggghts SPRINGS part COHESION
 //
 // prints that force on spheres that slide, with `part_tangential on`.
+//
+//     in_liggghts SPRINGS stiff STEP
+//
+// prints what is said, a line each, of spheres that are pressed to d = 0.3 in two such steps.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -34,7 +38,7 @@ const double modulus = 0.9375 * 0.5 * mass / std::sqrt(0.5 * radius);  // so tha
 const double duration = 2.9432751843247047;
 
 struct Impact {
-    LAMMPS lammps{{}, {0.0}, {200, 100000}};
+    LAMMPS lammps{{{}}, {0.0}, {200, 100000}};
     IContactHistorySetup setup;
     TangentialModel<TANGENTIAL_CAROM> model{&lammps, &setup, nullptr};
     double tables[3] = {modulus, 0.25 * kappa * modulus, friction};
@@ -88,7 +92,7 @@ struct Impact {
 
     double held(double slide, double rate) {
         const double depth = 0.3 * deepest;
-        lammps.update.dt = 1e-3;
+        if (!(lammps.update.dt > 0.0)) lammps.update.dt = 1e-3;
         const double limit = friction * 4.0 / 3.0 * modulus * std::sqrt(0.5 * radius) *
                              std::pow(depth, 1.5);
         Vector f{}, t{};
@@ -129,6 +133,13 @@ int main(int, char **given) try {
     }
     if (std::strcmp(given[2], "part") == 0) {
         std::printf("%.17g\n", Impact(springs, std::atof(given[3]), true).held(1e9, 0.0));
+        return 0;
+    }
+    if (std::strcmp(given[2], "stiff") == 0) {
+        Impact impact(springs, 0.0);
+        impact.lammps.update.dt = std::atof(given[3]);
+        for (int i = 0; i < 2; ++i) impact.held(0.0, 0.0);
+        for (const std::string &line : impact.lammps.error.said) std::puts(line.c_str());
         return 0;
     }
     const double cohesion = std::atof(given[4]);

@@ -14,6 +14,8 @@ namespace LAMMPS_NS {
 struct Error {
     void all(const char *, int, const char *what) { throw std::runtime_error(what); }
     void one(const char *, int, const char *what) { throw std::runtime_error(what); }
+    void warning(const char *, int, const char *what, int = 1) { said.emplace_back(what); }
+    std::vector<std::string> said;
 };
 struct Update { double dt; };
 struct Neighbor { int oneatom, pgsize; };

@@ -77,6 +77,16 @@ def test_model_refuses_other_springs_and_cohesion(model):
 
 
 @compiles
+def test_model_says_once_where_steps_are_too_long_for_the_load(model):
+    """k dt^2/m* = 0.1, with k = 2 E* a: (15/8) sqrt(d) in the units of Hertz's impact."""
+    longest = np.sqrt(0.1 / (1.875 * np.sqrt(0.3)))
+    assert model(16, "stiff", 0.99 * longest) == ""
+    (line,) = model(16, "stiff", 1.25 * longest).splitlines()
+    assert "too stiff for the timestep under its load" in line
+    assert float(line.split("give ")[1].split()[0]) == pytest.approx(0.99 / 1.25, rel=1e-3)
+
+
+@compiles
 @pytest.mark.parametrize("share", [0.0, 0.3, -0.5])
 def test_the_tangential_part_limits_friction_by_the_depth_alone(model, share):
     """Whatever cohesion or damping do to the normal force; the force stays on the tangent."""

@@ -94,9 +94,11 @@ template <> class TangentialModel<TANGENTIAL_CAROM> : public TangentialModelBase
         const bool moves = met.computeflag && met.shearupdate;
         double *memory = met.contact_history + side;
         const carom::Encounter now = encounter(met, moves ? update->dt : 1e-6 * update->dt);
+        const carom::Pair bodies = pair(met);
+        if (moves && !told) tell_stiff(bodies, met.deltan);
         carom::Action action{};
         const carom::Status status =
-            kind.advance(memory + 1, memory[0] < 0.0, moves, pair(met), now, action);
+            kind.advance(memory + 1, memory[0] < 0.0, moves, bodies, now, action);
         if (moves) memory[0] = 1.0;
         if (status != carom::Status::ok) fail(carom::message(status));
         const double normal = carom::dot(action.force, now.normal);
@@ -149,6 +151,16 @@ template <> class TangentialModel<TANGENTIAL_CAROM> : public TangentialModelBase
         return now;
     }
 
+    /// Say once where contacts are too stiff for the timestep under their load.
+    void tell_stiff(const carom::Pair &bodies, double depth) {
+        if (!carom::is_too_stiff(bodies, depth, update->dt)) return;
+        told = true;
+        const std::string longest = std::to_string(0.99 * carom::longest_step(bodies, depth) / update->dt);
+        error->warning(FLERR, ("tangential carom: a contact is too stiff for the timestep under its load, "
+                               "the motion may gain energy; give " + longest + " of it or less (said once)")
+                                  .c_str());
+    }
+
     static double about(const double *spin, const SurfacesIntersectData &met) {
         return spin[0] * met.en[0] + spin[1] * met.en[1] + spin[2] * met.en[2];
     }
@@ -166,7 +178,7 @@ template <> class TangentialModel<TANGENTIAL_CAROM> : public TangentialModelBase
     }
 
     double springs = 16.0;
-    bool part_tangential = false;
+    bool part_tangential = false, told = false;
     CaromKind kind{};
     int side = 0;  ///< place in the history: 1, or -1 if it was the other sphere's; then the contact
     double **modulus = nullptr, **shear_modulus = nullptr, **friction = nullptr;
