@@ -125,6 +125,7 @@ inline Ends<T> ends_of(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& 
     return end;
 }
 
+/// Find what all springs share in a step.
 template <class T, int N, class Real, unsigned P>
 inline void look(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& pair,
                  const MotionOf<T>& m, Now<T>& now) {
