@@ -1,7 +1,6 @@
 """A disk that is full: one line and exit code 1, whatever is written, and no half of it is left."""
 
 import os
-import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -53,19 +52,20 @@ WRITES = {  # commands, and the names of what they write
     "pack": ["verify", "pack", "pack"],
     "examples": ["lammps", "examples", "inputs"],
 }
-MAIN = "import sys; from carom.cli import run; sys.argv[1:1] = []; run()"
+MAIN = f"""import resource, sys
+resource.setrlimit(resource.RLIMIT_FSIZE, ({ROOM}, {ROOM}))
+from carom.cli import run
+sys.argv[1:1] = []
+run()
+"""
 
 
 def full(folder, *arguments):
     """Run a command whose files may have no more than so many bytes."""
-
-    def limit():
-        resource.setrlimit(resource.RLIMIT_FSIZE, (ROOM, ROOM))
-
     environment = {**os.environ, "MPLCONFIGDIR": str(folder.parent), "PYTHONDONTWRITEBYTECODE": "1"}
     command = [sys.executable, "-c", MAIN, *arguments]
     entries = {"cwd": folder, "env": environment, "capture_output": True, "text": True}
-    return subprocess.run(command, preexec_fn=limit, timeout=120, **entries)
+    return subprocess.run(command, timeout=120, **entries)
 
 
 @pytest.mark.slow

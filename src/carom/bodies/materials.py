@@ -7,7 +7,6 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any, TypeVar, cast
 
-from carom.quantities.arrays import minimum, sqrt
 from carom.quantities.glossary import listed
 from carom.quantities.prefixes import Printed
 from carom.quantities.refusals import (
@@ -138,6 +137,8 @@ class Material(Printed):
         >>> round(carom.material("steel").compressional_speed)
         6001
         """
+        from carom.quantities.arrays import minimum, sqrt  # by numpy, which start-up does without
+
         nu = minimum(self.poisson, RUBBER)
         stiffness = 2.0 * (1.0 - nu) / (1.0 - 2.0 * nu) * self.shear_modulus
         return sqrt(stiffness / cast(float, self.density))
