@@ -6,7 +6,8 @@ import carom
 
 HERE = Path(__file__).parent
 BALL = carom.Sphere(radius="5 mm", material="bearing-steel")
-PAIR = carom.Pair(BALL, carom.HalfSpace(material="bearing-steel"), friction=0.2)
+WALL = carom.HalfSpace(material="bearing-steel")
+PAIR = carom.Pair(BALL, WALL, friction=0.2, roughness="30 nm")
 
 
 def main(folder: str | Path = HERE) -> Path:
