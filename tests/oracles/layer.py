@@ -149,20 +149,24 @@ def impact_on_layer(pair, normal_speed, psi, *, duration=None, steps=1600, sprin
     last = 1.15 * duration
     times = np.linspace(0.0, last, steps + 1)
     step = times[1]
+
     size = scales.force / (stuff.shear_modulus * thickness * scales.length)
     sizes = np.array([size, 1.5 * pair.kappa * size])
     beta = np.array(half_space(stuff.poisson))
+
     answer = np.zeros((2, steps + 1))
     if not thick:  # a few lengths of time serve all thicknesses
         longest = 16.0 * 1.5 ** max(0.0, np.ceil(np.log(last * unit / 16.0) / np.log(1.5)))
         for i, ramp in enumerate(ramps(stuff.poisson, longest)):
             answer[i] = ramp(times * unit) / (step * unit)
     kernels = np.diff(np.concatenate([np.zeros((2, 1)), answer], axis=1), axis=1)
+
     places, width = (np.arange(springs) + 0.5) * 1.02 / springs, 1.02 / springs
     sinks, forces = np.zeros((2, steps + 1)), np.zeros((2, steps + 1))
     history = []
     length = 2 * (steps + 1)
     transformed = np.fft.rfft(kernels, length, axis=1)
+
     for _ in range(passes):
         out = march(psi, pair.chi, step, sinks[0], sinks[1], places, width, forces)
         history.append(out)
@@ -173,6 +177,7 @@ def impact_on_layer(pair, normal_speed, psi, *, duration=None, steps=1600, sprin
         sinks = 0.5 * (sinks + following) if len(history) > 1 else following
         if len(history) > 3 and abs(history[-1][0] - history[-2][0]) < 1e-6:
             break
+
     psi_out, e, duration = history[-1]
     return Layered(psi_out, e, duration * scales.time, abs(history[-1][0] - history[-2][0]))
 
