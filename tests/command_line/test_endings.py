@@ -158,6 +158,21 @@ sys.addaudithook(hook)
     assert left(there) == ["sweep.toml"]
 
 
+def test_a_signal_while_a_task_is_awaited_says_nothing_of_the_task(there, command):
+    """zarr writes by tasks of asyncio, which tells of each that does not come to its end."""
+    program = """
+import asyncio, os, signal
+from carom.cli.options import Once
+def interrupted(*given):
+    loop = asyncio.new_event_loop()
+    loop.create_task(asyncio.sleep(9.0))
+    loop.call_soon(os.kill, os.getpid(), signal.SIGTERM)
+    loop.run_forever()
+Once._parsed = interrupted
+"""
+    assert command(there, "materials", before=program) == (143, "", "")
+
+
 @pytest.mark.slow
 def test_ctrl_c_in_sampling_is_told_in_one_line(there, command):
     """The sampler would print what was interrupted, with a traceback, among the results."""

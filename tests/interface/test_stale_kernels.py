@@ -53,6 +53,8 @@ def asked(package, program=ASK, **more):
 
 
 def edit(package, before, after):
+    """Replace a text by one of another length: Python's own bytecode knows a second and a size."""
+    assert len(before) != len(after)
     file = package / "dimensionless/numerics/called.py"
     assert before in file.read_text()
     file.write_text(file.read_text().replace(before, after))
@@ -70,12 +72,12 @@ def test_an_edit_of_what_a_kernel_uses_gives_new_numbers(copy, tmp_path, told):
     where = {"NUMBA_CACHE_DIR": str(place)} if told else {}
     assert asked(copy, **where) == "10.0"
     (first,) = kept(place)
-    edit(copy, "FACTOR = 2.0", "FACTOR = 3.0")
+    edit(copy, "FACTOR = 2.0", "FACTOR = 3.00")
     assert asked(copy, **where) == "15.0"
-    edit(copy, "x + 1.0", "x + 2.0")
+    edit(copy, "x + 1.0", "x + 2.00")
     assert asked(copy, **where) == "18.0"
-    edit(copy, "FACTOR = 3.0", "FACTOR = 2.0")
-    edit(copy, "x + 2.0", "x + 1.0")
+    edit(copy, "FACTOR = 3.00", "FACTOR = 2.0")
+    edit(copy, "x + 2.00", "x + 1.0")
     assert asked(copy, **where) == "10.0"
     assert first in kept(place)
     assert all(name.startswith(KEPT) for name in kept(place))
@@ -90,7 +92,7 @@ from carom.dimensionless.numerics.calls import answer
 from carom.dimensionless.numerics import jit, kernels
 file = kernels.__file__.replace("kernels.py", "called.py")
 text = open(file).read()
-open(file, "w").write(text.replace("FACTOR = 2.0", "FACTOR = 3.0"))
+open(file, "w").write(text.replace("FACTOR = 2.0", "FACTOR = 3.00"))
 print(answer(4.0), jit.waiting.unkept)
 """
     assert asked(copy, program) == f"10.0 {EDITED}"

@@ -107,6 +107,7 @@ def _quieten() -> None:
     import logging
 
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # of its folders and its fonts
+    logging.getLogger("asyncio").setLevel(logging.CRITICAL)  # of what an end has left unfinished
     if sys.warnoptions:  # somebody looks for them
         return
     warnings.filterwarnings("ignore")
