@@ -41,7 +41,8 @@ def test_no_packing_gains_energy(plugin, first):
     assert len(pressed) >= 4
     for row in pressed:
         assert float(row["gained"]) < 0.02, row
-        assert not row["told"], row
+        # a sphere of a bed that rolls off strikes deeper than any that rests
+        assert not row["told"] or row["what"] == "bed", row
 
 
 def in_a_press(restitution):

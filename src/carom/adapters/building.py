@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from carom.io.paths import FULL, Unwritten, unwritten
 from carom.quantities.refusals import InputError, refusal
 
 HERE = Path(__file__).parent
@@ -59,9 +60,19 @@ def carry_out(
                 os.killpg(running.pid, signal.SIGKILL)
             raise
     if running.returncode:
-        first = next((i for i, line in enumerate(output) if FAILURE.search(line)), 0)
-        complaint = "".join(output[first:]).strip()[:LONGEST_COMPLAINT]
-        raise InputError(f"{command}: the compiler failed: {complaint}")
+        raise _failure(command, output)
+
+
+def _failure(command: str, output: Sequence[str]) -> Unwritten | InputError:
+    """Return the error for what a compiler says: a full disk is no bad input."""
+    first = next((i for i, line in enumerate(output) if FAILURE.search(line)), 0)
+    complaint = "".join(output[first:]).strip()
+    words = f"{command}: the compiler failed: {complaint[:LONGEST_COMPLAINT]}"
+
+    for code in FULL:
+        if os.strerror(code) in complaint:
+            return Unwritten(code, words)
+    return InputError(words)
 
 
 def check_folder(folder: Path) -> None:
@@ -74,7 +85,7 @@ def check_folder(folder: Path) -> None:
 
 
 def place(made: Path, target: Path) -> None:
-    """Put what was made into its place, whole, or raise InputError."""
+    """Put what was made into its place, whole; raises Unwritten on a full disk, else InputError."""
     copied = target.with_name(target.name + ".new")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -83,7 +94,9 @@ def place(made: Path, target: Path) -> None:
     except OSError as error:
         with contextlib.suppress(OSError):
             copied.unlink()
-        raise _unwritable(target.parent, str(error.strerror)) from error
+        why = str(error.strerror)
+        full = unwritten(error, f"folder: {str(target.parent)!r} cannot be written; {why}")
+        raise full or _unwritable(target.parent, why) from error
 
 
 def _unwritable(folder: Path, why: str) -> InputError:

@@ -152,17 +152,18 @@ void PairCarom::meet(Meetings &met) {
         const carom::Bodies one = spheres.in_lanes(met.one + k);
         const carom::Bodies other = spheres.in_lanes(met.other + k);
         const auto share = Wide::each([&](int lane) { return known_of(k + lane).share; });
-        const carom::Encounters seen = carom::encounter(one, other, dt, share);
-        batch.meetings[k / carom::lanes] = seen;
+        const auto modulus = Wide::each([&](int lane) { return known_of(k + lane).pair.modulus; });
+        carom::Encounters &meeting = batch.meetings[k / carom::lanes];
+        meeting = carom::encounter(one, other, dt, share);
 
         const Wide::Type radius = one.radius * other.radius / (one.radius + other.radius);
         const Wide::Type first = spheres.masses(met.one + k), second = spheres.masses(met.other + k);
         const Wide::Type mass = first * second / (first + second);
-        const auto modulus = Wide::each([&](int lane) { return known_of(k + lane).pair.modulus; });
-        is_stiff = is_stiff || carom::is_too_stiff(modulus, radius, mass, seen.penetration, dt);
+        is_stiff = is_stiff || carom::is_too_stiff(modulus, radius, mass, meeting.penetration, dt);
         radii[k / carom::lanes] = radius;
         weights[k / carom::lanes] = mass;
     }
+
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
         double *memory = batch.memories[k];

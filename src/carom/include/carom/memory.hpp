@@ -66,12 +66,12 @@ constexpr double lever = 3.5;  // m*/m_t of solid spheres, which turn, too
 
 /// Return what dashpots take of velocities in half a step, over those at its end, in compression and
 /// in shear: k tau dt/(2 m*) at this radius of the contact.
-template <class T> T damping_of(const PairOf<T>& pair, const T& radius, const T& step) {
-    return pair.modulus * radius * step / pair.mass * pair.retardation;
+template <class T> T damping_of(const PairOf<T>& pair, const T& radius, const T& per_force) {
+    return pair.modulus * radius * per_force * pair.retardation;
 }
-template <class T> T shear_damping_of(const PairOf<T>& pair, const T& radius, const T& step) {
+template <class T> T shear_damping_of(const PairOf<T>& pair, const T& radius, const T& per_force) {
     const T modulus = pair.stiffness_ratio * pair.modulus;
-    return lever * modulus * radius * step / pair.mass * pair.shear_retardation;
+    return lever * modulus * radius * per_force * pair.shear_retardation;
 }
 
 /// Return a number that Real can hold.
@@ -103,8 +103,9 @@ inline void begin(Contact<N, Real, P>& c, const PairOf<double>& pair, const Moti
         c.slide_x = static_cast<Real>(m.slide_x);
         c.slide_y = static_cast<Real>(m.slide_y);
         const double width = std::sqrt(before * pair.radius);
-        const double damping = damping_of(pair, width, m.step);
-        const double shear_damping = shear_damping_of(pair, width, m.step);
+        const double per_force = m.step / pair.mass;
+        const double damping = damping_of(pair, width, per_force);
+        const double shear_damping = shear_damping_of(pair, width, per_force);
         c.damped = static_cast<Real>(held<Real>(damping * m.approach));
         c.damped_x = static_cast<Real>(held<Real>(shear_damping * m.slide_x));
         c.damped_y = static_cast<Real>(held<Real>(shear_damping * m.slide_y));

@@ -69,12 +69,21 @@ template <class T> struct Ends {
 /// is below 4: among equal spheres, closely packed, up to k dt^2/m* = 0.1 from 12 on.
 constexpr double crowd = 16.0;
 
-/// Return S, by how much more than the contact's own dashpot all of them slow its bodies: 1 if nothing
-/// else acts on these, more where others do. Squares of velocities: gained by the forces of others and
-/// by its own in half a step, and those by which to tell them from rounding.
-template <class T> inline T crowding(const T& by_others, const T& by_own, const T& speed) {
-    const T share = by_others / (by_others + by_own + 1e-12 * speed + 1e-300);
-    return 1.0 + (crowd - 1.0) * smaller(4.0 * share, T{} + 1.0);
+/// What is left of a velocity to which dashpots are applied, and of what they took a step ago.
+template <class T> struct Braking {
+    T left, again;
+};
+
+/// Return 1/(1 + S g) and S/(1 + S g). S is by how much more than the contact's own dashpot all of
+/// them slow its bodies: 1 if nothing else acts on these, more where others do. It is told by squares
+/// of velocities: gained by the forces of others and by its own in half a step, and those themselves,
+/// of which both are rounding if they are so small.
+template <class T>
+inline Braking<T> brake(const T& by_others, const T& by_own, const T& speed, const T& damping) {
+    const T all = by_others + by_own + 1e-12 * speed + 1e-300;
+    const T crowded = all + (crowd - 1.0) * smaller(4.0 * by_others, all);  // S times as much
+    const T whole = 1.0 / (all + crowded * damping);
+    return {whole * all, whole * crowded};
 }
 
 /// Return velocities at the end of a step, for a contact of this radius.
@@ -92,7 +101,7 @@ inline Ends<T> ends_of(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& 
                        const MotionOf<T>& m, const T& radius) {
     using Kind = Contact<N, Real, P>;
     const auto square = [](const T& each) { return each * each; };
-    const T half = 0.5 * m.step / pair.mass;
+    const T per_force = m.step / pair.mass, half = 0.5 * per_force;
 
     // gained in half a step: in all, and by this contact
     const T approach = 0.5 * (m.approach - row.get(&Kind::approach));
@@ -101,20 +110,18 @@ inline Ends<T> ends_of(const Row<T, Contact<N, Real, P>>& row, const PairOf<T>& 
     const T own = half * row.get(&Kind::normal);
     const T own_x = lever * half * row.get(&Kind::shear_x);
     const T own_y = lever * half * row.get(&Kind::shear_y);
-    const T crowded = crowding(square(approach + own), square(own), square(m.approach));
-    const T crowded_aside =
-        crowding(square(slide_x + own_x) + square(slide_y + own_y), square(own_x) + square(own_y),
-                 square(m.slide_x) + square(m.slide_y));
 
-    const T damping = damping_of(pair, radius, m.step);
-    const T damping_aside = shear_damping_of(pair, radius, m.step);
-    const T less = 1.0 / (1.0 + crowded * damping);
-    const T less_aside = 1.0 / (1.0 + crowded_aside * damping_aside);
+    const T damping = damping_of(pair, radius, per_force);
+    const T damping_aside = shear_damping_of(pair, radius, per_force);
+    const Braking<T> along = brake(square(approach + own), square(own), square(m.approach), damping);
+    const Braking<T> aside =
+        brake(square(slide_x + own_x) + square(slide_y + own_y), square(own_x) + square(own_y),
+              square(m.slide_x) + square(m.slide_y), damping_aside);
 
     Ends<T> end;
-    end.approach = less * (m.approach + approach + crowded * row.get(&Kind::damped));
-    end.slide_x = less_aside * (m.slide_x + slide_x + crowded_aside * row.get(&Kind::damped_x));
-    end.slide_y = less_aside * (m.slide_y + slide_y + crowded_aside * row.get(&Kind::damped_y));
+    end.approach = along.left * (m.approach + approach) + along.again * row.get(&Kind::damped);
+    end.slide_x = aside.left * (m.slide_x + slide_x) + aside.again * row.get(&Kind::damped_x);
+    end.slide_y = aside.left * (m.slide_y + slide_y) + aside.again * row.get(&Kind::damped_y);
 
     row.keep(&Kind::damped, damping * end.approach);
     row.keep(&Kind::damped_x, damping_aside * end.slide_x);
