@@ -314,6 +314,61 @@ def test_the_bound_on_the_rebound():
     assert [judged(mu).holds for mu in (below, above)] == [True, None]
 
 
+def test_only_like_bodies_that_meet_head_on_do_not_slip():
+    words = "like bodies that meet head-on do not slip"
+    unlike = coupled(0.05)
+    for material, ball, told in (
+        (STEEL, BALL, True),
+        (unlike.second.material, unlike.first, False),
+    ):
+        finding = validity._rebound(oblique(0.0, wall=material, ball=ball))
+        assert (finding.verdict == words) == told
+
+
+@pytest.mark.parametrize("waves_are_more", [True, False])
+def test_what_is_more_is_told_of_the_bound(waves_are_more):
+    """Waves of the wall at 30 m/s; unlike materials at 0.01 m/s."""
+    unlike = coupled(0.3)
+    hit = (
+        oblique(1.2, speed=30.0)
+        if waves_are_more
+        else oblique(1.2, wall=unlike.second.material, ball=unlike.first)
+    )
+    words = validity._rebound(hit).verdict
+    assert ("to which waves add" in words) == waves_are_more
+    assert ("as the materials are unlike" in words) != waves_are_more
+
+
+def test_the_bound_on_a_plate_that_is_neither_thin_nor_thick():
+    """Waves of twice the contact time are six times as long as the plate is thick."""
+
+    def hit(thickness):
+        pair = carom.Pair(BALL, carom.HalfSpace(STEEL, thickness=thickness), 0.2)
+        return carom.impact(pair, normal_speed=0.5, tangential_speed=0.1)
+
+    def ratio(thickness):
+        impact = hit(thickness)
+        return plate_findings.wave_ratio(impact, impact.pair.second)
+
+    thick, thin = made(0.03, 0.002, ratio, 6.0)
+    assert np.isnan(validity._rebound(hit(thick)).value)
+    assert "neither thin nor a thick wall" in validity._rebound(hit(thick)).verdict
+    assert np.isfinite(validity._rebound(hit(thin)).value)
+
+
+@pytest.mark.parametrize(
+    ("friction", "aside", "studied"), [(0.2, 0.0, True), (0.2, 1e-3, False), (0.0, 1e-3, True)]
+)
+def test_other_solids_were_compared_in_central_impacts(friction, aside, studied):
+    body = carom.Body(
+        mass=0.01, inertia=1e-6, contact=(aside, -0.005), curvature_radius="5 mm", material=STEEL
+    )
+    pair = carom.Pair(body, carom.HalfSpace(STEEL), friction)
+    losses = carom.KelvinVoigt(restitution=0.9)
+    hit = carom.impact(pair, normal_speed=0.1, tangential_speed=0.05, losses=losses)
+    assert ("off their centre" in validity._solid(hit).verdict) != studied
+
+
 def test_the_bound_on_spin_about_the_normal():
     def judged(spin):
         return validity._spin(oblique(1.2, normal_spin=spin))
