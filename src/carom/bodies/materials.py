@@ -114,7 +114,7 @@ class Material(Printed):
         strengths = (yield_strength, tensile_strength, fracture_toughness, flaw_size)
         others = (density, *strengths, hardness, surface_energy, loss_factor)
         with Faults() as faults:
-            read = {"young": faults.trying(_stiffness, young)}
+            read: dict[str, float | None] = {"young": faults.trying(_stiffness, young)}
             read["poisson"] = faults.trying(_lateral, poisson)
             for key, value in zip(VALUES[2:], others, strict=True):
                 check = not_negative if key in VALUES[-2:] else positive

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.io.version import __version__
-from carom.old_names import with_old_fields
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import Printed
 
@@ -26,7 +25,6 @@ MARKS = {True: "ok   ", False: "FAILS", None: "?    "}  # of an assumption
 VERDICTS = {True: "holds", False: "fails", None: "not judged"}  # of all of them
 
 
-@with_old_fields
 class Finding(NamedTuple):
     """A number that tells if the theory holds: name, value, limit, verdict, what is missing."""
 

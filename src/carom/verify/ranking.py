@@ -13,7 +13,6 @@ from carom.dem.damping import damped_restitution
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
-from carom.old_names import with_old_fields
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import known_keywords
@@ -71,7 +70,6 @@ class Standing(NamedTuple):
         }
 
 
-@with_old_fields
 @dataclass(frozen=True)
 class Ranking(Result):
     """Contact laws by their largest error in psi_2 at all `psi`, the best first; made by `rank`.

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import tan
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -297,7 +297,7 @@ def setting_of(
     if case is None:
         return _without_bodies(chi, kappa, start, stop, restitution)
     motion = motion_of(case)
-    speeds = {name: motion.get(name) for name in SPEEDS}
+    speeds: dict[str, Any] = {name: motion.get(name) for name in SPEEDS}
     moves = any(value is not None for value in speeds.values())
     with Faults() as faults:
         words = "it follows from the case; leave it out"
@@ -334,7 +334,7 @@ def _without_bodies(
         last = faults.if_given(finite, "psi_in", stop)
         if chi is None:
             faults.add("case: missing; give a case file, or --chi, e.g. --chi 1.44")
-        ratio = faults.if_given(positive, "chi", chi)
+        ratio = cast(float, faults.if_given(positive, "chi", chi))  # or its lack is told
     return Setting(ratio, own, _range(first, 4.0 * ratio if last is None else last, start, stop))
 
 
