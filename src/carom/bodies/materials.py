@@ -4,9 +4,9 @@ import math
 import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
 from typing import Any, TypeVar, cast
 
+from carom.folder import DATA
 from carom.quantities.glossary import listed
 from carom.quantities.prefixes import Printed
 from carom.quantities.refusals import (
@@ -209,7 +209,7 @@ def _stiffness(young: Any) -> float:
 
 @lru_cache(maxsize=1)
 def _catalogue() -> dict[str, dict[str, Any]]:
-    text = files("carom").joinpath("data/materials.toml").read_text(encoding="utf-8")
+    text = (DATA / "materials.toml").read_text(encoding="utf-8")
     catalogue: dict[str, dict[str, Any]] = tomllib.loads(text)
     return catalogue
 
