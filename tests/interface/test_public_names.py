@@ -184,3 +184,14 @@ def test_a_group_leaves_no_name_elsewhere(group, monkeypatch):
         monkeypatch.delitem(vars(place), name, raising=False)
     assert getattr(home, name)
     assert name not in vars(carom)
+
+
+def test_the_package_does_not_fetch_its_own_names_lazily():
+    """What `from carom import dem` leads to import-linter does not see; commands are above all."""
+    package = Path(carom.__file__).parent
+    files = [path for path in package.rglob("*.py") if "cli" not in path.parts]
+    lazy = [
+        path for path in files if re.search(r"(?m)^ *(from carom )?import carom$", path.read_text())
+    ]
+    lazy += [path for path in files if re.search(r"(?m)^ *from carom import ", path.read_text())]
+    assert not lazy

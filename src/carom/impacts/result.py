@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.outcome import PAIR, InTime, Outcome, history_columns
 from carom.impacts.sequences import SIGNS
@@ -256,7 +255,9 @@ class ImpactResult(Outcome, Result):
         return labelled(columns, self.scalars(), self.phases, self.inputs(), angles)
 
     def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
-        return plots.plot_impact(dataset, **look)
+        from carom.plots.impact import plot_impact
+
+        return plot_impact(dataset, **look)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, texts and lists, for JSON; NaN becomes None.
@@ -311,9 +312,11 @@ class ImpactResult(Outcome, Result):
         ...     hit.animate(f"{folder}/hit.gif", frames=2).name
         'hit.gif'
         """
+        from carom.plots.animation import animate
+
         count = counted("frames", frames, 1, MOST_FRAMES)
         times = (np.arange(count) + 0.5) / count * self.duration
-        return plots.animate(self.history(), Film(self._picture, times), path, progress)
+        return animate(self.history(), Film(self._picture, times), path, progress)
 
     def inputs(self) -> dict[str, Any]:
         """Return what the impact was made from, as plain numbers and words."""

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom import plots
 from carom.dem.base import ContactLaw
 from carom.dem.damping import damped_restitution
 from carom.io.citations import IMPACT, bibtex
@@ -132,7 +131,9 @@ class Ranking(Result):
         return bibtex(*IMPACT)
 
     def _draw(self, dataset: "xr.Dataset", **look: Any) -> "Figure":
-        return plots.plot_laws(dataset, **look)
+        from carom.plots.laws import plot_laws
+
+        return plot_laws(dataset, **look)
 
     def to_dataset(self) -> "xr.Dataset":
         """Return psi_2 of each law and of the exact impact, and all errors, as one dataset.

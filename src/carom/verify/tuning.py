@@ -8,13 +8,20 @@ from typing import Any, NamedTuple, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom import dem
 from carom.bodies.cases import Case, losses_of, motion_of, pair_of
 from carom.bodies.checks import with_friction
 from carom.bodies.kinematics import approach, slope
 from carom.bodies.pairs import Pair
 from carom.dem.base import ContactLaw, Law
 from carom.dem.damping import damped_restitution
+from carom.dem.hard import HardSphere
+from carom.dem.springs import (
+    HertzLinearHistory,
+    LammpsMindlin,
+    LinearSpring,
+    StrongeLaw,
+    WaltonBraunLaw,
+)
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.io.progress import Progress, advancing
 from carom.plots.result import card
@@ -29,12 +36,12 @@ from carom.verify.tables import text_table
 AnyLaw = TypeVar("AnyLaw", bound=Law)
 
 FREE = {  # the parameter that can be chosen, and its range; of a stiffness_ratio in units of kappa
-    dem.LinearSpring: ("stiffness_ratio", 0.05, 2.5),
-    dem.StrongeLaw: ("stiffness_ratio", 0.05, 2.5),
-    dem.HertzLinearHistory: ("stiffness", 0.05, 2.5),
-    dem.LammpsMindlin: ("stiffness", 0.05, 2.5),
-    dem.WaltonBraunLaw: ("stiffness_ratio", 0.05, 2.5),
-    dem.HardSphere: ("tangential_restitution", -1.0, 1.0),
+    LinearSpring: ("stiffness_ratio", 0.05, 2.5),
+    StrongeLaw: ("stiffness_ratio", 0.05, 2.5),
+    HertzLinearHistory: ("stiffness", 0.05, 2.5),
+    LammpsMindlin: ("stiffness", 0.05, 2.5),
+    WaltonBraunLaw: ("stiffness_ratio", 0.05, 2.5),
+    HardSphere: ("tangential_restitution", -1.0, 1.0),
 }
 TUNED: tuple[Law, ...] = tuple(  # of each kind the first in the catalogue
     entry.law

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom import plots
 from carom.dimensionless.rebounds import regime_borders
 from carom.impacts.curves import curve
 from carom.io.citations import IMPACT, bibtex
@@ -189,7 +188,9 @@ class Score(Result):
         return self.forces.to_dataset().merge(whole).assign_attrs(whole.attrs)
 
     def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
-        return plots.plot_score(dataset, **look)
+        from carom.plots.scores import plot_score
+
+        return plot_score(dataset, **look)
 
 
 def verdict(score: Score) -> str:
