@@ -162,7 +162,6 @@ def test_names_are_where_users_import_them():
         ("carom.plot_curve", "it is carom.plots.plot_curve"),
         ("carom.dem.Reboundlaw", "did you mean carom.laws.ReboundLaw?"),
         ("carom.dem.ReboundLaw", "it is carom.laws.ReboundLaw"),
-        ("carom.dem.MemoryLaw", "it is carom.dem.ExactContactLaw"),
         ("carom.datasets.laod", "did you mean carom.datasets.load?"),
         ("carom.classical.cattaneo", "did you mean carom.classical.cattaneo_mindlin?"),
         ("carom.results.Sphere", "it is carom.Sphere"),
