@@ -14,16 +14,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.states import Phase, SlipAngle
+from carom.impacts.histories import labelled, phases_at
 from carom.impacts.outcome import PAIR, InTime, Outcome, history_columns
 from carom.impacts.sequences import SIGNS
 from carom.impacts.spectrum import read_frequencies, spectrum_dataset
-from carom.io.labels import MARKS, Finding, Validity, labelled, phases_at
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY, listed
 from carom.quantities.prefixes import column, text
 from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import Value, counted, number, or_none
+from carom.quantities.verdicts import MARKS, Finding, Validity
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -12,9 +12,10 @@ import numpy as np
 from carom.dimensionless.rebounds import regime_borders
 from carom.impacts.curves import curve
 from carom.io.citations import IMPACT, bibtex
-from carom.io.labels import MARKS, Finding, flags, labelled_dataset, pure
+from carom.io.labels import flags, labelled_dataset, pure
 from carom.plots.result import Result, card
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.verdicts import MARKS, Finding
 from carom.verify.errors import losses_of
 from carom.verify.scoring.histories import Forces
 from carom.verify.scoring.origins import Origins
