@@ -9,7 +9,7 @@ from math import isfinite, isnan
 from carom.bodies.losses import ZENER, LossLaw, ZenerPlate
 from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
-from carom.dem.base import SOLID
+from carom.dimensionless.law import SOLID
 from carom.dimensionless.solution import solve
 from carom.dimensionless.states import History
 from carom.explorer.views import OWN, PAGE, Refused, View, in_words

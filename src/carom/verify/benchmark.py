@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
-from carom.dem.base import ContactLaw, Law
+from carom.dem.base import ContactLaw
 from carom.dem.function import steel_on_steel
+from carom.dimensionless.law import Law
 from carom.io.progress import Progress, advancing
 from carom.io.user_table import CASE
 from carom.quantities.arrays import finite_line

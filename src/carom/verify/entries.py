@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields
 from typing import Any, NamedTuple
 
-from carom.dem.base import Law
 from carom.dem.function import FunctionLaw
 from carom.dem.hard import HardSphere
 from carom.dem.memory import ExactContactLaw
@@ -19,6 +18,7 @@ from carom.dem.springs import (
     WaltonBraunLaw,
     YadeMindlin,
 )
+from carom.dimensionless.law import Law
 from carom.quantities.refusals import nearest, refusal, refuse
 
 LawOrFunction = Law | Callable[..., Any]  # the latter as a `FunctionLaw` takes it

@@ -12,7 +12,7 @@ from carom.bodies.cases import Case, losses_of, motion_of, pair_of
 from carom.bodies.checks import with_friction
 from carom.bodies.kinematics import approach, slope
 from carom.bodies.pairs import Pair
-from carom.dem.base import ContactLaw, Law
+from carom.dem.base import ContactLaw
 from carom.dem.damping import damped_restitution
 from carom.dem.hard import HardSphere
 from carom.dem.springs import (
@@ -22,6 +22,7 @@ from carom.dem.springs import (
     StrongeLaw,
     WaltonBraunLaw,
 )
+from carom.dimensionless.law import Law
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.io.progress import Progress, advancing
 from carom.plots.result import card
