@@ -4,7 +4,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.datasets.observables import OBSERVABLES
+from carom.bodies.observables import OBSERVABLES
 from carom.folder import DATA
 from carom.io.labels import attributes, labelled_dataset
 from carom.io.tables import read_table

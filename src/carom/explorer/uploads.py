@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from carom.bodies.observables import INCIDENCE, OBSERVABLES
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
 from carom.datasets import shipped
-from carom.datasets.observables import INCIDENCE, OBSERVABLES
 from carom.explorer.columns import lists, plain_words, taken
 from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View, in_words

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from carom.bodies.cases import Case, motion_of, pair_of
 from carom.bodies.checks import checked_pair
-from carom.datasets.observables import convert_observables
+from carom.bodies.observables import convert_observables
 from carom.dimensionless.law import Law
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.bodies.kinematics import Tangential, by_angle, components, inertia
+from carom.bodies.observables import FASTEST, SLOWEST
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.datasets.observables import FASTEST, SLOWEST
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import InputError
 from carom.quantities.verdicts import Finding
