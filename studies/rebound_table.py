@@ -7,7 +7,6 @@ python studies/rebound_table.py --check      how far it is from the solver, by r
 import argparse
 import sys
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +23,7 @@ from carom.dimensionless.rebound_tables import (
 )
 from carom.io.progress import advancing
 
-FILE = Path(carom.__file__).parent / STORED
+FILE = STORED
 DEGREES, TOLERANCE, SOLVED = (6, 6, 8), 2e-6, 1e-8
 FADING, POWER = 1.5, 6  # chi beyond which errors may grow, and how: curves have more kinks there
 # Largest errors in psi_2 that are allowed between these chi and the next.

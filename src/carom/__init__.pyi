@@ -18,12 +18,12 @@ from .bodies.losses import (
     ZenerPlate as ZenerPlate,
 )
 from .bodies.materials import Material as Material, material as material, materials as materials
+from .bodies.observables import convert_observables as convert_observables
 from .bodies.pairs import Pair as Pair
 from .bodies.shapes import Cup as Cup, HalfSpace as HalfSpace, Sphere as Sphere
 from .bodies.smooth_body import Body as Body
 from .collisions import collide as collide
 from .contacts.load_paths import load_path as load_path
-from .datasets.observables import convert_observables as convert_observables
 from .dimensionless.numerics.shared_library import (
     get_include as get_include,
     get_library as get_library,

@@ -7,8 +7,6 @@ from typing import Any
 
 import lazy_loader
 
-from carom.old_names import NEW_PLACES, old_value
-
 NAMES_OF_GROUPS = (
     "classical",
     "datasets",
@@ -30,17 +28,14 @@ def attach(package: str, file: str) -> tuple[Any, Any, list[str]]:
     load, __dir__, __all__ = lazy_loader.attach_stub(home, file)
 
     def __getattr__(name: str) -> Any:
-        path = f"{package}.{name}"
-        if name in __dir__():
-            value = load(name)
-            if not is_folder:
-                vars(sys.modules[home]).pop(name, None)  # where the loader has left it, too
-        elif path in NEW_PLACES:
-            value = old_value(path)
-        else:
+        if name not in __dir__():
             where = "" if name.startswith("_") else f"; {_hint(package, name)}"
             raise AttributeError(f"{package} has no {name}{where}", name=name)
-        setattr(sys.modules[package], name, value)  # one warning of an old name
+
+        value = load(name)
+        if not is_folder:
+            vars(sys.modules[home]).pop(name, None)  # where the loader has left it, too
+        setattr(sys.modules[package], name, value)
         return value
 
     return __getattr__, __dir__, __all__
@@ -52,8 +47,7 @@ def _hint(package: str, name: str) -> str:
 
     of_groups = {group: import_module(group).__all__ for group in GROUPS}
     own = {each: f"{package}.{each}" for each in of_groups[package]}
-    every = {path.rpartition(".")[2]: new for path, new in NEW_PLACES.items()}
-    every |= {each: f"{group}.{each}" for group in GROUPS for each in of_groups[group]}
+    every = {each: f"{group}.{each}" for group in GROUPS for each in of_groups[group]}
     if name in every:
         return f"it is {every[name]}"
     for places in (own, every):

@@ -8,5 +8,5 @@ from .impacts.adhesive import AdhesiveImpact as AdhesiveImpact
 from .impacts.body_impact import BodyImpact as BodyImpact
 from .impacts.boundary_elements import HalfspaceImpact as HalfspaceImpact
 from .impacts.exact import Impact as Impact
-from .io.labels import Validity as Validity
 from .laws.walton_fit import WaltonFit as WaltonFit
+from .quantities.verdicts import Validity as Validity

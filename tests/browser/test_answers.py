@@ -9,7 +9,7 @@ from tests.browser.scripts import script
 
 import carom
 from carom.bodies.losses import ZENER
-from carom.dem.base import SOLID
+from carom.dimensionless.law import SOLID
 from carom.dimensionless.rebounds import regime_borders
 from carom.explorer.views import PAGE, View
 from carom.quantities.glossary import GLOSSARY

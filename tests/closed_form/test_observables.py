@@ -9,7 +9,7 @@ from tests.oracles.rigid_bodies import followed
 import carom
 from carom import HalfSpace, Material, Pair, Sphere
 from carom.bodies.kinematics import Rebound
-from carom.datasets.observables import BEFORE, IMPULSE, NAMES, OBSERVABLES, convert_observables
+from carom.bodies.observables import BEFORE, IMPULSE, NAMES, OBSERVABLES, convert_observables
 
 STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
 RUBBER = Material(young="10 MPa", poisson=0.49, density=1100)

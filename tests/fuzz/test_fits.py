@@ -10,7 +10,7 @@ import numpy as np
 from tests.checks import is_stored, one_line
 
 import carom
-from carom.datasets.observables import OBSERVABLES, SCALED
+from carom.bodies.observables import OBSERVABLES, SCALED
 
 RATIOS = tuple(name for name in OBSERVABLES if name not in SCALED)
 

@@ -17,6 +17,7 @@ import carom
 from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.shared_library import BROWSER, BROWSER_CONTENTS, CONTENTS
 from carom.explorer import page
+from carom.folder import PACKAGE
 from carom.native import browser, building
 
 needs_library = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
@@ -209,7 +210,7 @@ def hook(tmp_path):
     module = module_from_spec(spec)
     spec.loader.exec_module(module)
     leave = shutil.ignore_patterns("__pycache__", "lib")
-    shutil.copytree(shared_library.PACKAGE, tmp_path / "src/carom", ignore=leave)
+    shutil.copytree(PACKAGE, tmp_path / "src/carom", ignore=leave)
     return module.CompiledKernels(str(tmp_path), {}, None, None, "", "wheel")
 
 
@@ -284,7 +285,7 @@ LOCKED = 'mount --bind "$0" "$0" && mount -o remount,bind,ro "$0" && exec "$@"'
 @pytest.fixture
 def read_only(tmp_path):
     """How to run Python where nobody can write into the package; without a home and a network."""
-    package = shutil.copytree(shared_library.PACKAGE, tmp_path / "of another user/carom")
+    package = shutil.copytree(PACKAGE, tmp_path / "of another user/carom")
     locked = []
     if os.geteuid() == 0:  # for whom permissions are nothing: a place mounted to be read
         locked = ["unshare", "--mount", "--net", "sh", "-c", LOCKED, str(package)]
@@ -352,7 +353,7 @@ def test_kernels_for_browsers_are_those_of_these_sources(for_browsers):
     program = "from carom.native import browser; print(*browser.source_files(), sep='\\n')"
     command = [sys.executable, "-c", program]
     ran = subprocess.run(command, capture_output=True, text=True, check=True)
-    loaded = [Path(line).relative_to(shared_library.PACKAGE) for line in ran.stdout.splitlines()]
+    loaded = [Path(line).relative_to(PACKAGE) for line in ran.stdout.splitlines()]
     needed = {path.as_posix() for path in loaded if path.parts[0] != "native"}
     assert set(contents["files"]) == needed
     described = json.loads(json.dumps(browser.described()))
@@ -390,7 +391,7 @@ def test_kernels_for_browsers_of_other_sources_are_refused(for_browsers, tmp_pat
     contents = json.loads((for_browsers / BROWSER_CONTENTS).read_text())
     for name in contents["files"]:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(shared_library.PACKAGE / name, tmp_path / name)
+        shutil.copy(PACKAGE / name, tmp_path / name)
     monkeypatch.setattr(page, "PACKAGE", tmp_path)
     assert page.kernels()
     page.kernels.cache_clear()

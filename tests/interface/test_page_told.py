@@ -16,10 +16,10 @@ from carom.explorer.overlays import law_curves, laws
 from carom.explorer.page import REGIMES, config
 from carom.explorer.views import FIELDS, LAWS, MATERIALS, NUMBERS, PAGE, View
 from carom.impacts.curves import REGIMES as LONG
-from carom.io.labels import Finding
 from carom.plots.bands import BANDS
 from carom.plots.impact import ENERGIES as IN_FIGURES, LOST
 from carom.plots.regimes import REGIMES as OF_FIGURES
+from carom.quantities.verdicts import Finding
 
 
 def test_laws_are_those_of_the_outcome_as_json_holds_them():

@@ -223,23 +223,6 @@ def test_changelog_is_in_its_form():
         assert known == sorted(set(known))
 
 
-def test_names_in_the_table_of_the_migration_are_those_that_changed():
-    """On its left, names that warn; on its right, names that are there."""
-    import carom
-    from carom.old_names import NEW_PLACES
-
-    table = re.search(r"### From 0\.2 to 0\.3\n\n(.*?)\n\n", CHANGELOG, re.DOTALL)[1]
-    rows = [row.strip("| ").split(" | ") for row in table.splitlines()[2:]]
-    assert len(rows) > 8
-    for old, new in rows:
-        for name in re.findall(r"`carom\.([\w.]+)", new):
-            place = carom
-            for part in name.split("."):
-                place = getattr(place, part)
-        names = set(re.findall(r"`(carom\.[\w.]+)", old)) - {"carom.read"}
-        assert all(name in NEW_PLACES for name in names), names
-
-
 def requirement(text):
     """Return the name of a requirement, the lowest version, and the first that is too high."""
     name, least, beyond = re.fullmatch(r"([\w.-]+)(?:>=([\d.]+))?(?:,<([\d.]+))?", text).groups()

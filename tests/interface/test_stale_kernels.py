@@ -10,8 +10,8 @@ import pytest
 
 import carom
 from carom.dimensionless.elastic import phases
-from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.jit import ABOVE, EDITED, KEPT
+from carom.folder import PACKAGE
 
 CALLS = """
 from carom.dimensionless.numerics.called import FACTOR, shifted
@@ -37,7 +37,7 @@ ASK = "from carom.dimensionless.numerics.calls import answer; print(answer(4.0))
 def copy(tmp_path):
     """A copy of the package with two modules more, of which one has a kernel that calls another."""
     leave = shutil.ignore_patterns("__pycache__", "lib")
-    package = shutil.copytree(shared_library.PACKAGE, tmp_path / "src/carom", ignore=leave)
+    package = shutil.copytree(PACKAGE, tmp_path / "src/carom", ignore=leave)
     folder = package / "dimensionless/numerics"
     (folder / "calls.py").write_text(CALLS)
     (folder / "called.py").write_text(CALLED)
@@ -110,8 +110,8 @@ def test_without_a_folder_to_write_to_kernels_are_compiled_all_the_same(copy):
 def test_no_kernel_is_in_the_folders_that_are_not_looked_at():
     """Nor do kernels know them: import-linter holds them above all folders that have some."""
     with_kernels = {
-        path.relative_to(shared_library.PACKAGE).parts[0]
-        for path in shared_library.PACKAGE.rglob("*.py")
+        path.relative_to(PACKAGE).parts[0]
+        for path in PACKAGE.rglob("*.py")
         if {"@kernel", "@entry_point()"} & set(path.read_text().splitlines())
     }
     assert with_kernels == {"collisions", "dem", "dimensionless", "laws"}

@@ -2,11 +2,9 @@
 
 import csv
 import gc
-import shutil
 import subprocess
 import sys
 import warnings
-from pathlib import Path
 
 import h5py
 import numpy as np
@@ -22,7 +20,6 @@ from carom import read, save
 from carom.io.labels import flags, labelled_dataset
 
 AWKWARD = [0.1, -0.0, 5e-324, 1.7976931348623157e308, 1 / 3, 2.5e-7, np.nan, np.inf, -np.inf]
-OLD = Path(__file__).parent / "of_version_0_2"
 
 
 def history():
@@ -248,27 +245,13 @@ def test_a_table_has_a_row_for_each_point_and_its_units(make, tmp_path):
 def test_a_table_is_read_by_others_and_refused_as_a_dataset(tmp_path):
     stored = save(history(), tmp_path / "hit.csv")
     assert stored.read_text().startswith("time [s],penetration [m],")
-    for path in (stored, OLD / "curve.csv", tmp_path / "none.csv"):
+    for path in (stored, tmp_path / "none.csv"):
         refused(r"CSV is an export; store a dataset as \.nc", read, path)
     ball = carom.Table({"speed": [1.0, 2.0], "angle": [0.1, 0.2]})
     case = {"first": {"radius": "5 mm", "material": "steel"}, "friction": 0.1}
     swept = carom.sweep(case, ball, outputs=["rebound_angle"])
     again = carom.sweep(case, carom.Table(save(swept[["speed", "angle"]], tmp_path / "s.csv")))
     assert np.array_equal(again.rebound_angle, swept.rebound_angle)
-
-
-def test_what_version_0_2_stored_is_read(tmp_path):
-    """A file of NetCDF and the store of a sweep; a table says how it is converted there."""
-    old = read(OLD / "curve.nc")
-    assert old.attrs["source"] == "carom 0.2.0"
-    assert old.equals(carom.curve(1.44, np.linspace(0.0, 6.0, 7)))
-    shutil.unpack_archive(OLD / "sweep.zip", tmp_path)
-    case = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 1.0}
-    grid = carom.Grid({"angle": [0.1, 0.4, 0.7], "friction": [0.1, 0.2, 0.3, 0.4]})
-    again = carom.sweep(case, grid, outputs=["psi_out", "rebound_angle"])
-    assert read(tmp_path / "sweep.zarr").load().equals(again)
-    words = r"there by carom\.save\(carom\.read\('x\.csv'\), 'x\.nc'"
-    refused(words, read, OLD / "curve.csv")
 
 
 def test_seconds_stay_numbers_for_every_reader(tmp_path):

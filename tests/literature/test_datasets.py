@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 import carom
 from carom import datasets
 from carom.bodies.cases import pair_of
-from carom.datasets.observables import BEFORE, OBSERVABLES, convert_observables
+from carom.bodies.observables import BEFORE, OBSERVABLES, convert_observables
 from carom.io.tables import read_table
 from carom.io.user_table import in_units, others, with_errors
 

@@ -11,11 +11,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from carom.folder import PACKAGE
 from carom.io.paths import FULL, Unwritten, unwritten
 from carom.quantities.refusals import InputError, refusal
 
 HERE = Path(__file__).parent
-HEADERS = HERE.parent / "include"
+HEADERS = PACKAGE / "include"
 COMPILERS = ("c++", "g++", "clang++")
 MATH_FLAGS = ("-fno-math-errno", "-fno-trapping-math")  # without them roots are not vectors
 OWN = ("-march=native",)  # it is built where it runs

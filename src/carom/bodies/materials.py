@@ -4,9 +4,9 @@ import math
 import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
 from typing import Any, TypeVar, cast
 
+from carom.folder import DATA
 from carom.quantities.glossary import listed
 from carom.quantities.prefixes import Printed
 from carom.quantities.refusals import (
@@ -114,7 +114,7 @@ class Material(Printed):
         strengths = (yield_strength, tensile_strength, fracture_toughness, flaw_size)
         others = (density, *strengths, hardness, surface_energy, loss_factor)
         with Faults() as faults:
-            read = {"young": faults.trying(_stiffness, young)}
+            read: dict[str, float | None] = {"young": faults.trying(_stiffness, young)}
             read["poisson"] = faults.trying(_lateral, poisson)
             for key, value in zip(VALUES[2:], others, strict=True):
                 check = not_negative if key in VALUES[-2:] else positive
@@ -209,7 +209,7 @@ def _stiffness(young: Any) -> float:
 
 @lru_cache(maxsize=1)
 def _catalogue() -> dict[str, dict[str, Any]]:
-    text = files("carom").joinpath("data/materials.toml").read_text(encoding="utf-8")
+    text = (DATA / "materials.toml").read_text(encoding="utf-8")
     catalogue: dict[str, dict[str, Any]] = tomllib.loads(text)
     return catalogue
 

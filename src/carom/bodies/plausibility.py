@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 from carom.bodies.case_materials import material_values
 from carom.bodies.materials import VALUES
 from carom.bodies.pairs import OF_BOTH, Pair
-from carom.io.labels import Finding
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
 from carom.quantities.units import number
+from carom.quantities.verdicts import Finding
 
 BODIES = ("first", "second")
 SIZES = ("radius", "inner_radius", "gyration_radius")

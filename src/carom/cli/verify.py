@@ -27,7 +27,7 @@ from carom.quantities.refusals import one_of
 from carom.quantities.units import finite, positive, whole
 
 if TYPE_CHECKING:
-    from carom.dem.base import Law
+    from carom.dimensionless.law import Law
     from carom.verify.tuning import Setting, Tuning
 
 app = Commands(

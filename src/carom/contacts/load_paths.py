@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom import plots
 from carom.bodies.checks import with_friction
 from carom.bodies.pairs import ContactScales, Pair
 from carom.contacts.fields import Contact
@@ -149,7 +148,9 @@ class LoadPath(InContact, Result):
         return card(f"Load path of {len(self)} steps", self._rows(), figure)
 
     def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
-        return plots.plot_cone(dataset, **look)
+        from carom.plots.cone import plot_cone
+
+        return plot_cone(dataset, **look)
 
     def to_dataset(self) -> xr.Dataset:
         """Return the path as a dataset along `step`, and `direction` if there are two.

@@ -1,11 +1,11 @@
 """Measured rebounds and published parameters, found by name and read as columns or datasets."""
 
 from functools import lru_cache
-from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.datasets.observables import OBSERVABLES
+from carom.bodies.observables import OBSERVABLES
+from carom.folder import DATA
 from carom.io.labels import attributes, labelled_dataset
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, with_errors
@@ -132,7 +132,7 @@ def _read(file: Path) -> UserTable:
 
 
 def _data(name: str) -> Path:
-    return Path(str(files("carom").joinpath("data", name)))
+    return DATA / name
 
 
 NUMBERS = ("diameter", "density", *with_errors(("normal_restitution", "friction", "beta_0")))

@@ -13,10 +13,11 @@ import numpy as np
 from carom.bodies.checks import checked_scales, with_friction
 from carom.bodies.pairs import Pair, Scales
 from carom.bodies.shapes import HalfSpace, Sphere
-from carom.dem.base import Codes, ContactLaw, Law, LawStatus, status_of
+from carom.dem.base import CodeLaw, ContactLaw
 from carom.dem.coefficients import SPRING
 from carom.dem.damping import damping_ratio, hertz_damping
 from carom.dem.stepping import HISTORY, MOST_DURATIONS
+from carom.dimensionless.law import Codes, LawStatus, status_of
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, checked_type, clipped, one_of, refusal
@@ -148,7 +149,7 @@ def stepped_by(
 
 
 @dataclass(frozen=True)
-class ByFunction(Law):
+class ByFunction(CodeLaw):
     """A law that asks a Python function, one impact after the other, in this thread."""
 
     function: Callable[..., Any]

@@ -5,13 +5,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.dem.base import Codes, Law, status_of
+from carom.dem.base import CodeLaw
+from carom.dimensionless.law import Codes, status_of
 from carom.quantities.arrays import Array
 from carom.quantities.units import within
 
 
 @dataclass(frozen=True)
-class HardSphere(Law):
+class HardSphere(CodeLaw):
     """Rigid spheres, which slide or keep a fixed fraction of the tangential velocity.
 
         psi_2 = psi_1 - min(2 chi (1 + e), (1 + beta_0) psi_1) for psi_1 >= 0

@@ -8,7 +8,6 @@ and the place. A table of one chi and e has psi_1 itself.
 
 from collections.abc import Callable
 from functools import cache
-from importlib.resources import files
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +22,10 @@ from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.patches import Patches, Samples, sections
 from carom.dimensionless.rebounds import lossy_rebounds, regime_borders, solved
+from carom.folder import DATA
 from carom.quantities.refusals import refusal
 
-STORED = "data/rebounds.npz"  # the table of `stored`, made by studies/rebound_table.py
+STORED = DATA / "rebounds.npz"
 STORED_CHI, STORED_E = (0.248, 4.09), (0.3, 1.0)
 SMALLEST, SMALLEST_LOSSY = 1e-6, 1e-3  # psi_1: below, psi_2/psi_1 is taken as constant
 FOLD = 0.5  # chi up to which all borders are 1
@@ -189,7 +189,7 @@ def stored() -> Patches:
     2.2. Weak losses have curves with more kinks beyond: 5e-4 up to 3, 2e-3 at 4; few impacts are
     off so much, as the root of the mean square is below 1e-5 and 1e-4.
     """
-    with files("carom").joinpath(STORED).open("rb") as stream, np.load(stream) as arrays:
+    with np.load(STORED) as arrays:
         parts = (arrays[name] for name in Patches._fields)
         return Patches(*(part.astype(f"{part.dtype.kind}8") for part in parts))
 

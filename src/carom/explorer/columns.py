@@ -5,7 +5,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from carom.datasets.observables import BEFORE, OBSERVABLES
+from carom.bodies.observables import BEFORE, OBSERVABLES
 from carom.fitting.bounces import BOUNCES, base
 from carom.fitting.groups import GROUP
 from carom.fitting.plates import DURATION, THICKNESS

@@ -19,8 +19,9 @@ from carom.explorer.overlays import LawCurve, followers, law_curves, places
 from carom.explorer.views import PAGE, View
 from carom.fitting.template import TEMPLATE
 from carom.impacts.curves import curve
+from carom.impacts.histories import labelled
 from carom.io.files import save
-from carom.io.labels import labelled, labelled_dataset
+from carom.io.labels import labelled_dataset
 from carom.plots import (
     plot_contact,
     plot_curve,

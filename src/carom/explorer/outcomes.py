@@ -9,16 +9,16 @@ from math import isfinite, isnan
 from carom.bodies.losses import ZENER, LossLaw, ZenerPlate
 from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
-from carom.dem.base import SOLID
+from carom.dimensionless.law import SOLID
 from carom.dimensionless.solution import solve
 from carom.dimensionless.states import History
 from carom.explorer.views import OWN, PAGE, Refused, View, in_words
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
-from carom.io.labels import MARKS, Finding
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import prefixed
 from carom.quantities.refusals import InputError
+from carom.quantities.verdicts import MARKS, Finding
 
 KEPT_OUTCOMES = 16
 FORCE_SCALE = 1.5  # F_x/(mu F_max) over Q of the theory

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from carom.dem.base import ContactLaw, Law
+from carom.dem.base import ContactLaw
+from carom.dimensionless.law import Law
 from carom.dimensionless.numerics.threads import available_cores
 from carom.explorer.limits import LAW_SECONDS, MOST_FOLLOWERS
 from carom.explorer.outcomes import Outcome, outcome_of

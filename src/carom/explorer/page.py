@@ -10,7 +10,6 @@ from base64 import b64encode
 from dataclasses import fields
 from functools import cache
 from hashlib import sha256
-from importlib.resources import files
 from importlib.util import find_spec
 from math import isinf
 from pathlib import Path
@@ -21,15 +20,10 @@ import numpy as np
 
 from carom.bodies.materials import material
 from carom.datasets import names as dataset_names, path
-from carom.dimensionless.numerics.shared_library import (
-    BROWSER,
-    BROWSER_CONTENTS,
-    FOLDER,
-    PACKAGE,
-    digest,
-)
+from carom.dimensionless.numerics.shared_library import BROWSER, BROWSER_CONTENTS, FOLDER, digest
 from carom.explorer.limits import LARGEST_UPLOAD, LONGEST_LINK
 from carom.explorer.views import CHOICES, FIELDS, OWN, PAGE, PAGE_ONLY, UNDAMPED, View
+from carom.folder import DATA, PACKAGE
 from carom.impacts.curves import REGIMES as LONG
 from carom.io.tables import read_table
 from carom.quantities.glossary import GLOSSARY
@@ -62,7 +56,7 @@ def assets_in(html: str) -> tuple[str, ...]:
 
 def asset(name: str) -> bytes:
     """Return a file of the page."""
-    return files("carom.explorer").joinpath(ASSETS, name).read_bytes()
+    return Path(__file__).with_name(ASSETS).joinpath(name).read_bytes()
 
 
 def plotly_file() -> Path:
@@ -120,7 +114,7 @@ def stories() -> list[dict[str, Any]]:
 
 
 def _content(name: str) -> dict[str, Any]:
-    return tomllib.loads(files("carom").joinpath(f"data/{name}.toml").read_text("utf-8"))
+    return tomllib.loads((DATA / f"{name}.toml").read_text("utf-8"))
 
 
 def _laws_of_stories() -> list[dict[str, Any]]:

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from carom import datasets
+from carom.bodies.observables import INCIDENCE, OBSERVABLES
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
-from carom.datasets.observables import INCIDENCE, OBSERVABLES
+from carom.datasets import shipped
 from carom.explorer.columns import lists, plain_words, taken
 from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View, in_words
@@ -59,7 +59,7 @@ def answer(asked: dict[str, str]) -> dict[str, Any]:
     """
     how = table_format(None)
     if "data" in asked:
-        return _fitted(datasets.path(asked["data"]), asked["data"], None, how)
+        return _fitted(shipped.path(asked["data"]), asked["data"], None, how)
     file, name, said = Path.cwd() / "upload.csv", shown_name(asked["name"]), Path("map.toml")
     file.write_bytes(_decoded(asked["contents"]))
     said.write_text(asked.get("columns", ""), "utf-8", "replace")

@@ -9,7 +9,6 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property, partial
-from importlib.resources import files
 from math import inf, isfinite
 from typing import Any, NamedTuple, Self
 from urllib.parse import parse_qs, urlencode
@@ -20,12 +19,13 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.datasets.shipped import names as dataset_names
 from carom.explorer.limits import LONGEST_LINK
+from carom.folder import DATA
 from carom.quantities.refusals import InputError, clipped, nearest
 from carom.quantities.texts import Unreadable, read_text
 from carom.verify.entries import CATALOGUE
 from carom.verify.errors import losses_of
 
-PAGE = tomllib.loads(files("carom").joinpath("data/page.toml").read_text("utf-8"))
+PAGE = tomllib.loads((DATA / "page.toml").read_text("utf-8"))
 BODIES, NUMBERS = "bodies", "numbers"
 PLANE, SPHERE, CUP = AGAINST = ("half-space", "sphere", "cup")
 OWN, RIGID = "own", "rigid"

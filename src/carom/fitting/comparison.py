@@ -10,8 +10,8 @@ import numpy as np
 from scipy.special import stdtrit
 
 from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw, Metal
+from carom.bodies.observables import NORMAL
 from carom.bodies.pairs import Pair
-from carom.datasets.observables import NORMAL
 from carom.fitting import model as laws, plates
 from carom.fitting.estimation import Best, estimate, polished, scan, weighed
 from carom.fitting.intervals import Estimate, estimate_of, profiled, settle

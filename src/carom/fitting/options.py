@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.datasets.observables import NORMAL
+from carom.bodies.observables import NORMAL
 from carom.dimensionless.elastic.phases import LARGEST_GIVE
 from carom.fitting import plates
 from carom.fitting.intervals import ELASTIC_TAKEN, EXAMPLES

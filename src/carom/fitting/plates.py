@@ -15,8 +15,8 @@ from carom.dimensionless.rebounds import STEP_TOLERANCE, fill_motion, solved
 from carom.impacts.plate_findings import BENDING, LONG_WAVE, OF_PLATES, SHEARING, wave_ratio
 from carom.impacts.solve import impact
 from carom.io.cells import Mask
-from carom.io.labels import Finding
 from carom.quantities.arrays import Array
+from carom.quantities.verdicts import Finding
 
 THICKNESS, DURATION = "thickness", "duration"
 LEAST_GIVE = 1e-5  # lambda of what is fitted: 1 - e is 2e-5, below the accuracy of data

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.special import gammaln
 
 from carom.bodies.kinematics import Tangential
+from carom.bodies.observables import convert_observables
 from carom.bodies.pairs import Pair
-from carom.datasets.observables import convert_observables
 from carom.fitting.plates import THICKNESS
 from carom.io.cells import Mask
 from carom.io.user_table import UserTable

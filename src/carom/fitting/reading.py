@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from carom.bodies import observables
 from carom.bodies.cases import check_case, pair_of
 from carom.bodies.checks import alike, checked_pair
 from carom.bodies.kinematics import Tangential, inertia
+from carom.bodies.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace
-from carom.datasets import observables
-from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting import bounces, plates

@@ -15,7 +15,6 @@ from carom.fitting.problem import FitProblem
 from carom.fitting.report import summary
 from carom.impacts.solve import impact
 from carom.io.files import DOCUMENTS
-from carom.io.labels import VERDICTS, Finding
 from carom.io.paths import checked_output
 from carom.io.user_table import ERROR
 from carom.io.version import __version__
@@ -23,6 +22,7 @@ from carom.plots.result import Result, Section
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import checked_type
+from carom.quantities.verdicts import VERDICTS, Finding
 
 ELSEWHERE = "the other data"
 NEAR_ZERO = 1e-6  # of a residual, below which its root loss is taken to be linear

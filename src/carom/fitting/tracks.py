@@ -162,7 +162,9 @@ def _metres_per_pixel(
         size = faults.if_given(positive, "radius", radius)
     if flat is not None:
         return 1e-3 / float(flat)
-    return None if across is None else 2.0 * float(size) / float(across)
+    if across is None or size is None:
+        return None
+    return 2.0 * float(size) / float(across)
 
 
 def _measured(

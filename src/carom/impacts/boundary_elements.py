@@ -22,10 +22,11 @@ from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import OF_BODIES, WEAK_COUPLING, judge, judge_errors, waves_aside
 from carom.io.citations import ELEMENTS, bibtex
-from carom.io.labels import Finding, Validity, labelled_dataset
+from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.refusals import known_keywords, refusal, refuse
 from carom.quantities.units import Value, counted
+from carom.quantities.verdicts import Finding, Validity
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -29,10 +29,10 @@ from carom.impacts.result import ImpactResult
 from carom.impacts.validity import OF_THEORY, judge
 from carom.impacts.wear import wear_of
 from carom.io.citations import IMPACT, PLATE, bibtex
-from carom.io.labels import Finding, Validity
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, not_negative
+from carom.quantities.verdicts import Finding, Validity
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -12,9 +12,9 @@ from carom.bodies.shapes import Sphere
 from carom.bodies.walls import radiated_share
 from carom.impacts.adhesive import JKR_FROM, lost_by_maugis, pull_off_work, tabor, work_of_adhesion
 from carom.impacts.result import ImpactResult
-from carom.io.labels import Finding
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import text
+from carom.quantities.verdicts import Finding
 
 SMOOTH = 0.05  # rms roughness over penetration
 LAPPED, GROUND = 0.02e-6, 0.4e-6  # m, of balls of grade 10 (ISO 3290-1), of ground plates (N5)

@@ -19,10 +19,11 @@ from carom.dimensionless.strength.cracking import cracking_width, intensity
 from carom.dimensionless.strength.peaks import Contacts, Peak, peaks
 from carom.impacts.findings import judged, lacking
 from carom.impacts.validity import WEAK_COUPLING
-from carom.io.labels import Finding, labelled_dataset
+from carom.io.labels import labelled_dataset
 from carom.quantities.glossary import GLOSSARY, PEAKS
 from carom.quantities.prefixes import shared, text
 from carom.quantities.units import or_none
+from carom.quantities.verdicts import Finding
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -10,9 +10,9 @@ from carom.bodies.shapes import HalfSpace
 from carom.bodies.walls import half_wave, quiet_width
 from carom.impacts.findings import Assumption, bounded, judged
 from carom.impacts.result import ImpactResult
-from carom.io.labels import Finding
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal, refuse
+from carom.quantities.verdicts import Finding
 
 LONG_WAVE = 6.0  # thicknesses in a bending wave of twice the contact time, for thin plates
 SHEARING = 7.0  # over the square of that ratio: what shorter waves add to 1 - e (theory, page 11)

@@ -13,18 +13,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
+from carom.impacts.histories import labelled, phases_at
 from carom.impacts.outcome import PAIR, InTime, Outcome, history_columns
 from carom.impacts.sequences import SIGNS
 from carom.impacts.spectrum import read_frequencies, spectrum_dataset
-from carom.io.labels import MARKS, Finding, Validity, labelled, phases_at
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY, listed
 from carom.quantities.prefixes import column, text
 from carom.quantities.refusals import refusal, refuse
 from carom.quantities.units import Value, counted, number, or_none
+from carom.quantities.verdicts import MARKS, Finding, Validity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -256,7 +256,9 @@ class ImpactResult(Outcome, Result):
         return labelled(columns, self.scalars(), self.phases, self.inputs(), angles)
 
     def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
-        return plots.plot_impact(dataset, **look)
+        from carom.plots.impact import plot_impact
+
+        return plot_impact(dataset, **look)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, texts and lists, for JSON; NaN becomes None.
@@ -311,9 +313,11 @@ class ImpactResult(Outcome, Result):
         ...     hit.animate(f"{folder}/hit.gif", frames=2).name
         'hit.gif'
         """
+        from carom.plots.animation import animate
+
         count = counted("frames", frames, 1, MOST_FRAMES)
         times = (np.arange(count) + 0.5) / count * self.duration
-        return plots.animate(self.history(), Film(self._picture, times), path, progress)
+        return animate(self.history(), Film(self._picture, times), path, progress)
 
     def inputs(self) -> dict[str, Any]:
         """Return what the impact was made from, as plain numbers and words."""

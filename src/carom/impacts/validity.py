@@ -21,7 +21,7 @@ from carom.dimensionless.neglected import SMALL_CONTACT
 from carom.impacts.findings import OF_ENERGY, Assumption, bounded, judged, lacking, roughness, waves
 from carom.impacts.plate_findings import LONG_WAVE, OF_PLATES, sheared, wave_ratio
 from carom.impacts.result import ImpactResult
-from carom.io.labels import Finding, Validity
+from carom.quantities.verdicts import Finding, Validity
 
 SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and back (Love 1927)
 WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth

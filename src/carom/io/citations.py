@@ -2,8 +2,8 @@
 
 import re
 from functools import cache
-from importlib.resources import files
 
+from carom.folder import DATA
 from carom.io.version import __version__
 
 IMPACT = ("carom", "barber1979", "maw1976")  # the theory of impacts
@@ -44,6 +44,6 @@ def with_doi(doi: str) -> str:
 
 @cache
 def _entries() -> dict[str, str]:
-    text = (files("carom") / "data" / "citations.bib").read_text(encoding="utf-8")
+    text = (DATA / "citations.bib").read_text(encoding="utf-8")
     entries = re.split(r"(?m)^(?=@)", text.replace("VERSION", __version__))[1:]
     return {each[each.index("{") + 1 : each.index(",")]: each.rstrip() + "\n" for each in entries}

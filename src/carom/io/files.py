@@ -25,10 +25,7 @@ if TYPE_CHECKING:
 
 TABLES = (".nc", ".csv")
 STORE_ENDING = ".zarr"  # of a sweep
-EXPORTED = (
-    "CSV is an export; store a dataset as .nc to read it again, "
-    "one of Carom 0.2 there by carom.save(carom.read('x.csv'), 'x.nc')"
-)
+EXPORTED = "CSV is an export; store a dataset as .nc to read it again"
 OTHER_ENDING = f"must end in .nc, or be the store of a sweep, {STORE_ENDING}"
 LONGEST_TEXT = 1_000_000  # characters
 DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables

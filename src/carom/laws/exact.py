@@ -13,9 +13,9 @@ from numpy.polynomial import chebyshev
 from carom.bodies.checks import checked_pair
 from carom.bodies.losses import KelvinVoigt, ZenerPlate
 from carom.bodies.pairs import Pair
-from carom.dem.base import Codes, Law
 from carom.dimensionless import rebound_tables as tables
 from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.law import Codes, Law
 from carom.dimensionless.lossy.law import LossyRebounds, scale_free
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.patches import Patches

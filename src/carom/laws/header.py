@@ -1,7 +1,7 @@
 """The exact rebound as a C header: tables and their evaluation, for simulations in C or C++."""
 
 from collections.abc import Sequence
-from importlib.resources import files
+from pathlib import Path
 from string import Template
 
 import numpy as np
@@ -11,7 +11,7 @@ from carom.io.version import __version__
 from carom.laws.exact import ReboundLaw
 from carom.quantities.refusals import InputError
 
-HERE = files("carom.laws")
+HERE = Path(__file__).parent
 HEADER, FUNCTION = (
     Template(HERE.joinpath(name).read_text("utf-8")) for name in ("rebound.h", "rebound_function.h")
 )

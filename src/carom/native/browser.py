@@ -10,7 +10,7 @@ columns hold, and from which sources it was made.
 import json
 import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
@@ -24,9 +24,10 @@ from carom.dimensionless.lossy.springs import march, motion, springs
 from carom.dimensionless.lossy.viscoelastic import impacts, record as viscous, work
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.kernels import ENTRIES, Kernel
-from carom.dimensionless.numerics.shared_library import BROWSER, BROWSER_CONTENTS, PACKAGE, digest
+from carom.dimensionless.numerics.shared_library import BROWSER, BROWSER_CONTENTS, digest
 from carom.dimensionless.rebounds import LINEAR_PSI, STEP_TOLERANCE
 from carom.dimensionless.states import KIND_NAMES
+from carom.folder import PACKAGE
 from carom.native import emission, numba_internals
 from carom.native.building import HERE, source_files
 
@@ -51,8 +52,9 @@ MOST_STEPS, MOST_STRETCHES = 4000, 300  # of an impact that a page shows
 
 def build(folder: Path, sources: str, files: Sequence[str]) -> None:
     """Write the module and what it holds into a folder; sources is their checksum."""
-    kernels = [each for each in ENTRIES if _path(each) in FUNCTIONS]
-    module = exporting(_wasm(emission.linked(kernels)), [_name(path) for path in FUNCTIONS])
+    kernels = {_path(each): each for each in ENTRIES if _path(each) in FUNCTIONS}
+    symbols = {path: next(iter(kernels[path].signatures())) for path in FUNCTIONS}
+    module = exporting(_wasm(emission.linked([*kernels.values()])), symbols)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / BROWSER).write_bytes(module)
     contents = {
@@ -66,10 +68,6 @@ def build(folder: Path, sources: str, files: Sequence[str]) -> None:
 
 def _path(kernel: Kernel[..., Any]) -> str:
     return f"{kernel.__module__}.{kernel.py_func.__name__}".removeprefix("carom.dimensionless.")
-
-
-def _name(path: str) -> str:
-    return f"carom_dimensionless_{path.replace('.', '_')}"
 
 
 def described() -> dict[str, Any]:
@@ -142,15 +140,16 @@ def _wasm(library: Any) -> bytes:
     return bytes(machine.emit_object(module))
 
 
-def exporting(module: bytes, names: Sequence[str]) -> bytes:
-    """Return an object file with functions exported, and without what only linkers read."""
+def exporting(module: bytes, symbols: Mapping[str, str]) -> bytes:
+    """Return an object file with functions exported by name, and without what only linkers read."""
     sections = list(_sections(module))
     (linking,) = (each for kind, each in sections if kind == CUSTOM and each[1:8] == b"linking")
     indices = _functions(linking, _text(linking, 0)[1])
-    entries = b"".join(_named(name) + b"\0" + _leb(indices[name]) for name in names)
+    exported = ((name, indices[symbol]) for name, symbol in symbols.items())
+    entries = b"".join(_named(name) + b"\0" + _leb(index) for name, index in exported)
     parts = [(kind, content) for kind, content in sections if kind != CUSTOM]
     place = next(i for i, (kind, _) in enumerate(parts) if kind in FOLLOWING)
-    parts.insert(place, (EXPORTS, _leb(len(names)) + entries))
+    parts.insert(place, (EXPORTS, _leb(len(symbols)) + entries))
     return module[:8] + b"".join(bytes([k]) + _leb(len(each)) + each for k, each in parts)
 
 

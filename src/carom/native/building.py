@@ -25,10 +25,10 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from carom.dimensionless import rebounds
 from carom.dimensionless.elastic import phases, record as elastic
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.viscoelastic import work
-from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
+from carom.dimensionless.lossy.viscoelastic import impacts, work
 from carom.dimensionless.lossy.viscoelastic.record import new_record
 from carom.dimensionless.numerics.kernels import ENTRIES, INSTALL, VARIABLE
 from carom.dimensionless.numerics.shared_library import (
@@ -36,10 +36,9 @@ from carom.dimensionless.numerics.shared_library import (
     BROWSER_CONTENTS,
     CONTENTS,
     FOLDER,
-    PACKAGE,
     digest,
 )
-from carom.dimensionless.rebounds import NEARLY_ELASTIC, STEP_TOLERANCE
+from carom.folder import PACKAGE
 
 HERE = Path(__file__).parent
 INCLUDE = PACKAGE / "include"
@@ -50,9 +49,11 @@ FLAGS = ("-O2", "-std=c11", "-fPIC", "-shared", "-fvisibility=hidden")
 ENDINGS = {"darwin": ".dylib", "win32": ".dll"}
 GENERIC = {0: "generic", 1: "x86-64", 2: "x86-64-v2", 3: "x86-64-v3", 4: "x86-64-v4"}
 CACHE = "CAROM_BUILD_CACHE"  # of the environment: a folder
-ELASTIC = "carom_dimensionless_rebounds_fill"
-MOTION = "carom_dimensionless_rebounds_fill_motion"
-LOSSY = "carom_dimensionless_lossy_viscoelastic_impacts_fill"
+CALLED_BY_C: dict[str, Any] = {
+    "ELASTIC": rebounds.fill,
+    "MOTION": rebounds.fill_motion,
+    "LOSSY": impacts.fill,
+}
 
 
 class NotBuilt(Exception):
@@ -146,10 +147,9 @@ def _kept(sources: str, modules: Sequence[str], level: int, scratch: Path) -> Pa
 def kernels_h() -> str:
     """Return what the functions in C must know of kernels: shapes of scratch arrays, codes."""
     elastic_work = phases.new_work()
+    functions = {name: next(iter(kernel.signatures())) for name, kernel in CALLED_BY_C.items()}
     defined = {
-        "CAROM_ELASTIC": ELASTIC,
-        "CAROM_MOTION": MOTION,
-        "CAROM_LOSSY": LOSSY,
+        **{f"CAROM_{name}": function for name, function in functions.items()},
         "CAROM_ELASTIC_SCRATCH": _shapes((*elastic_work, *elastic.new_record(False))),
         "CAROM_WORK_ARRAYS": len(elastic_work),
         "CAROM_LOSSY_SCRATCH": _shapes((*work.new_work(), *new_record(False))),
@@ -157,13 +157,13 @@ def kernels_h() -> str:
         "CAROM_PSI_OUT": layout.PSI_OUT,
         "CAROM_RESTITUTION": layout.RESTITUTION,
         "CAROM_DURATION": layout.TIME,
-        "CAROM_NEARLY_ELASTIC": NEARLY_ELASTIC,
-        "CAROM_STEP_TOLERANCE": STEP_TOLERANCE,
-        "CAROM_TOLERANCE": TOLERANCE,
+        "CAROM_NEARLY_ELASTIC": rebounds.NEARLY_ELASTIC,
+        "CAROM_STEP_TOLERANCE": rebounds.STEP_TOLERANCE,
+        "CAROM_TOLERANCE": impacts.TOLERANCE,
         "CAROM_MESSAGES": _braces(f'"{status.message}"' for status in phases.Status),
     }
     lines = (f"#define {name} {value}" for name, value in defined.items())
-    declared = (f"int {name}(const int64_t *words);" for name in (ELASTIC, MOTION, LOSSY))
+    declared = (f"int {name}(const int64_t *words);" for name in functions.values())
     return "\n".join(("#include <stdint.h>", "", *lines, "", *declared, ""))
 
 

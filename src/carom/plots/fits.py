@@ -198,9 +198,7 @@ def _is_one(dataset: xr.Dataset) -> bool:
 
 
 def _outliers(data: xr.Dataset) -> Any:
-    """Return which values are outliers; datasets of Carom 0.2 do not tell."""
-    if "outlier" not in data:
-        return np.zeros(data["measured"].shape, dtype=bool)
+    """Return which values are outliers."""
     return data["outlier"].values == 1
 
 

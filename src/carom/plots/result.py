@@ -8,8 +8,6 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
-from carom import plots
-
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
@@ -81,9 +79,11 @@ class Result(ABC):
         >>> len(hit.plot().axes)
         4
         """
+        from carom.plots.style import save_figure
+
         figure = self._draw(self.to_dataset(), **look)
         if path is not None:
-            plots.save_figure(figure, path)
+            save_figure(figure, path)
         return figure
 
 

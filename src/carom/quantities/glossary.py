@@ -2,9 +2,9 @@
 
 import csv
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import NamedTuple
 
+from carom.folder import DATA
 from carom.quantities.prefixes import DIGITS, span, text
 
 
@@ -36,7 +36,7 @@ def aligned(rows: Mapping[str, str], width: int = 0) -> list[str]:
     return [f"  {name:{width}s} {text}" for name, text in plain.items()]
 
 
-FILE = Path(__file__).parents[1] / "data" / "glossary.csv"
+FILE = DATA / "glossary.csv"
 
 
 def _read() -> dict[str, Quantity]:

@@ -9,9 +9,8 @@ from difflib import get_close_matches
 from functools import wraps
 from inspect import Parameter, signature
 from reprlib import Repr
-from typing import Any, ParamSpec, Self, TypeVar
+from typing import Any, Concatenate, ParamSpec, Self, TypeVar, cast
 
-from carom.old_names import renamed
 from carom.quantities.glossary import meant, remark
 
 Kind = TypeVar("Kind")
@@ -150,14 +149,27 @@ class Faults:
         except InputError as error:
             self.add(*(f"{heading(name)}: {fault}" if name else fault for fault in error.faults))
 
-    def trying(self, function: Callable[..., Any], *given: Any, **named: Any) -> Any:
-        """Return what a function returns, or None if it raises InputError, which is collected."""
+    def trying(
+        self,
+        function: Callable[Parameters, Result],
+        *given: Parameters.args,
+        **named: Parameters.kwargs,
+    ) -> Result:
+        """Return what a function returns; what it refuses is collected, and told before use."""
         with self.catching():
             return function(*given, **named)
+        return cast(Result, None)
 
-    def if_given(self, reader: Callable[..., Any], name: str, value: Any, *more: Any) -> Any:
+    def if_given(
+        self,
+        reader: Callable[Concatenate[str, Any, Parameters], Result],
+        name: str,
+        value: Any,
+        *more: Parameters.args,
+        **named: Parameters.kwargs,
+    ) -> Result | None:
         """Return what a reader makes of a named value, or None without one, as in `trying`."""
-        return None if value is None else self.trying(reader, name, value, *more)
+        return None if value is None else self.trying(reader, name, value, *more, **named)
 
     def settle(self) -> None:
         """Raise InputError if there are faults so far, before costly work."""
@@ -175,16 +187,11 @@ def known_keywords(function: Callable[Parameters, Result]) -> Callable[Parameter
 
     @wraps(function)
     def called(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
-        for name in list(kwargs):
-            new = renamed(name, title, keywords)
-            if new not in keywords:
+        for name in kwargs:
+            if name not in keywords:
                 words = hint(name, [word for word in keywords if word != "self"])
                 raise InputError(f"{name}: no keyword of {title}; {words}")
-            if new != name and new in kwargs:
-                raise InputError(
-                    f"{name}: the old name of {new}, which is given as well; leave it out"
-                )
-            kwargs[new] = kwargs.pop(name)
+
         if most < len(args) <= most + len(named):
             nameless = zip(named, args[most:], strict=False)
             cure = ", ".join(f"{name}={value!r}" for name, value in nameless)

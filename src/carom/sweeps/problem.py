@@ -12,8 +12,9 @@ from carom.bodies import cases
 from carom.bodies.cases import FROM_STRENGTH, OF_STRENGTH as LAWS_OF_STRENGTH
 from carom.bodies.losses import NO_STRENGTH
 from carom.bodies.materials import JUDGED_BY, STRENGTHS
+from carom.impacts.histories import spheres
 from carom.impacts.outcome import PAIR, RESULTS
-from carom.io.labels import attributes, flags, spheres
+from carom.io.labels import attributes, flags
 from carom.quantities.refusals import checked_type, hint, one_of, refusal, refuse
 from carom.sweeps.designs import Box, Design, Values, chunk_shape, points_in
 from carom.sweeps.inputs import (

@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
-from carom.dem.base import ContactLaw, Law
+from carom.dem.base import ContactLaw
 from carom.dem.function import steel_on_steel
+from carom.dimensionless.law import Law
 from carom.io.progress import Progress, advancing
 from carom.io.user_table import CASE
-from carom.old_names import with_old_fields
 from carom.quantities.arrays import finite_line
 from carom.quantities.refusals import checked_type, known_keywords, refusal, refuse
 from carom.verify import errors
@@ -51,7 +51,6 @@ class Measured(NamedTuple):
         return {"law": self.entry.label, **dict(zip(self._fields[1:-1], self[1:-1], strict=True))}
 
 
-@with_old_fields
 @dataclass(frozen=True)
 class Bench:
     """Impacts in a DEM program against the exact impact, the best law first; made by `bench`.

@@ -7,15 +7,15 @@ from collections.abc import Callable
 from math import exp, pi, sqrt
 from typing import NamedTuple
 
-from carom import dem
 from carom.bodies.checks import checked_pair, checked_scales
 from carom.bodies.pairs import Pair
 from carom.dem import damping
+from carom.dem.springs import LammpsMindlin, LinearSpring
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.quantities.refusals import checked_type, one_of, refusal, refuse
 from carom.quantities.units import Value, not_negative, positive
 
-SPRING, MINDLIN = dem.LinearSpring(), dem.LammpsMindlin("mindlin_rescale/force")
+SPRING, MINDLIN = LinearSpring(), LammpsMindlin("mindlin_rescale/force")
 
 
 class Stiffnesses(NamedTuple):
@@ -202,8 +202,8 @@ def recipes(
     normal_speed: float,
     wanted: Value = 1.0,
     *,
-    spring: dem.LinearSpring = SPRING,
-    mindlin: dem.LammpsMindlin = MINDLIN,
+    spring: LinearSpring = SPRING,
+    mindlin: LammpsMindlin = MINDLIN,
 ) -> dict[str, str]:
     """Return what to write into the inputs of DEM codes for a contact, by code, in SI units.
 
@@ -237,8 +237,8 @@ def recipes(
     hertz 1.5385e+11 0 tangential mindlin_rescale/force 1.9005e+11 0 0.2 damping velocity
     """
     allowed = "must be a {0}, e.g. carom.{0}()"
-    checked_type("spring", spring, dem.LinearSpring, allowed.format("LinearSpring"))
-    checked_type("mindlin", mindlin, dem.LammpsMindlin, allowed.format("LammpsMindlin"))
+    checked_type("spring", spring, LinearSpring, allowed.format("LinearSpring"))
+    checked_type("mindlin", mindlin, LammpsMindlin, allowed.format("LammpsMindlin"))
     e = damping.damped_restitution("restitution", wanted)
     k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping_from_restitution(e)
     ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio

@@ -4,8 +4,21 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields
 from typing import Any, NamedTuple
 
-from carom import dem
-from carom.dem.base import Law
+from carom.dem.function import FunctionLaw
+from carom.dem.hard import HardSphere
+from carom.dem.memory import ExactContactLaw
+from carom.dem.springs import (
+    EdemHertzMindlin,
+    HertzLinearHistory,
+    LammpsMindlin,
+    LiggghtsHertz,
+    LinearSpring,
+    StrongeLaw,
+    ThorntonLaw,
+    WaltonBraunLaw,
+    YadeMindlin,
+)
+from carom.dimensionless.law import Law
 from carom.quantities.refusals import nearest, refusal, refuse
 
 LawOrFunction = Law | Callable[..., Any]  # the latter as a `FunctionLaw` takes it
@@ -41,28 +54,24 @@ OF_PLATE = "laws are compared with impacts on thick walls; take a ReboundLaw wit
 SHORT_NAMES = {"carom": EXACT}  # as its styles in LAMMPS are called
 
 CATALOGUE = (
-    Entry("linear spring, k_t/k_n = kappa", dem.LinearSpring(), "any code with this ratio"),
-    Entry(
-        "linear spring, k_t/k_n = 2/7", dem.LinearSpring(2.0 / 7.0), "LAMMPS gran/hooke by default"
-    ),
-    Entry("linear spring, k_t/k_n = 1", dem.LinearSpring(1.0), "LIGGGHTS hooke"),
-    Entry("Hertz, linear history", dem.HertzLinearHistory(), "LAMMPS hertz, linear_history"),
-    Entry("mindlin", dem.LammpsMindlin("mindlin"), "LAMMPS; MFiX Hertz"),
-    Entry("mindlin/force", dem.LammpsMindlin("mindlin/force"), "LAMMPS"),
-    Entry("mindlin_rescale", dem.LammpsMindlin("mindlin_rescale"), "LAMMPS"),
-    Entry(
-        "mindlin_rescale/force", dem.LammpsMindlin("mindlin_rescale/force"), "LAMMPS; Kratos Hertz"
-    ),
-    Entry("mindlin, 2/3 of the stiffness", dem.LammpsMindlin(stiffness=2.0 / 3.0), "MercuryDPM"),
-    Entry("LIGGGHTS hertz, history", dem.LiggghtsHertz(), "LIGGGHTS"),
-    Entry("EDEM Hertz-Mindlin (no slip)", dem.EdemHertzMindlin(), "EDEM"),
-    Entry("YADE Mindlin", dem.YadeMindlin(), "YADE"),
-    Entry("Thornton, incremental", dem.ThorntonLaw(), "Mindlin & Deresiewicz in increments"),
-    Entry("Walton & Braun", dem.WaltonBraunLaw(), "softening spring, K_0/K_1 = kappa"),
-    Entry("Stronge, bilinear", dem.StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
-    Entry("Walton's hard spheres, 0.4", dem.HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
-    Entry("rigid Coulomb", dem.HardSphere(), "impulse-based codes"),
-    Entry(EXACT, dem.ExactContactLaw(), "LAMMPS, with pair_style carom; any code"),
+    Entry("linear spring, k_t/k_n = kappa", LinearSpring(), "any code with this ratio"),
+    Entry("linear spring, k_t/k_n = 2/7", LinearSpring(2.0 / 7.0), "LAMMPS gran/hooke by default"),
+    Entry("linear spring, k_t/k_n = 1", LinearSpring(1.0), "LIGGGHTS hooke"),
+    Entry("Hertz, linear history", HertzLinearHistory(), "LAMMPS hertz, linear_history"),
+    Entry("mindlin", LammpsMindlin("mindlin"), "LAMMPS; MFiX Hertz"),
+    Entry("mindlin/force", LammpsMindlin("mindlin/force"), "LAMMPS"),
+    Entry("mindlin_rescale", LammpsMindlin("mindlin_rescale"), "LAMMPS"),
+    Entry("mindlin_rescale/force", LammpsMindlin("mindlin_rescale/force"), "LAMMPS; Kratos Hertz"),
+    Entry("mindlin, 2/3 of the stiffness", LammpsMindlin(stiffness=2.0 / 3.0), "MercuryDPM"),
+    Entry("LIGGGHTS hertz, history", LiggghtsHertz(), "LIGGGHTS"),
+    Entry("EDEM Hertz-Mindlin (no slip)", EdemHertzMindlin(), "EDEM"),
+    Entry("YADE Mindlin", YadeMindlin(), "YADE"),
+    Entry("Thornton, incremental", ThorntonLaw(), "Mindlin & Deresiewicz in increments"),
+    Entry("Walton & Braun", WaltonBraunLaw(), "softening spring, K_0/K_1 = kappa"),
+    Entry("Stronge, bilinear", StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
+    Entry("Walton's hard spheres, 0.4", HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
+    Entry("rigid Coulomb", HardSphere(), "impulse-based codes"),
+    Entry(EXACT, ExactContactLaw(), "LAMMPS, with pair_style carom; any code"),
 )
 
 
@@ -93,7 +102,7 @@ def as_law(law: object) -> Law:
         refuse(getattr(law, "inelasticity", 0.0) > 0.0 and refusal("law", law, OF_PLATE))
         return law
     if callable(law) and is_function(law):
-        return dem.FunctionLaw(law)
+        return FunctionLaw(law)
     raise refusal("law", law, "must be a contact law, e.g. carom.dem.LinearSpring()")
 
 

@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.losses import KelvinVoigt, LossLaw
-from carom.dem.base import ContactLaw, Law, kappa_or_solid
+from carom.dem.base import ContactLaw
 from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.law import Law, kappa_or_solid
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset, pure

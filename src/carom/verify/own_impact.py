@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 from carom.bodies.cases import Case, motion_of, pair_of
 from carom.bodies.checks import checked_pair
-from carom.datasets.observables import convert_observables
-from carom.dem.base import Law
+from carom.bodies.observables import convert_observables
+from carom.dimensionless.law import Law
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
 from carom.verify.entries import called, damped

@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom import plots
 from carom.dem.base import ContactLaw
 from carom.dem.damping import damped_restitution
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import labelled_dataset, pure
 from carom.io.progress import Progress, advancing
-from carom.old_names import with_old_fields
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import known_keywords
@@ -71,7 +69,6 @@ class Standing(NamedTuple):
         }
 
 
-@with_old_fields
 @dataclass(frozen=True)
 class Ranking(Result):
     """Contact laws by their largest error in psi_2 at all `psi`, the best first; made by `rank`.
@@ -134,7 +131,9 @@ class Ranking(Result):
         return bibtex(*IMPACT)
 
     def _draw(self, dataset: "xr.Dataset", **look: Any) -> "Figure":
-        return plots.plot_laws(dataset, **look)
+        from carom.plots.laws import plot_laws
+
+        return plot_laws(dataset, **look)
 
     def to_dataset(self) -> "xr.Dataset":
         """Return psi_2 of each law and of the exact impact, and all errors, as one dataset.

@@ -3,18 +3,26 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import tan
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom import dem
 from carom.bodies.cases import Case, losses_of, motion_of, pair_of
 from carom.bodies.checks import with_friction
 from carom.bodies.kinematics import approach, slope
 from carom.bodies.pairs import Pair
-from carom.dem.base import ContactLaw, Law
+from carom.dem.base import ContactLaw
 from carom.dem.damping import damped_restitution
+from carom.dem.hard import HardSphere
+from carom.dem.springs import (
+    HertzLinearHistory,
+    LammpsMindlin,
+    LinearSpring,
+    StrongeLaw,
+    WaltonBraunLaw,
+)
+from carom.dimensionless.law import Law
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.io.progress import Progress, advancing
 from carom.plots.result import card
@@ -29,12 +37,12 @@ from carom.verify.tables import text_table
 AnyLaw = TypeVar("AnyLaw", bound=Law)
 
 FREE = {  # the parameter that can be chosen, and its range; of a stiffness_ratio in units of kappa
-    dem.LinearSpring: ("stiffness_ratio", 0.05, 2.5),
-    dem.StrongeLaw: ("stiffness_ratio", 0.05, 2.5),
-    dem.HertzLinearHistory: ("stiffness", 0.05, 2.5),
-    dem.LammpsMindlin: ("stiffness", 0.05, 2.5),
-    dem.WaltonBraunLaw: ("stiffness_ratio", 0.05, 2.5),
-    dem.HardSphere: ("tangential_restitution", -1.0, 1.0),
+    LinearSpring: ("stiffness_ratio", 0.05, 2.5),
+    StrongeLaw: ("stiffness_ratio", 0.05, 2.5),
+    HertzLinearHistory: ("stiffness", 0.05, 2.5),
+    LammpsMindlin: ("stiffness", 0.05, 2.5),
+    WaltonBraunLaw: ("stiffness_ratio", 0.05, 2.5),
+    HardSphere: ("tangential_restitution", -1.0, 1.0),
 }
 TUNED: tuple[Law, ...] = tuple(  # of each kind the first in the catalogue
     entry.law
@@ -297,7 +305,7 @@ def setting_of(
     if case is None:
         return _without_bodies(chi, kappa, start, stop, restitution)
     motion = motion_of(case)
-    speeds = {name: motion.get(name) for name in SPEEDS}
+    speeds: dict[str, Any] = {name: motion.get(name) for name in SPEEDS}
     moves = any(value is not None for value in speeds.values())
     with Faults() as faults:
         words = "it follows from the case; leave it out"
@@ -334,7 +342,7 @@ def _without_bodies(
         last = faults.if_given(finite, "psi_in", stop)
         if chi is None:
             faults.add("case: missing; give a case file, or --chi, e.g. --chi 1.44")
-        ratio = faults.if_given(positive, "chi", chi)
+        ratio = cast(float, faults.if_given(positive, "chi", chi))  # or its lack is told
     return Setting(ratio, own, _range(first, 4.0 * ratio if last is None else last, start, stop))
 
 

@@ -15,7 +15,8 @@ import numba
 from numba.core import event
 
 from carom.dimensionless.numerics import shared_library
-from carom.dimensionless.numerics.shared_library import LOADED, PACKAGE, digest
+from carom.dimensionless.numerics.shared_library import LOADED, digest
+from carom.folder import PACKAGE
 
 PATIENCE = 2.0  # seconds before it is said
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy"}

@@ -17,9 +17,9 @@ from time import time
 from typing import Any, NamedTuple
 
 from carom.dimensionless.numerics.signatures import Signature, caller
+from carom.folder import PACKAGE
 from carom.quantities.refusals import refusal
 
-PACKAGE = Path(__file__).parents[2]
 FOLDER = PACKAGE / "lib"
 CONTENTS = "kernels.json"  # beside the libraries: what they are, from what; or why there are none
 LEVELS = "CAROM_LEVELS"  # of x86-64, in the environment: to be built; the highest to be used

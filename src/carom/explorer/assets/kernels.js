@@ -70,7 +70,7 @@ Carom.kernels = (() => {
       else if (typeof each === "bigint") whole[place++] = each;
       else for (const value of [each.at, ...each.shape]) whole[place++] = BigInt(value);
     }
-    if (exported[`carom_dimensionless_${name.replaceAll(".", "_")}`](words.at)) throw Error(`${name} has failed`);
+    if (exported[name](words.at)) throw Error(`${name} has failed`);
     return Array.from(numbers({ ...words, kind: result }).subarray(place), Number);
   }
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from importlib.resources import files
 from math import sqrt
 from pathlib import Path
 from string import Template
@@ -16,6 +15,7 @@ from carom.bodies.shapes import Sphere
 from carom.dem import LinearSpring
 from carom.dem.coefficients import SPRING
 from carom.dem.damping import damping_ratio
+from carom.folder import DATA
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import refusal
 from carom.verify.engines.experiments import Experiment, Outcomes
@@ -122,7 +122,7 @@ def outcomes_of(experiment: Experiment, states: Array) -> Outcomes:
 
 def template(name: str) -> Template:
     """Return a template of inputs."""
-    path = files("carom").joinpath("data", "engines", name)
+    path = DATA / "engines" / name
     return Template(path.read_text(encoding="utf-8"))
 
 

@@ -10,13 +10,13 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
-from importlib.resources.abc import Traversable
 from io import StringIO
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from carom.folder import DATA
 from carom.quantities.arrays import Array
 
 VERSION = "1"
@@ -62,7 +62,7 @@ def read_table(text: str) -> DecimalTable:
 @lru_cache(maxsize=1)
 def frozen_files() -> dict[str, str]:
     """Return the text of each frozen file by its path in the pack, in order."""
-    root = files("carom").joinpath("data/benchmarks/pack")
+    root = DATA / "benchmarks" / "pack"
     return dict(sorted(_texts(root, "").items()))
 
 
@@ -88,7 +88,7 @@ def title_of(folder: str) -> tuple[str, ...]:
     return tuple(line.removeprefix("# ") for line in lines if line.startswith("# "))
 
 
-def _texts(folder: Traversable, prefix: str) -> dict[str, str]:
+def _texts(folder: Path, prefix: str) -> dict[str, str]:
     texts: dict[str, str] = {}
     for entry in folder.iterdir():
         path = f"{prefix}{entry.name}"

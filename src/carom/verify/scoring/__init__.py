@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from carom.bodies.pairs import Pair
-from carom.dem.base import Law
+from carom.dimensionless.law import Law
 from carom.impacts.exact import Impact
 from carom.io.cells import is_nan
 from carom.io.heads import spelled

@@ -13,7 +13,7 @@ from carom.bodies.checks import alike, with_friction
 from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair
 from carom.dem import FunctionLaw
-from carom.dem.base import LawStatus
+from carom.dimensionless.law import LawStatus
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
 from carom.quantities.arrays import Array

@@ -8,12 +8,14 @@ from numpy.typing import NDArray
 from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics import hertz
 from carom.impacts.exact import Impact
+from carom.impacts.histories import labelled
 from carom.io.cells import Mask
-from carom.io.labels import Finding, labelled, labelled_dataset
+from carom.io.labels import labelled_dataset
 from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
+from carom.quantities.verdicts import Finding
 from carom.verify.scoring import points as scored
 from carom.verify.scoring.cases import ScoredCase
 from carom.verify.scoring.points import LARGEST_PSI, PRINTED_DIGITS, Scored, within

@@ -12,12 +12,12 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.rebounds import rebound, regime_borders, solved
 from carom.impacts.curves import REGIMES, regime_map
 from carom.io.cells import MOST_NAMED_ROWS, Rows
-from carom.io.labels import Finding
 from carom.io.progress import advancing
 from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
+from carom.quantities.verdicts import Finding
 from carom.verify.errors import losses_of
 
 IMPACTS_AT_ONCE = 1 << 16  # after which the bar moves

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom import plots
 from carom.dimensionless.rebounds import regime_borders
 from carom.impacts.curves import curve
 from carom.io.citations import IMPACT, bibtex
-from carom.io.labels import MARKS, Finding, flags, labelled_dataset, pure
+from carom.io.labels import flags, labelled_dataset, pure
 from carom.plots.result import Result, card
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.verdicts import MARKS, Finding
 from carom.verify.errors import losses_of
 from carom.verify.scoring.histories import Forces
 from carom.verify.scoring.origins import Origins
@@ -189,7 +189,9 @@ class Score(Result):
         return self.forces.to_dataset().merge(whole).assign_attrs(whole.attrs)
 
     def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
-        return plots.plot_score(dataset, **look)
+        from carom.plots.scores import plot_score
+
+        return plot_score(dataset, **look)
 
 
 def verdict(score: Score) -> str:

@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.bodies.kinematics import Tangential, by_angle, components, inertia
+from carom.bodies.observables import FASTEST, SLOWEST
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.datasets.observables import FASTEST, SLOWEST
-from carom.io.labels import Finding
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import InputError
+from carom.quantities.verdicts import Finding
 from carom.verify.scoring import points as scored
 from carom.verify.scoring.cases import ScoredCase
 from carom.verify.scoring.points import FEWEST_POINTS, Scored, within
