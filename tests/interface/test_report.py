@@ -9,7 +9,6 @@ from matplotlib.backends.backend_pdf import PdfPages
 from tests.checks import refused
 
 import carom
-from carom.plots.fits import plot_fit
 
 BALL = carom.Sphere(radius="10 mm", material="bearing steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="bearing steel"), friction=0.12)
@@ -126,11 +125,6 @@ def test_an_outlier_is_marked_and_leaves_the_residuals_readable(outlying):
     assert np.ptp(residuals.get_ylim()) < 5.0 * (others + error)
     assert [text.get_text() for text in residuals.texts] == ["6"]
     assert "outlier, with its row" in [text.get_text() for text in figure.legends[0].get_texts()]
-
-
-def test_a_fit_stored_by_an_older_version_is_drawn_without_marks(outlying):
-    figure = plot_fit(outlying.to_dataset().drop_vars("outlier"))
-    assert not [text for axis in figure.axes for text in axis.texts]
 
 
 def test_normal_drops_have_a_report_of_the_restitution_alone(tmp_path):
