@@ -23,7 +23,6 @@ from .bodies.pairs import Pair as Pair
 from .bodies.shapes import Cup as Cup, HalfSpace as HalfSpace, Sphere as Sphere
 from .bodies.smooth_body import Body as Body
 from .collisions import collide as collide
-from .contacts.load_paths import load_path as load_path
 from .dimensionless.numerics.shared_library import (
     get_include as get_include,
     get_library as get_library,
@@ -33,6 +32,7 @@ from .dimensionless.solution import solve as solve
 from .fitting import fit as fit, joint_fit as joint_fit
 from .fitting.tracks import track as track
 from .impacts.boundary_elements import BoundaryElements as BoundaryElements
+from .impacts.contacts.load_paths import load_path as load_path
 from .impacts.curves import curve as curve, regime_map as regime_map
 from .impacts.solve import impact as impact
 from .io.files import save as save

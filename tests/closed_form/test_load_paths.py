@@ -13,7 +13,7 @@ from tests import checks
 
 from carom import Material, Pair, Sphere, read, save
 from carom.classical import cattaneo_mindlin, critical_obliquity, loop_energy
-from carom.contacts.load_paths import load_path
+from carom.impacts.contacts.load_paths import load_path
 from carom.quantities.refusals import InputError
 
 GLASS = Material(young="70 GPa", poisson=0.23, density=2500)

@@ -21,8 +21,8 @@ from carom.native.numba_internals import CODE, PATCHES
 PACKAGE = Path(carom.__file__).parent
 OWN = {  # private to Carom: what its files know of each other's classes, and users do not see
     "cli/sweep.py": {"_doubts"},
-    "contacts/fields.py": {"_edge", "_rim", "_slid", "_slipping", "_viscous"},
-    "contacts/load_paths.py": {"_describe"},
+    "impacts/contacts/fields.py": {"_edge", "_rim", "_slid", "_slipping", "_viscous"},
+    "impacts/contacts/load_paths.py": {"_describe"},
     "dimensionless/lossy/law.py": {"_scale_free"},
     "impacts/body_impact.py": {"_ellipse", "_losses"},
     "impacts/exact.py": {"_loss", "_losses", "_source"},

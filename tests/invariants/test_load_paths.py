@@ -11,10 +11,10 @@ from tests.checks import BALL, FLOOR
 from tests.oracles.springs import along_a_path
 
 import carom
-from carom.contacts.load_paths import load_path
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import RADIUS, RIM, SLOPE, profile_of
 from carom.dimensionless.numerics.chebyshev import evaluate
+from carom.impacts.contacts.load_paths import load_path
 from carom.quantities.refusals import InputError
 
 PAIR = carom.Pair(BALL, FLOOR, friction=0.3)

@@ -15,7 +15,7 @@ import pytest
 from scipy.integrate import quad
 
 import carom
-from carom.contacts.load_paths import load_path
+from carom.impacts.contacts.load_paths import load_path
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.Sphere(radius="8 mm", material="steel"), friction=0.4)

@@ -10,7 +10,6 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from carom.bodies.pairs import Scales
-from carom.contacts.fields import contact_in_impact, surface_fields
 from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.solution import solve
 from carom.explorer.limits import LAW_SECONDS, Busy
@@ -18,6 +17,7 @@ from carom.explorer.outcomes import FORCE_SCALE, Outcome, columns_of_numbers, im
 from carom.explorer.overlays import LawCurve, followers, law_curves, places
 from carom.explorer.views import PAGE, View
 from carom.fitting.template import TEMPLATE
+from carom.impacts.contacts.fields import contact_in_impact, surface_fields
 from carom.impacts.curves import curve
 from carom.impacts.histories import labelled
 from carom.io.files import save

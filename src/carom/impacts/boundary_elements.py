@@ -12,12 +12,12 @@ import numpy as np
 from carom.bodies.checks import with_friction
 from carom.bodies.kinematics import Tangential, normal_inertia
 from carom.bodies.pairs import Pair, Scales
-from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless import solution as theory
 from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
 from carom.halfspace.motion import NormalSpin
 from carom.halfspace.solution import HalfspaceSolution, Resolution, refinement_error, solve
+from carom.impacts.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import OF_BODIES, WEAK_COUPLING, judge, judge_errors, waves_aside

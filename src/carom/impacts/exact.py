@@ -13,8 +13,6 @@ from numpy.typing import ArrayLike
 from carom.bodies.kinematics import Tangential
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair, Scales
-from carom.contacts.fields import Contact, contact_in_impact
-from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers, checked_law
 from carom.dimensionless.lossy.solution import LossySolution
@@ -22,6 +20,8 @@ from carom.dimensionless.lossy.springs.solution import MarchedSolution
 from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
+from carom.impacts.contacts.fields import Contact, contact_in_impact
+from carom.impacts.contacts.in_contact import InContact
 from carom.impacts.findings import Assumption
 from carom.impacts.peaks import judge_pressure, judge_strength, peaks_dataset, struck_bodies
 from carom.impacts.plate_findings import refuse_thin

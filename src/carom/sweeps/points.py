@@ -17,12 +17,12 @@ from carom.bodies.materials import STRENGTHS, VALUES, Material, unchecked
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.bodies.walls import quiet_width
-from carom.contacts.fields import BODIES
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.dimensionless.solution import solve
+from carom.impacts.contacts.fields import BODIES
 from carom.impacts.outcome import PAIR, Outcome, outcome_fits
 from carom.impacts.peaks import MEASURES, StruckBody, growth, struck_bodies
 from carom.quantities.arrays import Array, where

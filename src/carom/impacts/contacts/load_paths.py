@@ -10,11 +10,11 @@ import numpy as np
 
 from carom.bodies.checks import with_friction
 from carom.bodies.pairs import ContactScales, Pair
-from carom.contacts.fields import Contact
-from carom.contacts.in_contact import InContact
-from carom.contacts.load_steps import Control, Steps, followed, read_steps
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import SLOPE, profile_of
+from carom.impacts.contacts.fields import Contact
+from carom.impacts.contacts.in_contact import InContact
+from carom.impacts.contacts.load_steps import Control, Steps, followed, read_steps
 from carom.io.citations import LOADS, TURNING, bibtex
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing

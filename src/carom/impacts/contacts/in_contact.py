@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
-from carom.contacts.fields import Contact, radial_fields, stress_dataset, surface_fields
+from carom.impacts.contacts.fields import Contact, radial_fields, stress_dataset, surface_fields
 from carom.quantities.refusals import known_keywords
 from carom.quantities.units import Value, counted
 
