@@ -16,7 +16,7 @@ from urllib.parse import urlencode, urlsplit
 
 import numpy as np
 
-from carom.explorer import explorer
+from carom.page import explorer
 from carom.verify.entries import CATALOGUE
 
 SEED = 20261122

@@ -13,8 +13,8 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import ReferenceRole
 
-from carom.explorer.export import export
-from carom.explorer.page import presets
+from carom.page.export import export
+from carom.page.page import presets
 
 LIVE = "http://127.0.0.1:8050/"
 COPY = "explore/index.html"

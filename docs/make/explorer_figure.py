@@ -11,7 +11,7 @@ from threading import Thread
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
-from carom.explorer import explorer
+from carom.page import explorer
 
 FIGURES = Path(__file__).parents[1] / "figures" / "explorer"
 VIEW = "?angle=25&friction=0.25&time=0.6&theme=light&level=full"

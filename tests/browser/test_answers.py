@@ -11,7 +11,7 @@ import carom
 from carom.bodies.losses import ZENER
 from carom.dimensionless.law import SOLID
 from carom.dimensionless.rebounds import regime_borders
-from carom.explorer.views import PAGE, View
+from carom.page.views import PAGE, View
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 import carom
-from carom.explorer.page import stories
+from carom.page.page import stories
 
 pytestmark = pytest.mark.browser
 PLACES = """() => {

@@ -9,10 +9,10 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 import pytest
 from tests.browser.scripts import script
 
-from carom.explorer.export import export
-from carom.explorer.outcomes import outcome_of
-from carom.explorer.overlays import laws
-from carom.explorer.views import Refused, View
+from carom.page.export import export
+from carom.page.outcomes import outcome_of
+from carom.page.overlays import laws
+from carom.page.views import Refused, View
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 

@@ -4,9 +4,9 @@ import json
 
 import pytest
 
-from carom.explorer.outcomes import verdict
-from carom.explorer.page import presets, stories
-from carom.explorer.views import View
+from carom.page.outcomes import verdict
+from carom.page.page import presets, stories
+from carom.page.views import View
 
 pytestmark = pytest.mark.browser
 WAITS = "Whether the theory holds is being judged"

@@ -15,7 +15,7 @@ import pytest
 pytest.importorskip("flask", reason="the explorer needs flask: pip install 'carom[explore]'")
 
 from carom import InputError
-from carom.explorer import Explorer, explorer, page as page_of_carom, serving
+from carom.page import Explorer, explorer, page as page_of_carom, serving
 
 HEARS = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"  # in jobs, too
 START = f"{HEARS}; from carom.cli import run; run()"

@@ -34,7 +34,7 @@ FIRST = {
     "fit": "str(carom.fit(carom.datasets.path('kharaz2001')))",
 }
 if find_spec("flask"):
-    FIRST["page"] = "__import__('carom.explorer').explorer.explorer(port=0).close()"
+    FIRST["page"] = "__import__('carom.page').page.explorer(port=0).close()"
 
 
 def python(program, **environment):

@@ -16,12 +16,12 @@ import pytest
 
 pytest.importorskip("flask")
 
-from carom.explorer import files, uploads
-from carom.explorer.app import ANSWERED_IN_JSON, WRITTEN_FILES, new_app
-from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
-from carom.explorer.outcomes import outcome_of
-from carom.explorer.overlays import law_curves
-from carom.explorer.views import CHOICES, FIELDS, LAWS, View
+from carom.page import files, uploads
+from carom.page.app import ANSWERED_IN_JSON, WRITTEN_FILES, new_app
+from carom.page.limits import LARGEST_REQUEST, LONGEST_LINK
+from carom.page.outcomes import outcome_of
+from carom.page.overlays import law_curves
+from carom.page.views import CHOICES, FIELDS, LAWS, View
 
 SOON = 5.0  # s of a core, for the slowest answer
 REFUSED = {400, 403, 404, 405, 411, 413, 414, 415, 503}

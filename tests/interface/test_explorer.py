@@ -10,11 +10,11 @@ import carom
 
 pytest.importorskip("flask")
 
-from carom.explorer.files import curve_figure
-from carom.explorer.outcomes import impact_of, outcome_of
-from carom.explorer.overlays import law_curves, laws, places
-from carom.explorer.scripts import script
-from carom.explorer.views import LAWS, NUMBERS, View
+from carom.page.files import curve_figure
+from carom.page.outcomes import impact_of, outcome_of
+from carom.page.overlays import law_curves, laws, places
+from carom.page.scripts import script
+from carom.page.views import LAWS, NUMBERS, View
 
 PATIENCE = 60.0  # s
 BODIES = [

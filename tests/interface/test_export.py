@@ -9,7 +9,7 @@ from tests import checks
 
 pytest.importorskip("flask", reason="the explorer needs flask: pip install 'carom[explore]'")
 
-from carom.explorer import export as exporting
+from carom.page import export as exporting
 
 
 def names(folder):

@@ -45,7 +45,7 @@ OWN = {  # private to Carom: what its files know of each other's classes, and us
     **{f"fitting/{name}.py": {"_best"} for name in ("advice", "comparison", "datasets", "report")},
     "fitting/report_file.py": {"_best"},
     "fitting/joint_result.py": {"_sections"},
-    "explorer/uploads.py": {"_best"},
+    "page/uploads.py": {"_best"},
 }
 PUBLIC = {"_replace", "_asdict", "_fields", "_make", "_value_", "_exit"}  # documented by Python
 NUMBA = {

@@ -16,9 +16,9 @@ import pytest
 import carom
 from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.shared_library import BROWSER, BROWSER_CONTENTS, CONTENTS
-from carom.explorer import page
 from carom.folder import PACKAGE
 from carom.native import browser, building
+from carom.page import page
 
 needs_library = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 NONE = "there is no compiled library; install carom again, with a C compiler"

@@ -15,10 +15,10 @@ from carom import HalfSpace, Material, Pair, Sphere
 from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.rebounds import lossy_rebounds
-from carom.explorer.files import NumbersImpact
-from carom.explorer.views import View
 from carom.impacts.histories import spheres
 from carom.impacts.validity import judge_losses
+from carom.page.files import NumbersImpact
+from carom.page.views import View
 
 UNKNOWN = Material(young="70 GPa", poisson=0.22, density=2500)
 GLASS = Pair(Sphere(radius="1 mm", material=UNKNOWN), HalfSpace(material=UNKNOWN), friction=0.1)

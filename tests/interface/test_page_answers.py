@@ -10,9 +10,9 @@ import pytest
 
 pytest.importorskip("flask")
 
-from carom.explorer import outcomes
-from carom.explorer.app import WRITTEN_FILES, new_app
-from carom.explorer.page import kernels, plotly_file
+from carom.page import outcomes
+from carom.page.app import WRITTEN_FILES, new_app
+from carom.page.page import kernels, plotly_file
 
 
 class Told:
@@ -173,7 +173,7 @@ def test_addresses_of_fits():
 
 
 def test_the_server_itself_loads_none_of_what_fits_and_draws():
-    line = "import sys, carom.explorer; print(*sys.modules)"
+    line = "import sys, carom.page; print(*sys.modules)"
     ran = subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, check=True)
     heavy = {"lmfit", "matplotlib", "xarray", "pandas", "carom.fitting"}
     assert heavy.isdisjoint(ran.stdout.split())

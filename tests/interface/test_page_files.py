@@ -11,11 +11,11 @@ import carom
 
 pytest.importorskip("flask")
 
-from carom.explorer import files
-from carom.explorer.app import PICTURES
-from carom.explorer.files import NumbersImpact, contact_figure, history_figure
-from carom.explorer.outcomes import impact_of
-from carom.explorer.views import NUMBERS, View
+from carom.page import files
+from carom.page.app import PICTURES
+from carom.page.files import NumbersImpact, contact_figure, history_figure
+from carom.page.outcomes import impact_of
+from carom.page.views import NUMBERS, View
 
 BODIES = View(angle=41.5)
 STATES = {

@@ -17,8 +17,8 @@ from carom.io.heads import TableFormat, as_toml
 
 pytest.importorskip("flask")
 
-from carom.explorer.uploads import answer
-from carom.explorer.worker import Worker
+from carom.page.uploads import answer
+from carom.page.worker import Worker
 
 
 @cache

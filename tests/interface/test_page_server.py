@@ -10,9 +10,9 @@ pytest.importorskip("flask")
 
 from flask import Flask, request
 
-from carom.explorer import serving
-from carom.explorer.limits import LARGEST_HEAD, LARGEST_REQUEST
-from carom.explorer.serving import Server
+from carom.page import serving
+from carom.page.limits import LARGEST_HEAD, LARGEST_REQUEST
+from carom.page.serving import Server
 
 PATIENCE = 20.0  # s
 GET = b"GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"

@@ -11,11 +11,11 @@ import pytest
 
 pytest.importorskip("flask")
 
-from carom.explorer.outcomes import apart, impact_of, outcome_of, plain, verdict
-from carom.explorer.overlays import law_curves, laws
-from carom.explorer.page import REGIMES, config
-from carom.explorer.views import FIELDS, LAWS, MATERIALS, NUMBERS, PAGE, View
 from carom.impacts.curves import REGIMES as LONG
+from carom.page.outcomes import apart, impact_of, outcome_of, plain, verdict
+from carom.page.overlays import law_curves, laws
+from carom.page.page import REGIMES, config
+from carom.page.views import FIELDS, LAWS, MATERIALS, NUMBERS, PAGE, View
 from carom.plots.bands import BANDS
 from carom.plots.impact import ENERGIES as IN_FIGURES, LOST
 from carom.plots.regimes import REGIMES as OF_FIGURES
@@ -150,7 +150,7 @@ def test_the_page_is_told_all_that_it_shows():
         verdict(View.of(preset["query"]))
 
 
-SHEET = files("carom.explorer").joinpath("assets", "carom.css").read_text("utf-8")
+SHEET = files("carom.page").joinpath("assets", "carom.css").read_text("utf-8")
 LIGHT, DARK = SHEET.split(':root[data-theme="dark"]')
 FILLS = {"stick": ("stick", 0), "slip": ("slip", 1), "gross": ("gross slip", 1)}
 

@@ -11,8 +11,8 @@ import carom
 
 pytest.importorskip("flask")
 
-from carom.explorer.outcomes import outcome_of, verdict
-from carom.explorer.views import CHOICES, FIELDS, LAWS, NUMBERS, OF_MATERIAL, Refused, View
+from carom.page.outcomes import outcome_of, verdict
+from carom.page.views import CHOICES, FIELDS, LAWS, NUMBERS, OF_MATERIAL, Refused, View
 
 KNOBS = {name: field for name, field in FIELDS.items() if field.is_number}
 NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}

@@ -10,10 +10,10 @@ import pytest
 
 pytest.importorskip("flask")
 
-from carom.explorer import worker as workers
-from carom.explorer.limits import MOST_WAITING, Busy
-from carom.explorer.views import Refused
-from carom.explorer.worker import Desk, Worker
+from carom.page import worker as workers
+from carom.page.limits import MOST_WAITING, Busy
+from carom.page.views import Refused
+from carom.page.worker import Desk, Worker
 
 ECHO = """\
 import os, pickle, sys, time
@@ -30,8 +30,8 @@ while True:
         time.sleep(0.6)
     answer = asked, os.getpid()
     if asked in ("refuse", "busy", "fail"):
-        from carom.explorer.views import Refused
-        from carom.explorer.limits import Busy
+        from carom.page.views import Refused
+        from carom.page.limits import Busy
         refusal, busy, failure = Refused("angle", "no"), Busy(), RuntimeError("no")
         answer = {"refuse": refusal, "busy": busy, "fail": failure}[asked]
 """

@@ -10,9 +10,9 @@ import pytest
 from tests.told_numbers import check_numbers
 
 import carom
-from carom.explorer.outcomes import impact_of
-from carom.explorer.page import SYMBOLS, presets
-from carom.explorer.views import FIELDS, PAGE, View
+from carom.page.outcomes import impact_of
+from carom.page.page import SYMBOLS, presets
+from carom.page.views import FIELDS, PAGE, View
 from carom.quantities.glossary import GLOSSARY
 
 NAMED = {preset["id"]: preset for preset in presets()}

@@ -11,10 +11,10 @@ from scipy.optimize import brentq, minimize_scalar
 from tests.told_numbers import check_numbers
 
 import carom
-from carom.explorer.outcomes import impact_of
-from carom.explorer.overlays import laws
-from carom.explorer.page import stories
-from carom.explorer.views import FIELDS, View
+from carom.page.outcomes import impact_of
+from carom.page.overlays import laws
+from carom.page.page import stories
+from carom.page.views import FIELDS, View
 
 STEPS = [
     (f"{story['id']}.{row}", step)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.explorer.page import stories
-from carom.explorer.views import View
+from carom.page.page import stories
+from carom.page.views import View
 
 DOCS = Path(__file__).parents[2] / "docs"
 sys.path.append(str(DOCS / "_ext"))

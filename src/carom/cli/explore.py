@@ -58,7 +58,7 @@ def explore_command(
     if export is not None:
         _export(export, as_json)
         return
-    from carom.explorer import address
+    from carom.page import address
 
     bound = address.listening(host, number)
     with bound, suppress(KeyboardInterrupt, SystemExit):
@@ -68,7 +68,7 @@ def explore_command(
         sys.stdout.flush()
         if open_browser:  # it starts while the rest is loaded, and waits
             Thread(target=webbrowser.open, args=(url,), daemon=True).start()
-        from carom.explorer.serving import serving
+        from carom.page.serving import serving
 
         serving(bound, host).serve()
     code = 128 + heard[0] if heard and heard[0] != signal.SIGINT else 0  # Ctrl-C is its end
@@ -76,7 +76,7 @@ def explore_command(
 
 
 def _export(folder: str, as_json: bool) -> None:
-    from carom.explorer.export import export
+    from carom.page.export import export
 
     copy = export(folder)
     size = f"{copy.bytes / 1e6:.1f} MB in {copy.files} files"

@@ -16,9 +16,6 @@ from carom.bodies.observables import INCIDENCE, OBSERVABLES
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
 from carom.datasets import shipped
-from carom.explorer.columns import lists, plain_words, taken
-from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
-from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View, in_words
 from carom.fitting import Estimate, Fit, fit
 from carom.fitting.comparison import LawFit
 from carom.fitting.intervals import significant
@@ -26,6 +23,9 @@ from carom.fitting.reading import read_measurements, read_problem, read_rebounds
 from carom.io.cells import Column
 from carom.io.heads import TableFormat, table_format
 from carom.io.remedies import Remedies, offering
+from carom.page.columns import lists, plain_words, taken
+from carom.page.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
+from carom.page.views import LONGEST_NAME, PAGE, Refused, View, in_words
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text

@@ -4,7 +4,7 @@ import socket
 from errno import EADDRNOTAVAIL
 from importlib.util import find_spec
 
-from carom.explorer.limits import MOST_QUEUED
+from carom.page.limits import MOST_QUEUED
 from carom.quantities.refusals import InputError, refusal
 
 LOOPBACK = "127.0.0.1"

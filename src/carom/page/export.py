@@ -4,8 +4,8 @@ import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
-from carom.explorer.page import ASSETS, KERNELS, asset, assets_in, kernels, page, plotly_file
 from carom.io.paths import accessing, checked_folder, write_folder
+from carom.page.page import ASSETS, KERNELS, asset, assets_in, kernels, page, plotly_file
 from carom.quantities.refusals import refusal, refuse
 
 PAGE, PLOTLY = "index.html", "plotly.min.js"

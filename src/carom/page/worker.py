@@ -15,7 +15,7 @@ from threading import BoundedSemaphore, Lock, Timer
 from time import monotonic
 from typing import Any
 
-from carom.explorer.limits import (
+from carom.page.limits import (
     FILE_SECONDS,
     FIT_SECONDS,
     MOST_WAITING,
@@ -24,13 +24,13 @@ from carom.explorer.limits import (
     WORK_MEMORY,
     Busy,
 )
-from carom.explorer.views import Refused
+from carom.page.views import Refused
 from carom.quantities.refusals import InputError
 
 PROGRAM = """\
 import json, sys
 sys.path[:] = json.loads(sys.argv[1])
-from carom.explorer import worker
+from carom.page import worker
 worker.work(sys.argv[2], float(sys.argv[3]))
 """
 LATE_WORDS = {
@@ -224,14 +224,14 @@ def _done(do: Callable[..., Any], asked: dict[str, Any]) -> Any:
 
 
 def _fit(**asked: str) -> dict[str, Any]:
-    from carom.explorer import uploads
+    from carom.page import uploads
 
     return uploads.answer(asked)
 
 
 def _file(name: str, query: str, time: float) -> bytes:
-    from carom.explorer import files
-    from carom.explorer.views import View
+    from carom.page import files
+    from carom.page.views import View
 
     file = files.write(name, View.of(query), time, Path.cwd())
     content = file.read_bytes()

@@ -11,9 +11,9 @@ from flask import Flask
 from waitress.channel import HTTPChannel
 from waitress.server import TcpWSGIServer
 
-from carom.explorer.address import DEFAULT_PORT, LOOPBACK, listening, url_of
-from carom.explorer.app import new_app
-from carom.explorer.limits import (
+from carom.page.address import DEFAULT_PORT, LOOPBACK, listening, url_of
+from carom.page.app import new_app
+from carom.page.limits import (
     IDLE_SECONDS,
     LARGEST_HEAD,
     LARGEST_REQUEST,
@@ -21,9 +21,9 @@ from carom.explorer.limits import (
     MOST_QUEUED,
     THREADS,
 )
-from carom.explorer.overlays import followers
-from carom.explorer.page import kernels
-from carom.explorer.worker import Worker
+from carom.page.overlays import followers
+from carom.page.page import kernels
+from carom.page.worker import Worker
 from carom.quantities.refusals import InputError
 
 OWN_NAMES = [LOOPBACK, "localhost", "::1"]
@@ -150,7 +150,7 @@ def explorer(*, host: str = LOOPBACK, port: int = DEFAULT_PORT) -> Explorer:
 
     Examples
     --------
-    >>> from carom.explorer import explorer
+    >>> from carom.page import explorer
     >>> page = explorer(port=0)
     >>> page.url.startswith("http://127.0.0.1:")
     True

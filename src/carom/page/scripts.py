@@ -1,6 +1,6 @@
 """The lines of Python that give what the page shows."""
 
-from carom.explorer.views import OF_MATERIAL, OWN, PAGE, SECOND, View
+from carom.page.views import OF_MATERIAL, OWN, PAGE, SECOND, View
 
 LINES: dict[str, str] = PAGE["script"]
 LAW, DAMPED = "laws[label]", "dataclasses.replace(laws[label], restitution={e})"

@@ -13,9 +13,9 @@ import numpy as np
 from carom.dem.base import ContactLaw
 from carom.dimensionless.law import Law
 from carom.dimensionless.numerics.threads import available_cores
-from carom.explorer.limits import LAW_SECONDS, MOST_FOLLOWERS
-from carom.explorer.outcomes import Outcome, outcome_of
-from carom.explorer.views import View
+from carom.page.limits import LAW_SECONDS, MOST_FOLLOWERS
+from carom.page.outcomes import Outcome, outcome_of
+from carom.page.views import View
 from carom.quantities.arrays import Array
 from carom.quantities.units import or_none
 from carom.verify.entries import damped, named

@@ -2,15 +2,15 @@
 
 from typing import Any
 
-from carom.explorer.address import require
+from carom.page.address import require
 
 __all__ = ["Explorer", "explorer"]
 
 
 def __getattr__(name: str) -> Any:
     if name not in __all__:
-        raise AttributeError(f"carom.explorer has no {name}", name=name)
+        raise AttributeError(f"carom.page has no {name}", name=name)
     require()
-    from carom.explorer import serving
+    from carom.page import serving
 
     return getattr(serving, name)

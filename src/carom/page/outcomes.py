@@ -12,9 +12,9 @@ from carom.bodies.pairs import Pair
 from carom.dimensionless.law import SOLID
 from carom.dimensionless.solution import solve
 from carom.dimensionless.states import History
-from carom.explorer.views import OWN, PAGE, Refused, View, in_words
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
+from carom.page.views import OWN, PAGE, Refused, View, in_words
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import prefixed
 from carom.quantities.refusals import InputError

@@ -12,12 +12,12 @@ from flask import Flask, Response, abort, request, send_file, send_from_director
 from werkzeug.exceptions import HTTPException
 
 from carom.datasets.shipped import names as dataset_names
-from carom.explorer import outcomes, overlays
-from carom.explorer.limits import LARGEST_REQUEST, Busy
-from carom.explorer.page import KERNELS, kernels as script_of_kernels, page, plotly_file
-from carom.explorer.scripts import script
-from carom.explorer.views import FIELDS, Refused, View, read_number
-from carom.explorer.worker import Worker
+from carom.page import outcomes, overlays
+from carom.page.limits import LARGEST_REQUEST, Busy
+from carom.page.page import KERNELS, kernels as script_of_kernels, page, plotly_file
+from carom.page.scripts import script
+from carom.page.views import FIELDS, Refused, View, read_number
+from carom.page.worker import Worker
 from carom.quantities.refusals import InputError
 from carom.quantities.texts import Unreadable, read_text
 from carom.quantities.units import or_none
