@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 import carom
-from carom.fitting import fit
+from carom.lab.fitting import fit
 
 SEED = 20261121
 BALL = carom.Sphere(radius="2.5 mm", material="steel")

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from rich.progress import track
 
 import carom
-from carom.fitting import fit
+from carom.lab.fitting import fit
 
 TABLE = Path(__file__).with_name("fit_coverage.csv")
 SEED, SETS = 20261123, 500

@@ -29,14 +29,14 @@ from .dimensionless.numerics.shared_library import (
 )
 from .dimensionless.rebounds import rebound as rebound
 from .dimensionless.solution import solve as solve
-from .fitting import fit as fit, joint_fit as joint_fit
-from .fitting.tracks import track as track
 from .impacts.boundary_elements import BoundaryElements as BoundaryElements
 from .impacts.contacts.load_paths import load_path as load_path
 from .impacts.curves import curve as curve, regime_map as regime_map
 from .impacts.solve import impact as impact
 from .io.files import save as save
 from .io.version import __version__ as __version__
+from .lab.fitting import fit as fit, joint_fit as joint_fit
+from .lab.fitting.tracks import track as track
 from .quantities.refusals import InputError as InputError
 from .sweeps import sweep as sweep
 from .sweeps.designs import Grid as Grid, LatinHypercube as LatinHypercube

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.fitting.report_file import budget
+from carom.lab.fitting.report_file import budget
 
 BALL = carom.Sphere(radius="10 mm", material="bearing steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="bearing steel"), friction=0.12)

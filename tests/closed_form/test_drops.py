@@ -10,8 +10,8 @@ from tests import checks
 from tests.checks import BALL, PAIR
 
 import carom
-from carom.fitting.bounces import DENSITY, GRAVITY, VISCOSITY, taken_by_air
-from carom.fitting.loss_laws import metal, plastic, viscous
+from carom.lab.fitting.bounces import DENSITY, GRAVITY, VISCOSITY, taken_by_air
+from carom.lab.fitting.loss_laws import metal, plastic, viscous
 from carom.plots.fits import plot_drops
 
 SEED = 20261124

@@ -6,8 +6,8 @@ from scipy.optimize import minimize_scalar
 from scipy.stats import norm, t
 
 import carom
-from carom.fitting import fit
-from carom.fitting.problem import DEGREES, RobustLoss, scatter
+from carom.lab.fitting import fit
+from carom.lab.fitting.problem import DEGREES, RobustLoss, scatter
 
 MU, E = 0.15, 1.0
 BALL = carom.Sphere(radius="5 mm", material="steel")

@@ -8,11 +8,11 @@ import pytest
 from scipy.stats import binom, norm
 
 import carom
-from carom.fitting import plates
-from carom.fitting.model import EXACT, Model, suited
-from carom.fitting.options import read_options
-from carom.fitting.reading import read_problem, read_rebounds
 from carom.impacts.validity import GRAVITY
+from carom.lab.fitting import plates
+from carom.lab.fitting.model import EXACT, Model, suited
+from carom.lab.fitting.options import read_options
+from carom.lab.fitting.reading import read_problem, read_rebounds
 
 SEED = 20261126
 BALL = carom.Sphere(radius="5 mm", material="bearing steel")

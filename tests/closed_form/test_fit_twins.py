@@ -7,7 +7,7 @@ from scipy.optimize import brentq, least_squares
 import carom
 from carom.dimensionless.rebound_tables import psi_at, psi_out, stored
 from carom.dimensionless.rebounds import regime_borders
-from carom.fitting import fit
+from carom.lab.fitting import fit
 
 MU, SIGMA = 0.12, 0.02
 BALL = carom.Sphere(radius="2.5 mm", material="steel")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.fitting import fit
+from carom.lab.fitting import fit
 
 MU = 0.12
 BALL = carom.Sphere(radius="2.5 mm", material="steel")

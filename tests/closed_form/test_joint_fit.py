@@ -9,7 +9,7 @@ from scipy.stats import chi2, t as student, ttest_ind
 from tests.checks import refused
 
 import carom
-from carom.fitting import fit, joint_fit
+from carom.lab.fitting import fit, joint_fit
 
 STEEL = carom.HalfSpace(material="steel")
 DEGREES = np.array([12.0, 25.0, 38.0, 50.0, 61.0, 72.0])

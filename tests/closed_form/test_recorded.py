@@ -8,8 +8,8 @@ from scipy.optimize import least_squares
 from tests.checks import PAIR, refused
 
 import carom
-from carom.fitting.bounces import GRAVITY
-from carom.fitting.problem import Bounces, shared_readings
+from carom.lab.fitting.bounces import GRAVITY
+from carom.lab.fitting.problem import Bounces, shared_readings
 
 SEED = 20261126
 ANGLES = np.radians([5.0, 15.0, 25.0, 35.0, 45.0, 55.0, 65.0])

@@ -178,8 +178,8 @@ def test_ctrl_c_in_sampling_is_told_in_one_line(there, command):
     """The sampler would print what was interrupted, with a traceback, among the results."""
     program = """
 import signal
-import carom.fitting.model as laws
-from carom.fitting import datasets
+import carom.lab.fitting.model as laws
+from carom.lab.fitting import datasets
 sampled, read = datasets.sample, laws.stored
 def interrupted():
     signal.raise_signal(signal.SIGINT)
@@ -187,8 +187,8 @@ def interrupted():
 def sample(*given):
     laws.stored = interrupted
     return sampled(*given)
-import carom.fitting.result
-carom.fitting.result.sample = sample
+import carom.lab.fitting.result
+carom.lab.fitting.result.sample = sample
 """
     arguments = [*FIT, "--posterior", "chain.csv", "--json"]
     assert command(there, *arguments, before=program) == (130, "", STOPPED)

@@ -5,10 +5,10 @@ import openpyxl
 import pytest
 
 import carom
-from carom.fitting.reading import read_problem, read_rebounds
 from carom.io import table_rows
 from carom.io.tables import read_table
 from carom.io.user_table import column_in_si
+from carom.lab.fitting.reading import read_problem, read_rebounds
 
 HEAD = "angle [deg],speed [m/s],spin,spin_out [rpm],e_n,tangential_restitution [%]\n"
 COLUMNS = {"e_n": "normal_restitution"}

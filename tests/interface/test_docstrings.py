@@ -19,7 +19,7 @@ from numpydoc.docscrape import NumpyDocString
 from numpydoc.validate import validate
 
 import carom
-import carom.fitting
+import carom.lab.fitting
 from carom.quantities.glossary import GLOSSARY
 
 DOCS = Path(__file__).parents[2] / "docs"

@@ -8,7 +8,7 @@ import pytest
 from tests.checks import refused
 
 import carom
-from carom.fitting import fit
+from carom.lab.fitting import fit
 
 MU = 0.12
 RESTING = {"restitution": 1.0}

@@ -9,7 +9,7 @@ from tests.checks import refused
 
 import carom
 from carom.bodies.cases import case_of
-from carom.fitting import fit
+from carom.lab.fitting import fit
 
 ANGLES = [10.0, 20.0, 30.0, 40.0, 50.0]
 BALL = carom.Sphere(radius="2.5 mm", material="steel")

@@ -9,8 +9,8 @@ import pytest
 from tests.checks import refused
 
 import carom
-from carom.fitting import fit
-from carom.fitting.comparison import Comparison, LawFit
+from carom.lab.fitting import fit
+from carom.lab.fitting.comparison import Comparison, LawFit
 from carom.plots.fits import plot_corner, plot_fit
 from carom.plots.regimes import REGIMES
 from carom.quantities.glossary import GLOSSARY

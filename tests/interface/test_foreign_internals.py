@@ -42,9 +42,12 @@ OWN = {  # private to Carom: what its files know of each other's classes, and us
     "verify/errors.py": {"_most_steps", "_why"},
     "verify/pack/writing.py": {"_arguments", "_called"},
     "verify/scoring/velocities.py": {"_describe"},
-    **{f"fitting/{name}.py": {"_best"} for name in ("advice", "comparison", "datasets", "report")},
-    "fitting/report_file.py": {"_best"},
-    "fitting/joint_result.py": {"_sections"},
+    **{
+        f"lab/fitting/{name}.py": {"_best"}
+        for name in ("advice", "comparison", "datasets", "report")
+    },
+    "lab/fitting/report_file.py": {"_best"},
+    "lab/fitting/joint_result.py": {"_sections"},
     "page/uploads.py": {"_best"},
 }
 PUBLIC = {"_replace", "_asdict", "_fields", "_make", "_value_", "_exit"}  # documented by Python

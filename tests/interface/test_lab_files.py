@@ -17,9 +17,9 @@ from odf.text import P
 
 import carom
 from carom.cli import main
-from carom.fitting.template import TEMPLATE
 from carom.io.tables import read_table
 from carom.io.user_table import in_units
+from carom.lab.fitting.template import TEMPLATE
 
 ANGLES = (5.5, 10.25, 20.0, 35.0, 50.0, 60.5)
 SPINS = (-118.25, -210.5, -405.0, None, -471.5, -383.75)  # rpm

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 import carom
-from carom.fitting import Estimate
+from carom.lab.fitting import Estimate
 from carom.quantities.glossary import GLOSSARY, Quantity
 from carom.quantities.prefixes import DIGITS, READ, column, prefixed, shared, span, text
 from carom.quantities.texts import read_text

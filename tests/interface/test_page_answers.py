@@ -175,7 +175,7 @@ def test_addresses_of_fits():
 def test_the_server_itself_loads_none_of_what_fits_and_draws():
     line = "import sys, carom.page; print(*sys.modules)"
     ran = subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, check=True)
-    heavy = {"lmfit", "matplotlib", "xarray", "pandas", "carom.fitting"}
+    heavy = {"lmfit", "matplotlib", "xarray", "pandas", "carom.lab.fitting"}
     assert heavy.isdisjoint(ran.stdout.split())
 
 

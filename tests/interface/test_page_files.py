@@ -146,6 +146,6 @@ def test_histories_are_those_of_the_library(name, tmp_path):
 
 
 def test_the_template_is_that_of_the_command_line(tmp_path):
-    from carom.fitting.template import TEMPLATE
+    from carom.lab.fitting.template import TEMPLATE
 
     assert files.write("template.csv", View(), 0.5, tmp_path).read_text() == TEMPLATE

@@ -5,7 +5,7 @@ import pytest
 from scipy.stats import binom
 
 import carom
-from carom.fitting import fit
+from carom.lab.fitting import fit
 
 MU, SPIN = 0.12, 20.0
 BALL = carom.Sphere(radius="2.5 mm", material="steel")

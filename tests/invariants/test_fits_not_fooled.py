@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import binom
 
 import carom
-from carom.fitting import fit
+from carom.lab.fitting import fit
 
 FLOOR = carom.HalfSpace(material="steel")
 MU, SPEED, ROWS = 0.12, 3.9, 12

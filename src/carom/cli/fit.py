@@ -27,10 +27,10 @@ from carom.quantities.units import whole
 
 if TYPE_CHECKING:
     from carom.bodies.pairs import Pair
-    from carom.fitting import Fit, JointFit
-    from carom.fitting.advice import Advice
     from carom.io.heads import TableFormat
     from carom.io.user_table import UserTable
+    from carom.lab.fitting import Fit, JointFit
+    from carom.lab.fitting.advice import Advice
 
     Measured = tuple[UserTable, Pair | None]
 
@@ -127,7 +127,7 @@ def fit_command(
     A plate of unknown thickness: carom fit drops.csv --case ball.toml --thickness "3 mm"
     An empty table: carom fit --template > rebounds.csv
     """
-    from carom.fitting.options import checked_confidence
+    from carom.lab.fitting.options import checked_confidence
 
     if template:
         _tell_template(data[0] if data else dataset, as_json)
@@ -165,8 +165,8 @@ def _checked_numbers(
     advice: str | None, about: str | None, steps: str, seed: str
 ) -> tuple[int | None, tuple[int, int]]:
     """Return how many measurements are advised; and steps and seed of the posterior."""
-    from carom.fitting.advice import MOST_LISTED
-    from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
+    from carom.lab.fitting.advice import MOST_LISTED
+    from carom.lab.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
 
     with Faults() as faults:
         if about is not None and advice is None:
@@ -217,9 +217,9 @@ def _read(
     options: Mapping[str, Any],
 ) -> "dict[str, Measured]":
     """Return what was measured of which bodies, by the names of the files, if it can be fitted."""
-    from carom.fitting.joint_result import named_sets
-    from carom.fitting.options import read_options
-    from carom.fitting.reading import read_problem, read_rebounds
+    from carom.lab.fitting.joint_result import named_sets
+    from carom.lab.fitting.options import read_options
+    from carom.lab.fitting.reading import read_problem, read_rebounds
 
     names = [*named_sets(sources)] if len(sources) > 1 else [""][: len(sources)]
     own: list[str | None] = [*cases] or [None]
@@ -249,7 +249,7 @@ def _fitted(
 
 
 def _tell_template(source: str | None, as_json: bool) -> None:
-    from carom.fitting.template import TEMPLATE
+    from carom.lab.fitting.template import TEMPLATE
 
     with checking() as faults:
         if source is not None:
@@ -272,7 +272,7 @@ def _sources(data: Sequence[str] | None, dataset: str | None) -> Sequence[str | 
 def _pair(case: str | None, thickness: str | None, table: Any) -> "Pair | None":
     """Return the bodies of a case file, or of the data if these get another thickness."""
     from carom.bodies.cases import LOSSES, RATIO, pair_of
-    from carom.fitting.reading import START_FRICTION, case_of_data
+    from carom.lab.fitting.reading import START_FRICTION, case_of_data
 
     if case is None and (thickness is None or table is None):
         return None

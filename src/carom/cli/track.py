@@ -61,6 +61,6 @@ def track_command(
     store_format(table, given["save_columns"])
     if output is not None:
         stored(carom.save(motions, output))
-    from carom.fitting.tracks import as_records, as_text
+    from carom.lab.fitting.tracks import as_records, as_text
 
     typer.echo(json.dumps(as_records(motions), indent=2) if as_json else as_text(motions))

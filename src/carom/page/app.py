@@ -11,7 +11,7 @@ from urllib.parse import parse_qs, urlsplit
 from flask import Flask, Response, abort, request, send_file, send_from_directory
 from werkzeug.exceptions import HTTPException
 
-from carom.datasets.shipped import names as dataset_names
+from carom.lab.datasets.shipped import names as dataset_names
 from carom.page import outcomes, overlays
 from carom.page.limits import LARGEST_REQUEST, Busy
 from carom.page.page import KERNELS, kernels as script_of_kernels, page, plotly_file

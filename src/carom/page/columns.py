@@ -6,15 +6,15 @@ from pathlib import Path
 from typing import Any
 
 from carom.bodies.observables import BEFORE, OBSERVABLES
-from carom.fitting.bounces import BOUNCES, base
-from carom.fitting.groups import GROUP
-from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.reading import FROM_SURFACE, UNSIGNED
 from carom.io.cells import Column, is_number
 from carom.io.heads import ALIASES, TableFormat, parts_of
 from carom.io.spreadsheets import sheets_of
 from carom.io.tables import file_columns
 from carom.io.user_table import entry, suggested, with_errors
+from carom.lab.fitting.bounces import BOUNCES, base
+from carom.lab.fitting.groups import GROUP
+from carom.lab.fitting.plates import DURATION, THICKNESS
+from carom.lab.fitting.reading import FROM_SURFACE, UNSIGNED
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, clipped
 from carom.quantities.texts import is_unit

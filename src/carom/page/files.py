@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 from carom.bodies.pairs import Scales
 from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.solution import solve
-from carom.fitting.template import TEMPLATE
 from carom.impacts.contacts.fields import contact_in_impact, surface_fields
 from carom.impacts.curves import curve
 from carom.impacts.histories import labelled
 from carom.io.files import save
 from carom.io.labels import labelled_dataset
+from carom.lab.fitting.template import TEMPLATE
 from carom.page.limits import LAW_SECONDS, Busy
 from carom.page.outcomes import FORCE_SCALE, Outcome, columns_of_numbers, impact_of, outcome_of
 from carom.page.overlays import LawCurve, followers, law_curves, places

@@ -19,11 +19,11 @@ from urllib.parse import urlencode
 import numpy as np
 
 from carom.bodies.materials import material
-from carom.datasets import names as dataset_names, path
 from carom.dimensionless.numerics.shared_library import BROWSER, BROWSER_CONTENTS, FOLDER, digest
 from carom.folder import DATA, PACKAGE
 from carom.impacts.curves import REGIMES as LONG
 from carom.io.tables import read_table
+from carom.lab.datasets.shipped import names as dataset_names, path
 from carom.page.limits import LARGEST_UPLOAD, LONGEST_LINK
 from carom.page.views import CHOICES, FIELDS, OWN, PAGE, PAGE_ONLY, UNDAMPED, View
 from carom.quantities.glossary import GLOSSARY

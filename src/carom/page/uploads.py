@@ -15,14 +15,14 @@ import xarray as xr
 from carom.bodies.observables import INCIDENCE, OBSERVABLES
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
-from carom.datasets import shipped
-from carom.fitting import Estimate, Fit, fit
-from carom.fitting.comparison import LawFit
-from carom.fitting.intervals import significant
-from carom.fitting.reading import read_measurements, read_problem, read_rebounds
 from carom.io.cells import Column
 from carom.io.heads import TableFormat, table_format
 from carom.io.remedies import Remedies, offering
+from carom.lab.datasets import shipped
+from carom.lab.fitting import Estimate, Fit, fit
+from carom.lab.fitting.comparison import LawFit
+from carom.lab.fitting.intervals import significant
+from carom.lab.fitting.reading import read_measurements, read_problem, read_rebounds
 from carom.page.columns import lists, plain_words, taken
 from carom.page.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.page.views import LONGEST_NAME, PAGE, Refused, View, in_words

@@ -17,8 +17,8 @@ from carom.bodies.losses import KelvinVoigt, ZenerPlate
 from carom.bodies.materials import Material, material, materials
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
-from carom.datasets.shipped import names as dataset_names
 from carom.folder import DATA
+from carom.lab.datasets.shipped import names as dataset_names
 from carom.page.limits import LONGEST_LINK
 from carom.quantities.refusals import InputError, clipped, nearest
 from carom.quantities.texts import Unreadable, read_text

@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.fitting import plates
-from carom.fitting.advice import Advice, advise
-from carom.fitting.comparison import FitRecord
-from carom.fitting.datasets import fit_dataset, sample
-from carom.fitting.intervals import (
+from carom.impacts.curves import REGIMES
+from carom.io.citations import FITS, PLATE, SAMPLES, VISCOUS, bibtex, with_doi
+from carom.io.progress import Progress
+from carom.lab.fitting import plates
+from carom.lab.fitting.advice import Advice, advise
+from carom.lab.fitting.comparison import FitRecord
+from carom.lab.fitting.datasets import fit_dataset, sample
+from carom.lab.fitting.intervals import (
     Estimate,
     ProfiledFit,
     Settled,
@@ -20,15 +23,12 @@ from carom.fitting.intervals import (
     profiled,
     reason,
 )
-from carom.fitting.model import half_ratio
-from carom.fitting.options import NAMES
-from carom.fitting.plates import THICKNESS
-from carom.fitting.problem import FitProblem
-from carom.fitting.report import as_text, notes
-from carom.fitting.report_file import Reported, sections_of
-from carom.impacts.curves import REGIMES
-from carom.io.citations import FITS, PLATE, SAMPLES, VISCOUS, bibtex, with_doi
-from carom.io.progress import Progress
+from carom.lab.fitting.model import half_ratio
+from carom.lab.fitting.options import NAMES
+from carom.lab.fitting.plates import THICKNESS
+from carom.lab.fitting.problem import FitProblem
+from carom.lab.fitting.report import as_text, notes
+from carom.lab.fitting.report_file import Reported, sections_of
 from carom.plots.result import Section, card
 
 if TYPE_CHECKING:

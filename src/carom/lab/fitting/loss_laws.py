@@ -12,9 +12,9 @@ from carom.bodies.pairs import Pair
 from carom.dimensionless.lossy.springs import metal as springs
 from carom.dimensionless.lossy.viscoelastic.normal import restitution
 from carom.dimensionless.lossy.viscoelastic.work import new_work
-from carom.fitting import model as laws, plates
-from carom.fitting.model import FittedLaw, Parameter, Values, untouched
-from carom.fitting.problem import FitProblem
+from carom.lab.fitting import model as laws, plates
+from carom.lab.fitting.model import FittedLaw, Parameter, Values, untouched
+from carom.lab.fitting.problem import FitProblem
 from carom.quantities.arrays import Array
 
 LEAST, MOST = 1e-8, 10.0  # of a loss time, in units of d_max/V_1

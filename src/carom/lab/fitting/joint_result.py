@@ -7,13 +7,13 @@ from math import inf, isfinite, sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.fitting.estimation import Best
-from carom.fitting.intervals import Estimate, Settled
-from carom.fitting.joint import settle_jointly
-from carom.fitting.options import NAMES
-from carom.fitting.report_file import Reported
-from carom.fitting.result import Fit, assembled
 from carom.io.labels import labelled_dataset
+from carom.lab.fitting.estimation import Best
+from carom.lab.fitting.intervals import Estimate, Settled
+from carom.lab.fitting.joint import settle_jointly
+from carom.lab.fitting.options import NAMES
+from carom.lab.fitting.report_file import Reported
+from carom.lab.fitting.result import Fit, assembled
 from carom.plots.result import Section, card
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, nearest, refuse

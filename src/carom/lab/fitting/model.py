@@ -12,10 +12,10 @@ from carom.bodies.kinematics import Rebound, Tangential
 from carom.bodies.pairs import Pair
 from carom.dimensionless.rebound_tables import STORED_CHI, STORED_E, psi_out, stored
 from carom.dimensionless.rebounds import regime_borders
-from carom.fitting import plates
-from carom.fitting.least_squares import BoxBounds
-from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.problem import FitProblem, IncomingMotion, Weights, shared_readings
+from carom.lab.fitting import plates
+from carom.lab.fitting.least_squares import BoxBounds
+from carom.lab.fitting.plates import DURATION, THICKNESS
+from carom.lab.fitting.problem import FitProblem, IncomingMotion, Weights, shared_readings
 from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # by name: of parameters (batch, 1), of restitutions (batch, rows)

@@ -5,15 +5,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.fitting.comparison import FitRecord, LossComparison
-from carom.fitting.estimation import Best
-from carom.fitting.least_squares import jacobian
-from carom.fitting.model import half_ratio
-from carom.fitting.problem import OUTLIER, FitProblem, IncomingMotion
 from carom.impacts.curves import REGIMES
 from carom.io.extras import extra
 from carom.io.labels import flags, labelled_dataset
 from carom.io.progress import Progress, advancing
+from carom.lab.fitting.comparison import FitRecord, LossComparison
+from carom.lab.fitting.estimation import Best
+from carom.lab.fitting.least_squares import jacobian
+from carom.lab.fitting.model import half_ratio
+from carom.lab.fitting.problem import OUTLIER, FitProblem, IncomingMotion
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import refuse
 from carom.quantities.units import counted

@@ -7,12 +7,12 @@ import numpy as np
 
 from carom.bodies.observables import NORMAL
 from carom.dimensionless.elastic.phases import LARGEST_GIVE
-from carom.fitting import plates
-from carom.fitting.intervals import ELASTIC_TAKEN, EXAMPLES
-from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged, suited
-from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.problem import FitProblem
 from carom.io.remedies import REMEDIES
+from carom.lab.fitting import plates
+from carom.lab.fitting.intervals import ELASTIC_TAKEN, EXAMPLES
+from carom.lab.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged, suited
+from carom.lab.fitting.plates import DURATION, THICKNESS
+from carom.lab.fitting.problem import FitProblem
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, checked_type, clipped, nearest, refusal, refuse
 from carom.quantities.units import number

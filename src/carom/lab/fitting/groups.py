@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from carom.fitting import problem as errors
-from carom.fitting.estimation import Best, estimate
-from carom.fitting.model import Model
-from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.io.cells import Mask
 from carom.io.user_table import ERROR, UserTable
+from carom.lab.fitting import problem as errors
+from carom.lab.fitting.estimation import Best, estimate
+from carom.lab.fitting.model import Model
+from carom.lab.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError

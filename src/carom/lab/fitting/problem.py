@@ -12,9 +12,9 @@ from scipy.special import gammaln
 from carom.bodies.kinematics import Tangential
 from carom.bodies.observables import convert_observables
 from carom.bodies.pairs import Pair
-from carom.fitting.plates import THICKNESS
 from carom.io.cells import Mask
 from carom.io.user_table import UserTable
+from carom.lab.fitting.plates import THICKNESS
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 

@@ -18,14 +18,14 @@ from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebound_tables import STORED_CHI
-from carom.fitting import bounces, plates
-from carom.fitting.bounces import about_air
-from carom.fitting.groups import GROUP
-from carom.fitting.plates import DURATION, THICKNESS
-from carom.fitting.problem import NO_SPEED, Bounces, FitProblem, IncomingMotion
 from carom.io.remedies import REMEDIES
 from carom.io.tables import read_table
 from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
+from carom.lab.fitting import bounces, plates
+from carom.lab.fitting.bounces import about_air
+from carom.lab.fitting.groups import GROUP
+from carom.lab.fitting.plates import DURATION, THICKNESS
+from carom.lab.fitting.problem import NO_SPEED, Bounces, FitProblem, IncomingMotion
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, refuse

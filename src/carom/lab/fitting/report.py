@@ -8,11 +8,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.fitting import plates
-from carom.fitting.comparison import FitRecord
-from carom.fitting.estimation import Best, estimate, rough_minima
-from carom.fitting.groups import about_repeats
-from carom.fitting.intervals import (
+from carom.io.remedies import REMEDIES
+from carom.io.user_table import AFTERWARDS
+from carom.lab.fitting import plates
+from carom.lab.fitting.comparison import FitRecord
+from carom.lab.fitting.estimation import Best, estimate, rough_minima
+from carom.lab.fitting.groups import about_repeats
+from carom.lab.fitting.intervals import (
     ELASTIC_KAPPA,
     LIMITS,
     Estimate,
@@ -20,12 +22,10 @@ from carom.fitting.intervals import (
     Settled,
     elastic_bounds,
 )
-from carom.fitting.model import KAPPA, Model
-from carom.fitting.plates import THICKNESS
-from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
-from carom.fitting.reading import FROM_SURFACE, UNSIGNED
-from carom.io.remedies import REMEDIES
-from carom.io.user_table import AFTERWARDS
+from carom.lab.fitting.model import KAPPA, Model
+from carom.lab.fitting.plates import THICKNESS
+from carom.lab.fitting.problem import OUTLIER, FitProblem, RobustLoss, typical_deviation
+from carom.lab.fitting.reading import FROM_SURFACE, UNSIGNED
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.fitting.comparison import FitRecord
-from carom.fitting.estimation import Best, weighed
-from carom.fitting.plates import THICKNESS
-from carom.fitting.problem import NORMAL, FitProblem, RobustLoss, gaussian_mean
 from carom.impacts.curves import REGIMES
+from carom.lab.fitting.comparison import FitRecord
+from carom.lab.fitting.estimation import Best, weighed
+from carom.lab.fitting.plates import THICKNESS
+from carom.lab.fitting.problem import NORMAL, FitProblem, RobustLoss, gaussian_mean
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, nearest
 from carom.quantities.units import counted

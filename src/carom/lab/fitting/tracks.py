@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from scipy.special import fdtrc
 
-from carom.fitting.intervals import significant
-from carom.fitting.track_files import Frames, read_track
 from carom.impacts.validity import GRAVITY
 from carom.io.heads import table_format
 from carom.io.labels import labelled_dataset
 from carom.io.user_table import ERROR
+from carom.lab.fitting.intervals import significant
+from carom.lab.fitting.track_files import Frames, read_track
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import text

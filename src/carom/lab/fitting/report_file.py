@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from carom.fitting.bounces import BOUNCES
-from carom.fitting.comparison import FitRecord
-from carom.fitting.estimation import Best
-from carom.fitting.problem import FitProblem
-from carom.fitting.report import summary
 from carom.impacts.solve import impact
 from carom.io.files import DOCUMENTS
 from carom.io.paths import checked_output
 from carom.io.user_table import ERROR
 from carom.io.version import __version__
+from carom.lab.fitting.bounces import BOUNCES
+from carom.lab.fitting.comparison import FitRecord
+from carom.lab.fitting.estimation import Best
+from carom.lab.fitting.problem import FitProblem
+from carom.lab.fitting.report import summary
 from carom.plots.result import Result, Section
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY

@@ -6,15 +6,15 @@ from pathlib import Path
 from typing import Any
 
 from carom.bodies.pairs import Pair
-from carom.fitting.groups import by_groups, with_readings
-from carom.fitting.intervals import Estimate, Settled, refuse_contradicted, settle
-from carom.fitting.joint_result import JointFit, jointly_assembled, named_sets
-from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
-from carom.fitting.options import check_count, checked_confidence, read_options, read_shared
-from carom.fitting.problem import RobustLoss
-from carom.fitting.reading import read_problem, read_rebounds
-from carom.fitting.result import Fit, assembled
 from carom.io.progress import advancing
+from carom.lab.fitting.groups import by_groups, with_readings
+from carom.lab.fitting.intervals import Estimate, Settled, refuse_contradicted, settle
+from carom.lab.fitting.joint_result import JointFit, jointly_assembled, named_sets
+from carom.lab.fitting.model import EXACT, OFFSET, STRAIGHT, Model, suited
+from carom.lab.fitting.options import check_count, checked_confidence, read_options, read_shared
+from carom.lab.fitting.problem import RobustLoss
+from carom.lab.fitting.reading import read_problem, read_rebounds
+from carom.lab.fitting.result import Fit, assembled
 from carom.quantities.refusals import Faults, flag, known_keywords, refuse
 from carom.quantities.units import Value
 

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtri, stdtrit
 
-from carom.fitting import plates, problem as errors
-from carom.fitting.least_squares import DIFFERENCE_STEP, Minimum, descend, jacobian
-from carom.fitting.model import Model, Parameter
-from carom.fitting.problem import FitProblem, Weights
 from carom.io.cells import Mask
 from carom.io.extras import extra
+from carom.lab.fitting import plates, problem as errors
+from carom.lab.fitting.least_squares import DIFFERENCE_STEP, Minimum, descend, jacobian
+from carom.lab.fitting.model import Model, Parameter
+from carom.lab.fitting.problem import FitProblem, Weights
 from carom.quantities.arrays import Array
 
 WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell

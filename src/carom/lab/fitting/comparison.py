@@ -12,14 +12,14 @@ from scipy.special import stdtrit
 from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw, Metal
 from carom.bodies.observables import NORMAL
 from carom.bodies.pairs import Pair
-from carom.fitting import model as laws, plates
-from carom.fitting.estimation import Best, estimate, polished, scan, weighed
-from carom.fitting.intervals import Estimate, estimate_of, profiled, settle
-from carom.fitting.loss_laws import CONSTANT, ON_PLATE, elastic, laws_of_losses
-from carom.fitting.model import EXACT, OFFSET, Model
-from carom.fitting.plates import THICKNESS
-from carom.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.io.cells import Mask
+from carom.lab.fitting import model as laws, plates
+from carom.lab.fitting.estimation import Best, estimate, polished, scan, weighed
+from carom.lab.fitting.intervals import Estimate, estimate_of, profiled, settle
+from carom.lab.fitting.loss_laws import CONSTANT, ON_PLATE, elastic, laws_of_losses
+from carom.lab.fitting.model import EXACT, OFFSET, Model
+from carom.lab.fitting.plates import THICKNESS
+from carom.lab.fitting.problem import OUTLIER, FitProblem, RobustLoss
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import span

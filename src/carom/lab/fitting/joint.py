@@ -10,10 +10,10 @@ import numpy as np
 from scipy.linalg import block_diag, null_space
 from scipy.special import fdtrc
 
-from carom.fitting.estimation import Best, estimate, polished, weighed
-from carom.fitting.intervals import ProfiledFit, Settled, profiled, without_weak
-from carom.fitting.model import Model, Parameter, plain
-from carom.fitting.problem import FitProblem, IncomingMotion, Weights
+from carom.lab.fitting.estimation import Best, estimate, polished, weighed
+from carom.lab.fitting.intervals import ProfiledFit, Settled, profiled, without_weak
+from carom.lab.fitting.model import Model, Parameter, plain
+from carom.lab.fitting.problem import FitProblem, IncomingMotion, Weights
 from carom.quantities.arrays import Array
 
 MANY = 1e9  # degrees of freedom, as good as known

@@ -1,4 +1,4 @@
-from .shipped import (
+from .lab.datasets.shipped import (
     load as load,
     names as names,
     parameters as parameters,

@@ -10,12 +10,12 @@ import numpy as np
 from scipy.special import chdtri
 
 from carom.dimensionless.rebounds import THROUGHOUT
-from carom.fitting.estimation import WEAK, Best, Information, estimate
-from carom.fitting.model import KAPPA, OFFSET, RESTITUTION, Model, plain, ranged
-from carom.fitting.plates import THICKNESS
-from carom.fitting.problem import RobustLoss
 from carom.io.cells import Mask
 from carom.io.remedies import REMEDIES
+from carom.lab.fitting.estimation import WEAK, Best, Information, estimate
+from carom.lab.fitting.model import KAPPA, OFFSET, RESTITUTION, Model, plain, ranged
+from carom.lab.fitting.plates import THICKNESS
+from carom.lab.fitting.problem import RobustLoss
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import Printed, shared

@@ -1,0 +1,1 @@
+"""From measured rebounds to numbers: fits, tracks of videos, measured data with sources."""
