@@ -26,13 +26,13 @@ from typing import NamedTuple, Self
 
 import carom
 from carom.bodies.cases import read_case
-from carom.sweeps.tables import plan
+from carom.many.sweeps.tables import plan
 
 CASE = Path(__file__).parents[1] / "examples" / "million.toml"
 SECONDS = 120.0  # that anything may take
 LOGGING = """
 import os
-from carom.sweeps.problem import SweepProblem
+from carom.many.sweeps.problem import SweepProblem
 block, log = SweepProblem.block, os.open({log!r}, os.O_WRONLY | os.O_APPEND | os.O_CREAT)
 
 def dask_setup(worker):

@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import carom
 from carom.dimensionless.numerics.threads import available_cores
-from carom.sweeps import sweep
-from carom.sweeps.designs import LatinHypercube
-from carom.sweeps.problem import SweepProblem
+from carom.many.sweeps import sweep
+from carom.many.sweeps.designs import LatinHypercube
+from carom.many.sweeps.problem import SweepProblem
 
 SEED = 20261121
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "friction": 0.2, "speed": "2 m/s"}

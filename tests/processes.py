@@ -10,7 +10,8 @@ from threading import Thread
 
 SERVER = """
 import atexit, contextlib, ctypes, gc, io, json, os, resource, socket, sys, tempfile
-import carom.cli.commands, carom.lab.fitting, carom.plots.fits, carom.sweeps.stores, carom.verify
+import carom.cli.commands, carom.lab.fitting, carom.many.sweeps.stores, carom.plots.fits
+import carom.verify
 import emcee, h5netcdf, lmfit, matplotlib.backends.backend_agg, matplotlib.figure, pandas, xarray
 from carom.cli import main, run
 from carom.io.progress import PATIENCE, Place

@@ -22,7 +22,6 @@ from .bodies.observables import convert_observables as convert_observables
 from .bodies.pairs import Pair as Pair
 from .bodies.shapes import Cup as Cup, HalfSpace as HalfSpace, Sphere as Sphere
 from .bodies.smooth_body import Body as Body
-from .collisions import collide as collide
 from .dimensionless.numerics.shared_library import (
     get_include as get_include,
     get_library as get_library,
@@ -37,9 +36,10 @@ from .io.files import save as save
 from .io.version import __version__ as __version__
 from .lab.fitting import fit as fit, joint_fit as joint_fit
 from .lab.fitting.tracks import track as track
+from .many.collisions import collide as collide
+from .many.sweeps import sweep as sweep
+from .many.sweeps.designs import Grid as Grid, LatinHypercube as LatinHypercube
+from .many.sweeps.strength_map import bearable_speeds as bearable_speeds
+from .many.sweeps.tables import Table as Table
+from .many.sweeps.wearing import wear_of_many as wear_of_many
 from .quantities.refusals import InputError as InputError
-from .sweeps import sweep as sweep
-from .sweeps.designs import Grid as Grid, LatinHypercube as LatinHypercube
-from .sweeps.strength_map import bearable_speeds as bearable_speeds
-from .sweeps.tables import Table as Table
-from .sweeps.wearing import wear_of_many as wear_of_many

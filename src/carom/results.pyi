@@ -1,4 +1,3 @@
-from .collisions.records import Collisions as Collisions, JudgedCollisions as JudgedCollisions
 from .dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution as ViscoelasticSolution
 from .dimensionless.solution import Solution as Solution
 from .impacts.adhesive import AdhesiveImpact as AdhesiveImpact
@@ -8,5 +7,6 @@ from .impacts.contacts.fields import Contact as Contact
 from .impacts.contacts.load_paths import LoadPath as LoadPath
 from .impacts.exact import Impact as Impact
 from .lab.fitting import Estimate as Estimate, Fit as Fit, JointFit as JointFit
-from .laws.walton_fit import WaltonFit as WaltonFit
+from .many.collisions.records import Collisions as Collisions, JudgedCollisions as JudgedCollisions
+from .many.laws.walton_fit import WaltonFit as WaltonFit
 from .quantities.verdicts import Validity as Validity

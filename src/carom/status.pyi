@@ -1,4 +1,4 @@
-from .collisions.records import CollisionStatus as CollisionStatus, Judgement as Judgement
 from .dimensionless.elastic.phases import Status as Status
 from .dimensionless.law import LawStatus as LawStatus
-from .sweeps.points import PointStatus as PointStatus
+from .many.collisions.records import CollisionStatus as CollisionStatus, Judgement as Judgement
+from .many.sweeps.points import PointStatus as PointStatus

@@ -9,8 +9,8 @@ import pytest
 from tests.checks import refused
 
 from carom import sweep
-from carom.sweeps.designs import Grid, LatinHypercube
-from carom.sweeps.tables import Table
+from carom.many.sweeps.designs import Grid, LatinHypercube
+from carom.many.sweeps.tables import Table
 
 DEGREE = math.pi / 180.0
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.laws.header import c_header
+from carom.many.laws.header import c_header
 
 CHIS = [0.2, 0.5, 1.44, 3.0]
 STRICT = ["-Wall", "-Wextra", "-pedantic", "-Werror"]

@@ -95,7 +95,7 @@ LATE = {  # what has to be forgotten for a module to be imported
     "h5py": ("h5py", "h5netcdf"),
     "matplotlib.backends._backend_agg": ("matplotlib.backends",),
     "emcee": ("emcee", "lmfit"),  # which imports it if it is there
-    "zarr.core.array": ("zarr", "carom.io.stores", "carom.sweeps.stores"),
+    "zarr.core.array": ("zarr", "carom.io.stores", "carom.many.sweeps.stores"),
 }
 
 AT_MODULES = [("SIGTERM", "unicodedata"), ("SIGTERM", "h5py")]

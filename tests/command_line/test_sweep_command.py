@@ -185,7 +185,7 @@ def test_a_single_impact_tells_that_it_leaves_the_sweep_out(run):
     ],
 )
 def test_refuses_flags_in_one_line_and_leaves_nothing(refusal, monkeypatch, arguments, word):
-    monkeypatch.setattr("carom.sweeps.schedulers.ANSWER_SECONDS", 0.5)
+    monkeypatch.setattr("carom.many.sweeps.schedulers.ANSWER_SECONDS", 0.5)
     assert word in refusal("sweep", "case.toml", *arguments)
     assert [path.name for path in Path().iterdir()] == ["case.toml"]
 
@@ -205,7 +205,7 @@ def test_full_disk_says_what_is_safe_and_resume_goes_on(run, refusal, monkeypatc
         return replace(partial, target)
 
     with monkeypatch.context() as full:
-        full.setattr("carom.sweeps.designs.FEWEST", 4)
+        full.setattr("carom.many.sweeps.designs.FEWEST", 4)
         full.setattr("os.replace", onto_a_full_disk)
         err = refusal("sweep", "case.toml", "--store", "sweep.zarr", code=1)
     assert "No space left on device; free some space; 1 of 5 blocks are safe" in err
@@ -221,7 +221,7 @@ def test_interrupted_it_says_what_is_safe_and_how_to_go_on(run, refusal, monkeyp
         raise KeyboardInterrupt
 
     with monkeypatch.context() as pressed:
-        pressed.setattr("carom.sweeps.stores.StoreRecord.write", interrupted)
+        pressed.setattr("carom.many.sweeps.stores.StoreRecord.write", interrupted)
         err = refusal("sweep", "case.toml", "--store", "sweep.zarr", code=130)
     assert err == (
         "carom: the sweep was stopped; 0 of 1 blocks are safe in sweep.zarr; "

@@ -23,7 +23,7 @@ import xarray as xr
 import carom
 from carom import classical, convert_observables as convert, dem, laws, verify
 from carom.io.tables import read_table
-from carom.sweeps.problem import SweepProblem
+from carom.many.sweeps.problem import SweepProblem
 
 SECONDS = 5.0  # of a call
 TOLD = ("give NaN", "left alone")  # in warnings that say what became of some points

@@ -8,7 +8,7 @@ import pytest
 from carom.bodies.cases import losses_of, motion_of, pair_of, read_case
 from carom.bodies.kinematics import approach
 from carom.bodies.plausibility import doubts_of_case
-from carom.sweeps.tables import plan
+from carom.many.sweeps.tables import plan
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 TEXTS = [path.read_text(encoding="utf-8") for path in sorted(EXAMPLES.glob("*.toml"))]

@@ -12,7 +12,7 @@ import pytest
 from tests.checks import BALL, PAIR as WALL
 
 import carom
-from carom.collisions.records import Collisions
+from carom.many.collisions.records import Collisions
 
 TWO = carom.Pair(BALL, carom.Sphere(radius="8 mm", material="steel"), friction=0.2)
 NAMES = ("velocity1", "spin1", "velocity2", "spin2")

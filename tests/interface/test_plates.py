@@ -11,8 +11,8 @@ from typer.testing import CliRunner
 import carom
 from carom.bodies.cases import case_of, pair_of, read_case
 from carom.cli.commands import app
+from carom.many.sweeps.records import summary
 from carom.names import GROUPS
-from carom.sweeps.records import summary
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PLATE = carom.HalfSpace("steel", thickness="3 mm")

@@ -114,7 +114,7 @@ def test_no_kernel_is_in_the_folders_that_are_not_looked_at():
         for path in PACKAGE.rglob("*.py")
         if {"@kernel", "@entry_point()"} & set(path.read_text().splitlines())
     }
-    assert with_kernels == {"collisions", "dem", "dimensionless", "laws"}
+    assert with_kernels == {"dem", "dimensionless", "many"}
     contract = Path(__file__).parents[2].joinpath("pyproject.toml").read_text()
     floors = contract.partition('containers = ["carom"]')[2].partition("]\n")[0].splitlines()
     heights = {

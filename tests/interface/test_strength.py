@@ -7,7 +7,7 @@ import pytest
 from tests.checks import refused
 
 import carom
-from carom.sweeps.points import PointStatus
+from carom.many.sweeps.points import PointStatus
 
 CASE = {"friction": 0.2, "speed": 1.0, "first": {"radius": "5 mm", "material": "steel"}}
 
@@ -275,7 +275,7 @@ def test_a_sweep_that_asks_for_no_stress_searches_for_none(monkeypatch):
     def searched(*_):
         raise AssertionError("searched")
 
-    monkeypatch.setattr("carom.sweeps.points.strength_values", searched)
+    monkeypatch.setattr("carom.many.sweeps.points.strength_values", searched)
     assert carom.sweep(CASE, carom.Grid({"angle": [0.1, 0.2]})).status.values.tolist() == [0, 0]
     with pytest.raises(AssertionError, match="searched"):
         one_angle(["peak_shear_first"])

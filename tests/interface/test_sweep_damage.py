@@ -96,7 +96,7 @@ def test_damaged_chunk_is_found_and_computed_again(name, how, whole, copy):
 @pytest.mark.parametrize("how", DAMAGE)
 def test_damaged_chunk_is_never_read_as_numbers(how, whole, copy):
     """The file is named when its values are used, and only then."""
-    from carom.sweeps.records import summary
+    from carom.many.sweeps.records import summary
 
     file = chunks(copy, "rebound_speed")[1]
     damage(file, how)

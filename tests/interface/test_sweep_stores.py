@@ -13,12 +13,12 @@ import xarray as xr
 from tests.checks import refused
 
 import carom
-from carom.sweeps import sweep
-from carom.sweeps.designs import Grid, LatinHypercube, boxes, chunk_shape, points_in
-from carom.sweeps.points import PointStatus
-from carom.sweeps.problem import SweepProblem
-from carom.sweeps.records import SweepStopped
-from carom.sweeps.tables import Table
+from carom.many.sweeps import sweep
+from carom.many.sweeps.designs import Grid, LatinHypercube, boxes, chunk_shape, points_in
+from carom.many.sweeps.points import PointStatus
+from carom.many.sweeps.problem import SweepProblem
+from carom.many.sweeps.records import SweepStopped
+from carom.many.sweeps.tables import Table
 
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "friction": 0.2}
 CASE |= {"speed": "2 m/s", "angle": "30 deg"}
@@ -92,7 +92,7 @@ class Killed(BaseException):
 
 def test_killed_before_or_after_any_of_its_files_it_ends_in_the_same_bits(tmp_path, monkeypatch):
     """A block counts as finished exactly when the last of its three files is in its place."""
-    monkeypatch.setattr("carom.sweeps.designs.FEWEST", 12)
+    monkeypatch.setattr("carom.many.sweeps.designs.FEWEST", 12)
     outputs = ["rebound_angle", "spin_out"]
     truth = sweep(CASE, GRID, outputs=outputs)
     blocks, files_of_a_block = 2, 3
@@ -130,7 +130,7 @@ def killed_at(instant: int):
 @pytest.mark.parametrize("fails", range(6))
 def test_a_write_that_fails_leaves_no_status_without_its_values(tmp_path, monkeypatch, fails):
     """Whichever file does not get on the disk: a reader is told of no point that is not there."""
-    monkeypatch.setattr("carom.sweeps.designs.FEWEST", 12)
+    monkeypatch.setattr("carom.many.sweeps.designs.FEWEST", 12)
     outputs, path = ["rebound_angle", "spin_out"], tmp_path / "sweep.zarr"
     replace, calls = os.replace, count()
 
@@ -204,7 +204,7 @@ def test_long_axes_are_told_apart_without_being_written_twice(path):
 
 def test_store_of_another_version_is_refused(path, monkeypatch):
     sweep(CASE, GRID, store=path)
-    monkeypatch.setattr("carom.sweeps.stores.__version__", "9.9")
+    monkeypatch.setattr("carom.many.sweeps.stores.__version__", "9.9")
     words = r"carom \S+ has written it, and this is carom 9\.9"
     refused(words, sweep, CASE, GRID, store=path, resume=True)
 
@@ -230,7 +230,7 @@ def test_what_is_not_a_store_of_carom_is_refused_and_left_as_it_is(path, make, r
 
 
 def test_without_the_packages_of_the_extra_one_line_says_how_to_get_them(path, monkeypatch):
-    for module in ("carom.io.stores", "carom.sweeps.stores"):
+    for module in ("carom.io.stores", "carom.many.sweeps.stores"):
         monkeypatch.delitem(sys.modules, module, raising=False)
     monkeypatch.setitem(sys.modules, "zarr", None)
     monkeypatch.setitem(sys.modules, "distributed", None)
@@ -244,8 +244,8 @@ def test_without_the_packages_of_the_extra_one_line_says_how_to_get_them(path, m
 MEMORY = """
 import sys
 from pathlib import Path
-from carom.sweeps import sweep
-from carom.sweeps.designs import LatinHypercube
+from carom.many.sweeps import sweep
+from carom.many.sweeps.designs import LatinHypercube
 
 # gross slip: points that cost little
 case = {"first": {"radius": "5 mm", "material": "steel"}, "friction": 0.01, "speed": "2 m/s"}

@@ -10,7 +10,7 @@ import pytest
 
 import carom
 from carom.cli import main
-from carom.laws.header import c_header
+from carom.many.laws.header import c_header
 
 BALL = carom.Sphere(radius="4 mm", material="soda-lime-glass", inner_radius="2.5 mm")
 OTHER = carom.Sphere(radius="7 mm", material="steel")

@@ -10,11 +10,11 @@ from tests.invariants.test_sweep_points import solved_alone, whole
 
 import carom
 from carom import InputError
-from carom.sweeps.designs import Grid, LatinHypercube
-from carom.sweeps.points import PointStatus
-from carom.sweeps.problem import OUTPUTS, SweepProblem
-from carom.sweeps.records import identity
-from carom.sweeps.tables import Table
+from carom.many.sweeps.designs import Grid, LatinHypercube
+from carom.many.sweeps.points import PointStatus
+from carom.many.sweeps.problem import OUTPUTS, SweepProblem
+from carom.many.sweeps.records import identity
+from carom.many.sweeps.tables import Table
 
 STEEL = {"young": "210 GPa", "poisson": 0.3, "density": 7850}
 BALL = {"friction": 0.2, "speed": 2.0, "first": {"radius": "5 mm", "material": STEEL}}

@@ -11,9 +11,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from carom.many.sweeps import schedulers, sweep
+from carom.many.sweeps.designs import Grid
 from carom.quantities.refusals import InputError
-from carom.sweeps import schedulers, sweep
-from carom.sweeps.designs import Grid
 
 distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
@@ -128,7 +128,7 @@ def test_scheduler_lost_while_workers_are_counted_stops_the_sweep(status):
 def test_interrupted_here_it_goes_on_there(cluster, here, tmp_path, monkeypatch):
     path = tmp_path / "sweep.zarr"
     with monkeypatch.context() as patched:
-        patched.setattr("carom.sweeps.stores.StoreRecord.write", written_then_interrupted())
+        patched.setattr("carom.many.sweeps.stores.StoreRecord.write", written_then_interrupted())
         with pytest.raises(KeyboardInterrupt, match="3 of 34 blocks are safe"):
             sweep(CASE, GRID, store=path)
     result = sweep(CASE, GRID, store=path, resume=True, scheduler=cluster.scheduler_address)
@@ -136,7 +136,7 @@ def test_interrupted_here_it_goes_on_there(cluster, here, tmp_path, monkeypatch)
 
 
 def written_then_interrupted():
-    from carom.sweeps.stores import StoreRecord
+    from carom.many.sweeps.stores import StoreRecord
 
     write, written = StoreRecord.write, []
 

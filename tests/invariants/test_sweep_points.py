@@ -11,10 +11,10 @@ import carom
 from carom import InputError
 from carom.bodies.cases import losses_of, motion_of, pair_of
 from carom.io.labels import labelled_dataset
-from carom.sweeps.designs import Grid, LatinHypercube
-from carom.sweeps.points import PointStatus
-from carom.sweeps.problem import SweepProblem
-from carom.sweeps.tables import Table
+from carom.many.sweeps.designs import Grid, LatinHypercube
+from carom.many.sweeps.points import PointStatus
+from carom.many.sweeps.problem import SweepProblem
+from carom.many.sweeps.tables import Table
 
 STUFF = {"young": 2e11, "poisson": 0.3, "density": 7800}
 PAIRS = {  # the second body, and the inputs that belong to it

@@ -14,8 +14,8 @@ import pytest
 
 import carom
 from carom.io.stores import read_store
-from carom.sweeps import sweep
-from carom.sweeps.designs import Grid
+from carom.many.sweeps import sweep
+from carom.many.sweeps.designs import Grid
 
 SEED = 20261121
 CASE = {
@@ -32,10 +32,10 @@ SCRIPT = """
 import json, os, sys
 import numpy as np
 import carom
-from carom.sweeps import sweep
-from carom.sweeps.designs import Grid
+from carom.many.sweeps import sweep
+from carom.many.sweeps.designs import Grid
 from carom.io.stores import read_store
-from carom.sweeps.problem import SweepProblem
+from carom.many.sweeps.problem import SweepProblem
 
 path, case, axes = sys.argv[1], *map(json.loads, sys.argv[2:4])
 log = os.open(path + ".log", os.O_WRONLY | os.O_APPEND | os.O_CREAT)

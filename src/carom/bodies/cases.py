@@ -64,7 +64,7 @@ SHAPES = (*MADE,)[3:]
 OF_SHAPES = {n: None for kind in SHAPES for n in IS_NEEDED[kind] if n not in BODY}
 EXAMPLES = {"radius": "5 mm", "material": "steel"}  # of what has an option
 OUTPUT = ("plot", "animation", "data", "spectrum")
-SWEEP_TABLE = "sweep"  # which `carom.sweeps` reads
+SWEEP_TABLE = "sweep"  # which `carom.many.sweeps` reads
 SWEPT = ("samples", "seed", "table", "columns", "sheet", "decimal", "outputs", "axes")
 TABLES = {
     "first": ("kind", *BODY, *OF_SHAPES),

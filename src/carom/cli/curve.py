@@ -89,7 +89,7 @@ def curve_command(
         if None not in (first, last) and first >= last:
             faults.add(str(refusal("to", last, f"must be above --from, {first:g}")))
     if export is not None:
-        from carom.laws.header import c_header
+        from carom.many.laws.header import c_header
 
         text = c_header([carom.laws.ReboundLaw(value, losses=losses) for value in values])
         typer.echo(text, nl=False) if output is None else store_text(text, output)

@@ -20,7 +20,7 @@ from carom.quantities.units import or_none, whole
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
-    from carom.sweeps.records import Summary
+    from carom.many.sweeps.records import Summary
 
 
 OPTIONS = {
@@ -66,9 +66,9 @@ def sweep_command(
     The speeds above which the second body yields:
       carom sweep examples/sweep.toml --quantities yield_speed_second
     """
-    from carom.sweeps.any_shape import problem_of
-    from carom.sweeps.records import summary
-    from carom.sweeps.tables import plan
+    from carom.many.sweeps.any_shape import problem_of
+    from carom.many.sweeps.records import summary
+    from carom.many.sweeps.tables import plan
 
     with checking() as faults:
         threads = faults.if_given(whole, "workers", workers, 1)
@@ -115,7 +115,7 @@ def _file(content: "Case") -> str | None:
 @contextmanager
 def _stopping() -> Iterator[None]:
     """If a sweep stops, say in one line why and what is safe; exit with 1 if it cannot go on."""
-    from carom.sweeps.records import SweepStopped
+    from carom.many.sweeps.records import SweepStopped
 
     try:
         yield

@@ -22,7 +22,7 @@ PATIENCE = 2.0  # seconds before it is said
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
 IN_PACKAGE = PACKAGE / "__pycache__"
 KEPT = "kernels-"  # begins the name of a folder, which a digest of the sources ends
-ABOVE = {"cli", "lab", "page", "sweeps", "verify"}  # folders of which no kernel knows
+ABOVE = {"cli", "lab", "page", "verify"}  # folders of which no kernel knows
 LOCKED = "no folder can be written to; set NUMBA_CACHE_DIR to one that can"
 EDITED = "its sources were edited while this process ran"
 

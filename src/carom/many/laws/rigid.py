@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import inf
 
 from carom.bodies.pairs import Pair
-from carom.laws.rules import Rule, constant_rule
+from carom.many.laws.rules import Rule, constant_rule
 from carom.quantities.units import not_negative, within
 
 

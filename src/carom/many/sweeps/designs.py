@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.plausibility import doubts_of_values
 from carom.dimensionless.numerics.permutation import fractions, secrets
+from carom.many.sweeps import inputs as known
 from carom.quantities.arrays import Array, numbers, refuse_where
 from carom.quantities.refusals import checked_type, one_of, refusal, refuse
 from carom.quantities.units import counted, number, without_unit
-from carom.sweeps import inputs as known
 
 Box = tuple[slice, ...]
 Values = dict[str, NDArray[Any]]

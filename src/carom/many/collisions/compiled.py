@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace
-from carom.collisions.records import LARGEST_SKEW, CollisionStatus, Inertia
 from carom.dimensionless.elastic import motion as at
 from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.phases import LARGEST_GIVE, Status, new_work, run_phases
@@ -19,7 +18,8 @@ from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 from carom.dimensionless.rebounds import LINEAR_PSI, NEARLY_ELASTIC, STEP_TOLERANCE
-from carom.laws.rules import LARGEST, Rule, one_plus_beta
+from carom.many.collisions.records import LARGEST_SKEW, CollisionStatus, Inertia
+from carom.many.laws.rules import LARGEST, Rule, one_plus_beta
 from carom.quantities.arrays import Array
 
 # x, y, z of one pair after the other

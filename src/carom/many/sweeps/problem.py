@@ -15,9 +15,8 @@ from carom.bodies.materials import JUDGED_BY, STRENGTHS
 from carom.impacts.histories import spheres
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.io.labels import attributes, flags
-from carom.quantities.refusals import checked_type, hint, one_of, refusal, refuse
-from carom.sweeps.designs import Box, Design, Values, chunk_shape, points_in
-from carom.sweeps.inputs import (
+from carom.many.sweeps.designs import Box, Design, Values, chunk_shape, points_in
+from carom.many.sweeps.inputs import (
     CODE,
     ELASTIC,
     UNREADABLE,
@@ -27,7 +26,8 @@ from carom.sweeps.inputs import (
     refuse_contradictions,
     variable,
 )
-from carom.sweeps.points import WANTED, PointStatus, evaluate, needed_by, needed_strengths
+from carom.many.sweeps.points import WANTED, PointStatus, evaluate, needed_by, needed_strengths
+from carom.quantities.refusals import checked_type, hint, one_of, refusal, refuse
 
 OF_STRENGTH = tuple(f"material.{name}" for name in STRENGTHS)
 OF_SECOND = {  # what describes a second body of each kind

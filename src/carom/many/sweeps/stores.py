@@ -33,11 +33,11 @@ from carom.io.files import STORE_ENDING
 from carom.io.paths import FULL, checked_path, unwritten
 from carom.io.stores import CHUNK, STATUS, SealedStore, freeze, read_store
 from carom.io.version import __version__
+from carom.many.sweeps.designs import Box, Values, boxes
+from carom.many.sweeps.points import PointStatus
+from carom.many.sweeps.problem import SweepProblem
+from carom.many.sweeps.records import SweepStopped, blank_dataset, identity
 from carom.quantities.refusals import refusal, refuse
-from carom.sweeps.designs import Box, Values, boxes
-from carom.sweeps.points import PointStatus
-from carom.sweeps.problem import SweepProblem
-from carom.sweeps.records import SweepStopped, blank_dataset, identity
 
 if TYPE_CHECKING:
     import xarray as xr

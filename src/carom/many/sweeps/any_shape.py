@@ -10,11 +10,11 @@ from carom.bodies.checks import checked_motion
 from carom.bodies.kinematics import RigidMotion
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.impacts.solve import impact
+from carom.many.sweeps.designs import Box, Design, Values, chunk_shape, points_in
+from carom.many.sweeps.inputs import leaf, refuse_contradictions
+from carom.many.sweeps.points import PointStatus
+from carom.many.sweeps.problem import OF_LOSSES, OUTPUTS, SweepProblem, checked_outputs
 from carom.quantities.refusals import InputError, refusal, refuse
-from carom.sweeps.designs import Box, Design, Values, chunk_shape, points_in
-from carom.sweeps.inputs import leaf, refuse_contradictions
-from carom.sweeps.points import PointStatus
-from carom.sweeps.problem import OF_LOSSES, OUTPUTS, SweepProblem, checked_outputs
 
 COST = 200  # of an impact, over that of spheres
 

@@ -10,7 +10,7 @@ from typing import Any
 import array_api_compat
 import numpy as np
 
-from carom.laws.rules import Rule
+from carom.many.laws.rules import Rule
 from carom.quantities.arrays import pure_numbers
 from carom.quantities.refusals import refusal
 from carom.quantities.units import bears_unit

@@ -9,10 +9,10 @@ from typing import Any, NamedTuple
 import array_api_compat
 import numpy as np
 
-from carom.collisions import records
-from carom.collisions.records import CollisionStatus
-from carom.laws.portable import constants, floating, is_foreign, part_lost
-from carom.laws.rules import Rule
+from carom.many.collisions import records
+from carom.many.collisions.records import CollisionStatus
+from carom.many.laws.portable import constants, floating, is_foreign, part_lost
+from carom.many.laws.rules import Rule
 from carom.quantities.refusals import InputError, refusal, refuse
 
 

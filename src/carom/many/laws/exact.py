@@ -22,8 +22,8 @@ from carom.dimensionless.numerics.patches import Patches
 from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.io.citations import IMPACT, PLATE, VISCOUS, bibtex
 from carom.io.progress import advancing
-from carom.laws.portable import applied, lost
-from carom.laws.rules import DEGREE, Rule, frozen
+from carom.many.laws.portable import applied, lost
+from carom.many.laws.rules import DEGREE, Rule, frozen
 from carom.quantities.arrays import Array, pure_numbers
 from carom.quantities.refusals import InputError, known_keywords, refusal
 from carom.quantities.statuses import WordedStatus

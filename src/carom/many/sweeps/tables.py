@@ -17,11 +17,11 @@ from carom.io.cells import is_missing
 from carom.io.heads import TableFormat, table_format
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable, column_in_si
+from carom.many.sweeps import inputs as known
+from carom.many.sweeps.designs import Box, Design, Grid, LatinHypercube
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, checked_type, heading, refusal, refuse
 from carom.quantities.texts import Unreadable, factor
-from carom.sweeps import inputs as known
-from carom.sweeps.designs import Box, Design, Grid, LatinHypercube
 
 
 @dataclass(frozen=True, eq=False, init=False)

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from carom.bodies.checks import check_second_spin, checked_pair
 from carom.bodies.pairs import Pair
-from carom.collisions import records
-from carom.collisions.compiled import Motions, PlateRule, collide_all, plate_rule
-from carom.collisions.portable import collide_arrays
-from carom.collisions.records import Collisions, JudgedCollisions
-from carom.laws.exact import ReboundLaw, law_of
-from carom.laws.portable import is_foreign
-from carom.laws.rules import Rule
+from carom.many.collisions import records
+from carom.many.collisions.compiled import Motions, PlateRule, collide_all, plate_rule
+from carom.many.collisions.portable import collide_arrays
+from carom.many.collisions.records import Collisions, JudgedCollisions
+from carom.many.laws.exact import ReboundLaw, law_of
+from carom.many.laws.portable import is_foreign
+from carom.many.laws.rules import Rule
 from carom.quantities.arrays import along_the_same
 from carom.quantities.refusals import flag, known_keywords, refusal
 from carom.quantities.units import threads_or_none

@@ -25,10 +25,10 @@ from carom.dimensionless.solution import solve
 from carom.impacts.contacts.fields import BODIES
 from carom.impacts.outcome import PAIR, Outcome, outcome_fits
 from carom.impacts.peaks import MEASURES, StruckBody, growth, struck_bodies
+from carom.many.sweeps.inputs import leaf
 from carom.quantities.arrays import Array, where
 from carom.quantities.glossary import NEEDED_STRENGTHS
 from carom.quantities.statuses import WordedStatus
-from carom.sweeps.inputs import leaf
 
 WANTED = {  # outputs of a sweep that are of one of the bodies: quantity and body
     f"{quantity}_{body}": (quantity, body) for quantity in NEEDED_STRENGTHS for body in BODIES

@@ -14,7 +14,7 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Sphere
 from carom.bodies.walls import radiated_share
 from carom.dimensionless import neglected
-from carom.laws.portable import is_floats
+from carom.many.laws.portable import is_floats
 from carom.plots.result import card
 from carom.quantities.arrays import numbers
 from carom.quantities.refusals import InputError, refusal, refuse

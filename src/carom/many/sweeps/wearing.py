@@ -18,11 +18,11 @@ from carom.impacts.outcome import Outcome, outcome_fits
 from carom.impacts.wear import MOST_RADII, PER_LOAD, largest, rubbed, rubbed_at
 from carom.io.labels import flags, labelled_dataset
 from carom.io.progress import Progress, advancing
+from carom.many.sweeps import points
+from carom.many.sweeps.points import PointStatus
 from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.refusals import known_keywords, refusal
 from carom.quantities.units import Value, counted, not_negative, positive
-from carom.sweeps import points
-from carom.sweeps.points import PointStatus
 
 if TYPE_CHECKING:
     import xarray as xr

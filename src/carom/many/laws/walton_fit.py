@@ -10,8 +10,8 @@ from scipy.optimize import least_squares
 
 from carom.bodies.checks import with_friction
 from carom.bodies.pairs import Pair
-from carom.laws.exact import law_of
-from carom.laws.rigid import WaltonLaw
+from carom.many.laws.exact import law_of
+from carom.many.laws.rigid import WaltonLaw
 from carom.quantities.arrays import Array
 from carom.quantities.units import within
 

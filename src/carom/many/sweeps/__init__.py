@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from carom.io.extras import extra
 from carom.io.progress import Progress, advancing
+from carom.many.sweeps.any_shape import problem_of
+from carom.many.sweeps.designs import Design, points_in
+from carom.many.sweeps.records import MemoryRecord, SweepStopped
+from carom.many.sweeps.schedulers import team
 from carom.quantities.refusals import flag, known_keywords, refuse
-from carom.sweeps.any_shape import problem_of
-from carom.sweeps.designs import Design, points_in
-from carom.sweeps.records import MemoryRecord, SweepStopped
-from carom.sweeps.schedulers import team
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.sweeps.problem import SweepProblem
-    from carom.sweeps.stores import StoreRecord
+    from carom.many.sweeps.problem import SweepProblem
+    from carom.many.sweeps.stores import StoreRecord
 
     BlockRecord: TypeAlias = MemoryRecord | StoreRecord  # where the blocks of a sweep are kept
 
@@ -107,7 +107,7 @@ def _record(
 ) -> AbstractContextManager[BlockRecord]:
     """Return what keeps the results: a store, or memory."""
     if store is not None:
-        stores = extra("carom.sweeps.stores", "a store")
+        stores = extra("carom.many.sweeps.stores", "a store")
         record: AbstractContextManager[StoreRecord] = stores.opened(store, problem, resume)
         return record
     refuse(resume and "resume: there is no store to continue; give the store, too")

@@ -16,11 +16,11 @@ from carom.dimensionless.numerics.kernels import compiled_by
 from carom.dimensionless.numerics.threads import available_cores
 from carom.io.extras import extra
 from carom.io.version import __version__
+from carom.many.sweeps.designs import Box, Values
+from carom.many.sweeps.problem import SweepProblem
+from carom.many.sweeps.records import SweepStopped
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import MOST_THREADS, counted
-from carom.sweeps.designs import Box, Values
-from carom.sweeps.problem import SweepProblem
-from carom.sweeps.records import SweepStopped
 
 ANSWER_SECONDS = 5.0  # that a scheduler, and its first worker, have to answer
 CLUSTER = "a scheduler"

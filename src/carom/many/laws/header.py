@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.version import __version__
-from carom.laws.exact import ReboundLaw
+from carom.many.laws.exact import ReboundLaw
 from carom.quantities.refusals import InputError
 
 HERE = Path(__file__).parent

@@ -14,10 +14,10 @@ from carom.bodies.pairs import Pair
 from carom.impacts.peaks import UNCOUPLED
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.progress import Progress
+from carom.many.sweeps import sweep
+from carom.many.sweeps.designs import Grid
+from carom.many.sweeps.points import BEARABLE, WANTED, needed_by
 from carom.quantities.refusals import InputError, known_keywords
-from carom.sweeps import sweep
-from carom.sweeps.designs import Grid
-from carom.sweeps.points import BEARABLE, WANTED, needed_by
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.labels import labelled_dataset
+from carom.many.sweeps.designs import Box, Values, boxes, chunk_shape
+from carom.many.sweeps.points import WITH_RESULTS, PointStatus
+from carom.many.sweeps.problem import SweepProblem
 from carom.quantities.refusals import refusal
-from carom.sweeps.designs import Box, Values, boxes, chunk_shape
-from carom.sweeps.points import WITH_RESULTS, PointStatus
-from carom.sweeps.problem import SweepProblem
 
 if TYPE_CHECKING:
     import xarray as xr

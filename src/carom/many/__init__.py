@@ -1,0 +1,1 @@
+"""Many impacts: arrays of collisions, rebound laws in closed form and as tables, sweeps."""

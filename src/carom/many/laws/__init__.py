@@ -1,0 +1,1 @@
+"""Rebound laws: the exact one as a table, and those that are used in its place."""
