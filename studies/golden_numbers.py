@@ -197,8 +197,15 @@ def kernels() -> Iterator[tuple[str, str]]:
 
 
 def short(symbol: str) -> str:
-    """Return the name of a function without the modules it stands in."""
-    return MODULE.sub("", symbol)
+    """Return the name of a function without the modules it stands in, as C or numba has it."""
+    if not symbol.startswith("_ZN5carom"):
+        return MODULE.sub("", symbol)
+
+    name, rest = "", symbol.removeprefix("_ZN")
+    while match := re.match(r"\d+", rest):  # how long each part is, and the part
+        end = match.end() + int(match[0])
+        name, rest = rest[match.end() : end], rest[end:]
+    return name + re.sub(r"B\d+v\d+", "", rest)
 
 
 def normal(body: str) -> str:
